@@ -1,0 +1,384 @@
+"""The machine: joints, links, tool, base, gravity and payload; immutable."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.errors import ArmError, InputError
+
+if TYPE_CHECKING:
+    from holdfast.arm.dh import DH
+    from holdfast.kernels import Kernel
+
+Array = NDArray[np.float64]
+JointType = Literal["revolute", "continuous", "prismatic"]
+GRAVITY = (0.0, 0.0, -9.81)
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """One degree of freedom: its frame sits at ``origin`` in the previous link frame, it moves about or along ``axis``.
+
+    Attributes:
+        name: Unique in the arm.
+        type: ``revolute``, ``continuous`` (revolute without limits) or ``prismatic``.
+        origin: (4, 4) pose of the joint frame at q = 0 in the frame of the previous link (or base).
+        axis: (3,) unit vector in the joint frame.
+        lower, upper: Position limits, rad or m; infinite where there are none.
+        velocity: Largest speed, rad/s or m/s; infinite if not given.
+        effort: Largest torque or force, N m or N; infinite if not given.
+        friction: Viscous friction, N m s/rad or N s/m.
+        armature: Rotor inertia at the joint, kg m^2 or kg.
+    """
+
+    name: str
+    type: JointType
+    origin: Array
+    axis: Array
+    lower: float = -np.inf
+    upper: float = np.inf
+    velocity: float = np.inf
+    effort: float = np.inf
+    friction: float = 0.0
+    armature: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.type not in ("revolute", "continuous", "prismatic"):
+            raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
+        object.__setattr__(self, "origin", _transform(self.origin, f"origin of joint '{self.name}'"))
+        axis = np.asarray(self.axis, dtype=np.float64)
+        length = float(np.linalg.norm(axis)) if axis.shape == (3,) else 0.0
+        if not (np.isfinite(length) and length > 1e-9):
+            raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers, not all 0")
+        object.__setattr__(self, "axis", _frozen(_snap(axis / length)))
+        if np.isnan(self.lower) or np.isnan(self.upper) or self.lower > self.upper:
+            raise ArmError(
+                f"limits of joint '{self.name}' are upside down: lower {self.lower:g} is above upper {self.upper:g}; swap them"
+            )
+
+    @property
+    def prismatic(self) -> bool:
+        """True for a sliding joint."""
+        return self.type == "prismatic"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the joint variable: rad or m."""
+        return "m" if self.prismatic else "rad"
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """Inertial data of a rigid body.
+
+    Attributes:
+        mass: kg, 0 or more.
+        com: (3,) centre of mass in the link's frame, m. For a DH arm this is the frame of its table row (the distal
+            frame in the standard convention); for a URDF arm the URDF link frame.
+        inertia: (3, 3) about the centre of mass, in the axes of the link's frame, kg m^2.
+        name: For messages.
+    """
+
+    mass: float
+    com: Array
+    inertia: Array
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        label = f"link '{self.name}'" if self.name else "link"
+        com, inertia = np.asarray(self.com, dtype=np.float64), np.asarray(self.inertia, dtype=np.float64)
+        if com.shape != (3,) or inertia.shape != (3, 3):
+            raise ArmError(f"{label}: com has shape {com.shape} and inertia {inertia.shape}; they must be (3,) and (3, 3)")
+        if not (np.isfinite(self.mass) and np.isfinite(com).all() and np.isfinite(inertia).all()):
+            raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
+        if self.mass < 0:
+            raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
+        if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
+            raise ArmError(f"{label}: the inertia matrix is not symmetric")
+        object.__setattr__(self, "mass", float(self.mass))
+        object.__setattr__(self, "com", _frozen(com))
+        object.__setattr__(self, "inertia", _frozen((inertia + inertia.T) / 2))
+
+    def moved(self, transform: ArrayLike) -> Link:
+        """The same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new one."""
+        t = np.asarray(transform, dtype=np.float64)
+        rotation = t[:3, :3]
+        return Link(self.mass, rotation @ self.com + t[:3, 3], rotation @ self.inertia @ rotation.T, self.name)
+
+    @staticmethod
+    def joined(bodies: Sequence[Link], name: str | None = None) -> Link:
+        """Rigidly connected bodies, all in one frame, as one (parallel axis theorem)."""
+        mass = sum(b.mass for b in bodies)
+        if mass <= 0:
+            total = np.sum([b.inertia for b in bodies], axis=0) if bodies else np.zeros((3, 3))
+            return Link(0.0, np.zeros(3), total, name)
+        com = np.sum([b.mass * b.com for b in bodies], axis=0) / mass
+        inertia = np.zeros((3, 3))
+        for b in bodies:
+            r = b.com - com
+            inertia += b.inertia + b.mass * (r @ r * np.eye(3) - np.outer(r, r))
+        return Link(mass, com, inertia, name)
+
+
+@dataclass(frozen=True, eq=False)
+class Arm:
+    """A serial arm.
+
+    Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.
+
+    Attributes:
+        name: For people and files.
+        joints: From base to tip; at least one.
+        links: One body per joint, moving with it, each in its joint's moving frame; None where nothing is known.
+        base: (4, 4) pose of the arm's base in the world.
+        tool: (4, 4) pose of the tool in the last joint's moving frame. The tool point is its origin, the tool axis its z.
+        gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
+        payload: Body held by the hand, in the last joint's moving frame.
+        source: Where the description comes from, for reports.
+    """
+
+    name: str
+    joints: tuple[Joint, ...]
+    links: tuple[Link | None, ...] = ()
+    base: Array = field(default_factory=lambda: np.eye(4))
+    tool: Array = field(default_factory=lambda: np.eye(4))
+    gravity: Array = field(default_factory=lambda: np.array(GRAVITY))
+    payload: Link | None = None
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        joints = tuple(self.joints)
+        if not joints:
+            raise ArmError(f"arm '{self.name}' has no joints; it needs at least one")
+        names = [j.name for j in joints]
+        double = sorted({x for x in names if names.count(x) > 1})
+        if double:
+            raise ArmError(f"arm '{self.name}': the joint name '{double[0]}' is used more than once; names must be unique")
+        links = tuple(self.links) or (None,) * len(joints)
+        if len(links) != len(joints):
+            raise ArmError(f"arm '{self.name}' has {len(joints)} joints and {len(links)} links; it needs one link per joint")
+        gravity = np.asarray(self.gravity, dtype=np.float64)
+        if gravity.shape != (3,) or not np.isfinite(gravity).all():
+            raise ArmError(f"arm '{self.name}': gravity must be 3 finite numbers, m/s^2, for example {GRAVITY}")
+        object.__setattr__(self, "joints", joints)
+        object.__setattr__(self, "links", links)
+        object.__setattr__(self, "base", _transform(self.base, f"base of arm '{self.name}'"))
+        object.__setattr__(self, "tool", _transform(self.tool, f"tool of arm '{self.name}'"))
+        object.__setattr__(self, "gravity", _frozen(gravity))
+
+    # ---- builders ----------------------------------------------------------------------------------------------
+
+    @classmethod
+    def from_dh(
+        cls,
+        rows: Sequence[DH],
+        links: Sequence[Link | None] | None = None,
+        convention: Literal["standard", "modified"] = "standard",
+        base: ArrayLike | None = None,
+        tool: ArrayLike | None = None,
+        gravity: ArrayLike = GRAVITY,
+        payload: Link | None = None,
+        name: str = "arm",
+        source: str = "",
+    ) -> Arm:
+        """An arm from Denavit-Hartenberg rows; see :class:`holdfast.arm.dh.DH`.
+
+        Args:
+            rows: One per joint.
+            links: One per joint, each in its row's frame (distal for ``standard``, proximal for ``modified``).
+            convention: ``standard``: ``Rz(theta) Tz(d) Tx(a) Rx(alpha)``; ``modified``: ``Rx(alpha) Tx(a) Rz(theta) Tz(d)``.
+            base, tool: (4, 4); the identity if not given. The tool is given in the last row's frame.
+            gravity: (3,) acceleration in the world frame in which ``base`` is given.
+            payload: In the last row's frame.
+            name, source: For people and files.
+
+        Raises:
+            ArmError: What is wrong with which row.
+        """
+        from holdfast.arm.dh import build
+
+        return build(rows, links, convention, base, tool, gravity, payload, name, source)
+
+    @classmethod
+    def from_urdf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
+        """The chain from link ``base`` to link ``tip`` of a URDF file; see :func:`holdfast.arm.urdf.load`.
+
+        Raises:
+            ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the link or joint.
+        """
+        from holdfast.arm.urdf import load
+
+        return load(path, base, tip, **options)
+
+    def with_tool(self, tool: ArrayLike) -> Arm:
+        """The same arm with the tool at another pose (4, 4) in the last joint's moving frame."""
+        return replace(self, tool=np.asarray(tool, dtype=np.float64))
+
+    def with_payload(self, payload: Link | None) -> Arm:
+        """The same arm holding another body, given in the last joint's moving frame."""
+        return replace(self, payload=payload)
+
+    def with_base(self, base: ArrayLike) -> Arm:
+        """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
+        return replace(self, base=np.asarray(base, dtype=np.float64))
+
+    # ---- joints ------------------------------------------------------------------------------------------------
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return len(self.joints)
+
+    @cached_property
+    def lower(self) -> Array:
+        """(n,) lower limits, rad or m; -inf where there is none."""
+        return _frozen(np.array([j.lower for j in self.joints]))
+
+    @cached_property
+    def upper(self) -> Array:
+        """(n,) upper limits, rad or m; inf where there is none."""
+        return _frozen(np.array([j.upper for j in self.joints]))
+
+    @cached_property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names from base to tip."""
+        return tuple(j.name for j in self.joints)
+
+    @cached_property
+    def prismatic(self) -> NDArray[np.bool_]:
+        """(n,) True for sliding joints."""
+        return np.array([j.prismatic for j in self.joints])
+
+    def joint_index(self, joint: str | int) -> int:
+        """Index from 0 of a joint given by name or index from 0.
+
+        Raises:
+            InputError: There is no such joint; the message lists those there are.
+        """
+        if isinstance(joint, (int, np.integer)) and not isinstance(joint, bool):
+            if 0 <= joint < self.n:
+                return int(joint)
+            raise InputError(f"joint index {joint} is out of range; '{self.name}' has joints 0 to {self.n - 1}")
+        if joint in self.joint_names:
+            return self.joint_names.index(str(joint))
+        raise InputError(f"'{self.name}' has no joint '{joint}'; its joints are {', '.join(self.joint_names)}")
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """SHA-256 of the numbers that define the arm (not its name or source): the same arm has the same one."""
+        data: dict[str, Any] = {
+            "joints": [
+                [j.name, j.type, j.origin.tolist(), j.axis.tolist(), j.lower, j.upper, j.velocity, j.effort, j.friction, j.armature]
+                for j in self.joints
+            ],
+            "links": [_body(x) for x in (*self.links, self.payload)],
+            "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist()],
+        }
+        return hashlib.sha256(json.dumps(data).encode()).hexdigest()
+
+    def check_configurations(self, q: ArrayLike) -> Array:
+        """``q`` as float64, ``(n,)`` or ``(N, n)``.
+
+        Raises:
+            InputError: Wrong number of joint values, or not numbers.
+        """
+        try:
+            a = np.asarray(q, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"q for '{self.name}' must be numbers, {self.n} per configuration") from error
+        if a.ndim not in (1, 2) or a.shape[-1] != self.n:
+            got = a.shape[-1] if a.ndim else 0
+            raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
+        return a
+
+    # ---- kinematics --------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _pose_kernel(self) -> Kernel:
+        from holdfast.arm import kinematics
+        from holdfast.kernels import Kernel
+
+        q = kinematics.joint_symbols(self)
+        return Kernel("pose", [q], [kinematics.tool_pose(self, q)])
+
+    @cached_property
+    def _jacobian_kernel(self) -> Kernel:
+        from holdfast.arm import kinematics
+        from holdfast.kernels import Kernel
+
+        q = kinematics.joint_symbols(self)
+        return Kernel("jacobian", [q], [kinematics.jacobian(self, q)])
+
+    @cached_property
+    def _jacobian_derivative_kernel(self) -> Kernel:
+        from holdfast.arm import kinematics
+        from holdfast.kernels import Kernel
+
+        q = kinematics.joint_symbols(self)
+        return Kernel("jacobian derivative", [q], [kinematics.jacobian_derivative(self, q)])
+
+    def forward_kinematics(self, q: ArrayLike) -> Array:
+        """Tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
+        return self._pose_kernel(self.check_configurations(q))  # type: ignore[no-any-return]
+
+    def jacobian(self, q: ArrayLike) -> Array:
+        """Geometric Jacobian at the tool point, (6, n) or (N, 6, n).
+
+        Rows: linear velocity, then angular velocity, both in the world frame; m/rad and rad/rad for revolute columns.
+        """
+        return self._jacobian_kernel(self.check_configurations(q))  # type: ignore[no-any-return]
+
+    def jacobian_derivative(self, q: ArrayLike) -> Array:
+        """Derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
+        a = self.check_configurations(q)
+        flat: Array = self._jacobian_derivative_kernel(a)
+        return flat.reshape((*a.shape[:-1], self.n, 6, self.n))
+
+    def __repr__(self) -> str:
+        return f"Arm({self.name!r}, {self.n} joints)"
+
+
+def _body(link: Link | None) -> list[Any] | None:
+    return None if link is None else [link.mass, link.com.tolist(), link.inertia.tolist()]
+
+
+def _frozen(a: Array) -> Array:
+    b = np.array(a, dtype=np.float64)
+    b.setflags(write=False)
+    return b
+
+
+def _snap(a: Array) -> Array:
+    """Rounding noise of cos(pi/2) and the like becomes exactly 0, 1 or -1, so that symbolic products vanish."""
+    b = a.copy()
+    for value in (-1.0, 0.0, 1.0):
+        b[np.abs(b - value) < 1e-15] = value
+    return b
+
+
+def _transform(value: ArrayLike, what: str) -> Array:
+    t = np.asarray(value, dtype=np.float64)
+    if t.shape != (4, 4) or not np.isfinite(t).all():
+        raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
+    rotation = t[:3, :3]
+    if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
+        raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")
+    if not np.allclose(t[3], [0, 0, 0, 1]):
+        raise ArmError(f"{what}: its last row is {t[3].tolist()}; it must be 0, 0, 0, 1")
+    out = t.copy()
+    out[:3, :3] = _snap(rotation)
+    return _frozen(out)
+
+
+def joint_list(arm: Arm, joints: Iterable[str | int]) -> tuple[int, ...]:
+    """Indices from 0, sorted, of joints given by name or index from 0."""
+    return tuple(sorted(arm.joint_index(j) for j in joints))

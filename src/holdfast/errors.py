@@ -1,0 +1,31 @@
+"""The one family of exceptions of holdfast.
+
+Every message is one sentence that names the thing, says what was wrong and what would be right.
+The command line prints it and exits with code 2.
+"""
+
+from __future__ import annotations
+
+
+class HoldfastError(Exception):
+    """Base class: catch this to catch every error that holdfast raises on purpose."""
+
+
+class ArmError(HoldfastError, ValueError):
+    """An arm description (URDF, DH table, Python) that cannot be used."""
+
+
+class TaskError(HoldfastError, ValueError):
+    """A task, failure set or index that does not fit the arm."""
+
+
+class InputError(HoldfastError, ValueError):
+    """A configuration, pose, region or option with a wrong shape, range or value."""
+
+
+class KernelError(HoldfastError, RuntimeError):
+    """An expression that cannot be compiled into a batched kernel."""
+
+
+class StoreError(HoldfastError, RuntimeError):
+    """A results folder that is damaged, foreign, or not writable."""

@@ -1,0 +1,7 @@
+"""Expression graph to batched function. The only package that knows heyoka and the CasADi virtual machine; knows no robots."""
+
+from holdfast.kernels.kernel import BACKENDS, Kernel, default_backend
+from holdfast.kernels.program import SX, Program
+from holdfast.kernels.threads import pool, set_threads, thread_count
+
+__all__ = ["BACKENDS", "SX", "Kernel", "Program", "default_backend", "pool", "set_threads", "thread_count"]

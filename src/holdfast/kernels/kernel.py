@@ -1,0 +1,160 @@
+"""The batched function: rows in, rows out, whatever the backend."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.errors import InputError, KernelError
+from holdfast.kernels import cache, casadi_backend, heyoka_backend
+from holdfast.kernels.program import SX, Program
+from holdfast.kernels.threads import in_pool, pool, thread_count
+
+Array = NDArray[np.float64]
+
+_SCRATCH_BYTES = 1 << 18  # inputs and outputs of one chunk stay in the second-level cache
+BACKENDS = ("heyoka", "casadi")
+
+
+def default_backend() -> str:
+    """``HOLDFAST_BACKEND`` if set, else heyoka where it is installed, else the CasADi virtual machine."""
+    name = os.environ.get("HOLDFAST_BACKEND") or ("heyoka" if heyoka_backend.available() else "casadi")
+    if name not in BACKENDS:
+        raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}")
+    return name
+
+
+class Kernel:
+    """A batched function of CasADi expressions.
+
+    Each input of shape ``(r, c)`` takes an array ``(N, r, c)``; axes of length 1 are dropped, so a scalar takes
+    ``(N,)`` and a column ``(N, r)``. Without the leading ``N`` the result is that of one row. Inputs without it are
+    used for every row. Results follow the same rule.
+
+    The same row gives the same bits whatever the batch, the chunks and the number of threads: every call, also of one
+    row, is padded to the SIMD width. NaN or infinity in a row gives NaN in all results of that row, and in no other.
+
+    Args:
+        name: For messages.
+        inputs: CasADi ``SX`` symbols.
+        outputs: CasADi ``SX`` expressions of them.
+        backend: ``"heyoka"`` (LLVM, SIMD, threads) or ``"casadi"`` (virtual machine); None: the default.
+
+    Raises:
+        KernelError: Unknown backend, or an operation the backend does not have.
+    """
+
+    def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], backend: str | None = None) -> None:
+        self.program = Program(name, inputs, outputs)
+        self.name = name
+        self.backend = backend or default_backend()
+        if self.backend not in BACKENDS:
+            raise KernelError(f"backend '{self.backend}' is not known; use one of {', '.join(BACKENDS)}")
+        self._lanes = heyoka_backend.simd_lanes() if self.backend == "heyoka" else 1
+        rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
+        self._chunk = max(self._lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
+        self._compiled = self._compile()
+        self._scratch = threading.local()
+        self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
+        self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
+
+    def _compile(self) -> Any:
+        if self.backend == "casadi":
+            return casadi_backend.compile_program(self.program)
+        name = cache.key(self.program.digest, self._lanes)
+        compiled = cache.load(name)
+        if compiled is None:
+            compiled = heyoka_backend.compile_program(self.program)
+            cache.store(name, compiled)
+        return compiled
+
+    def __call__(self, *inputs: ArrayLike) -> Any:
+        """Evaluate.
+
+        Returns:
+            One array per output (a tuple if there are several), ``(N, ...)``, or without ``N`` if no input has it.
+
+        Raises:
+            InputError: Wrong number of inputs, a wrong shape, or batches of different lengths.
+        """
+        arrays, rows = self._rows(inputs)
+        single = rows is None
+        count = 1 if rows is None else rows
+        out = np.empty((count, self.program.n_out))
+        if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
+            for start in range(0, count, self._chunk):
+                self._run(arrays, out, start, min(start + self._chunk, count))
+        else:
+            starts = range(0, count, self._chunk)
+            list(pool().map(lambda s: self._run(arrays, out, s, min(s + self._chunk, count)), starts))
+        results, at = [], 0
+        for dims, shape in zip(self._out_dims, self.program.output_shapes, strict=True):
+            size = shape[0] * shape[1]
+            block = out if len(self._out_dims) == 1 else np.ascontiguousarray(out[:, at : at + size])
+            results.append(block.reshape(dims if single else (count, *dims)))
+            at += size
+        if single:
+            results = [r[()] if r.ndim == 0 else r for r in results]
+        return results[0] if len(results) == 1 else tuple(results)
+
+    def _rows(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
+        if len(inputs) != len(self._in_dims):
+            raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
+        arrays: list[Array] = []
+        rows: int | None = None
+        for k, (value, dims) in enumerate(zip(inputs, self._in_dims, strict=True)):
+            a = np.asarray(value, dtype=np.float64)
+            if a.shape == dims:
+                arrays.append(a.reshape(1, -1))
+                continue
+            if a.ndim != len(dims) + 1 or a.shape[1:] != dims:
+                want = "(" + ", ".join(["N", *map(str, dims)]) + ")"
+                raise InputError(f"kernel '{self.name}': input {k} has shape {a.shape}; it must be {want} or {dims}")
+            if rows is not None and rows != a.shape[0]:
+                raise InputError(f"kernel '{self.name}': input {k} has {a.shape[0]} rows, another has {rows}")
+            rows = a.shape[0]
+            arrays.append(a.reshape(a.shape[0], -1))
+        return arrays, rows
+
+    def _buffers(self, width: int) -> tuple[Array, Array]:
+        made: dict[int, tuple[Array, Array]] | None = getattr(self._scratch, "made", None)
+        if made is None:
+            made = self._scratch.made = {}
+        if width not in made:
+            made[width] = (np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width)))
+        return made[width]
+
+    def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> None:
+        used = stop - start
+        # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
+        width = self._lanes
+        while width < used:
+            width *= 2
+        scratch_in, scratch_out = self._buffers(width)
+        row = 0
+        for a in arrays:
+            rows = slice(row, row + a.shape[1])
+            scratch_in[rows, :used] = a.T if a.shape[0] == 1 else a[start:stop].T
+            row += a.shape[1]
+        scratch_in[:, used:] = scratch_in[:, used - 1 : used]
+        if self.backend == "heyoka":
+            heyoka_backend.call(self._compiled, scratch_in, scratch_out)
+        else:
+            casadi_backend.call(self._compiled, scratch_in, scratch_out)
+        out[start:stop] = scratch_out[:, :used].T
+
+    def __repr__(self) -> str:
+        p = self.program
+        return f"Kernel({self.name!r}, {p.n_in} -> {p.n_out}, {p.size} operations, {self.backend})"
+
+
+def _squeeze(shape: tuple[int, int]) -> tuple[int, ...]:
+    rows, columns = shape
+    if columns == 1:
+        return () if rows == 1 else (rows,)
+    return (rows, columns)

@@ -1,0 +1,85 @@
+"""A CasADi expression as a flat list of scalar instructions: what every backend translates."""
+
+from __future__ import annotations
+
+import hashlib
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+
+SX = Any  # CasADi ships no type information
+
+OP_NAMES = {getattr(ca, name): name for name in dir(ca) if name.startswith("OP_")}
+
+
+@dataclass(frozen=True)
+class Instruction:
+    """One scalar operation: ``work[output] = op(work[inputs])``; constants carry their value."""
+
+    op: int
+    output: int
+    inputs: tuple[int, ...]
+    constant: float = 0.0
+
+
+class Program:
+    """Straight-line scalar code with ``n_in`` inputs and ``n_out`` outputs.
+
+    Several inputs and outputs of any shape are flattened row by row (C order), so a batch of results can be
+    reshaped to ``(N, rows, columns)`` without moving data.
+
+    Args:
+        name: For messages.
+        inputs: Symbols, each a scalar, vector or matrix ``SX`` without repeated elements.
+        outputs: Expressions of those symbols.
+    """
+
+    def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX]) -> None:
+        self.name = name
+        self.input_shapes = [tuple(x.shape) for x in inputs]
+        self.output_shapes = [tuple(y.shape) for y in outputs]
+        flat_in = ca.vertcat(*[_row_major(x) for x in inputs])
+        flat_out = ca.vertcat(*[_row_major(y) for y in outputs])
+        self.function = ca.Function("program", [flat_in], [flat_out], {"cse": True})
+        self.n_in = int(flat_in.numel())
+        self.n_out = int(flat_out.numel())
+
+    @cached_property
+    def instructions(self) -> list[Instruction]:
+        """The operations in order; ``OP_INPUT`` reads input ``inputs[0]``, ``OP_OUTPUT`` writes output ``output``."""
+        f = self.function
+        rows: list[Instruction] = []
+        for k in range(f.n_instructions()):
+            op, out, inp = f.instruction_id(k), f.instruction_output(k), f.instruction_input(k)
+            if op == ca.OP_CONST:
+                rows.append(Instruction(op, out[0], (), f.instruction_constant(k)))
+            elif op == ca.OP_INPUT:
+                rows.append(Instruction(op, out[0], (inp[1],)))
+            elif op == ca.OP_OUTPUT:
+                rows.append(Instruction(op, out[1], (inp[0],)))
+            else:
+                rows.append(Instruction(op, out[0], tuple(inp)))
+        return rows
+
+    @property
+    def size(self) -> int:
+        """Number of scalar instructions."""
+        return int(self.function.n_instructions())
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of the operations, names and constants (bit for bit): the identity of the computation."""
+        h = hashlib.sha256(f"{self.n_in},{self.n_out}".encode())
+        for row in self.instructions:
+            h.update(f"{OP_NAMES[row.op]}:{row.output}:{row.inputs}".encode())
+            if row.op == ca.OP_CONST:
+                h.update(struct.pack("<d", row.constant))
+        return h.hexdigest()
+
+
+def _row_major(x: SX) -> SX:
+    return ca.vec(ca.densify(x).T)

@@ -1,0 +1,49 @@
+"""One pool of threads for the whole process; kernels release the GIL while they run."""
+
+from __future__ import annotations
+
+import os
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+_PREFIX = "holdfast-pool"
+_lock = threading.Lock()
+_pool: ThreadPoolExecutor | None = None
+_count: int | None = None
+
+
+def thread_count() -> int:
+    """Threads used: :func:`set_threads`, else ``HOLDFAST_THREADS``, else the processors this process may use."""
+    if _count is not None:
+        return _count
+    setting = os.environ.get("HOLDFAST_THREADS", "")
+    if setting.isdigit() and int(setting) > 0:
+        return int(setting)
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
+
+
+def set_threads(count: int | None) -> None:
+    """Use ``count`` threads from now on (None: the default again). Results do not depend on it."""
+    global _pool, _count
+    if count is not None and count < 1:
+        from holdfast.errors import InputError
+
+        raise InputError(f"number of threads is {count}; it must be 1 or more")
+    with _lock:
+        if _pool is not None:
+            _pool.shutdown(wait=True)
+        _pool, _count = None, count
+
+
+def in_pool() -> bool:
+    """True inside a task of the pool, where waiting for the pool again could wait for ever."""
+    return threading.current_thread().name.startswith(_PREFIX)
+
+
+def pool() -> ThreadPoolExecutor:
+    """The shared pool, made at first use."""
+    global _pool
+    with _lock:
+        if _pool is None:
+            _pool = ThreadPoolExecutor(thread_count(), thread_name_prefix=_PREFIX)
+        return _pool
