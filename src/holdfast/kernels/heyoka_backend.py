@@ -27,6 +27,7 @@ def simd_lanes() -> int:
     """Rows handled at once: two SIMD registers, which hides the latency of divisions and roots (measured: +18 %)."""
     import heyoka as hy
 
+    hy.set_nthreads(1)  # process-wide: our own pool of threads calls single-threaded kernels
     return 2 * int(hy.recommended_simd_size())
 
 
@@ -97,6 +98,9 @@ def compile_program(program: Program) -> Any:
     for term in x[1:]:
         total = total + term
     guard = total - total
+    choices: dict[int, tuple[Any, Any]] = {}  # id of "condition ? value : 0" -> condition, value
+    negations: dict[int, Any] = {}  # id of "not condition" -> condition
+    alive: list[Any] = []  # ids stay unique while their objects live
     for k, row in enumerate(program.instructions):
         if row.op == ca.OP_CONST:
             work[row.output] = hy.expression(row.constant)
@@ -111,9 +115,33 @@ def compile_program(program: Program) -> Any:
                     f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which the heyoka "
                     "backend does not have; write the expression with operations listed in docs/extending"
                 )
-            work[row.output] = function(*[work[i] for i in row.inputs])
-    hy.set_nthreads(1)  # process-wide: our own pool of threads calls single-threaded kernels
+            arguments = [work[i] for i in row.inputs]
+            result = None
+            if row.op == ca.OP_ADD:
+                result = _choice(choices, negations, *arguments)
+            if result is None:
+                result = function(*arguments)
+            if row.op == ca.OP_IF_ELSE_ZERO:
+                choices[id(result)] = arguments[0], arguments[1]
+            elif row.op == ca.OP_NOT:
+                negations[id(result)] = arguments[0]
+            alive.append(result)
+            work[row.output] = result
     return hy.cfunc(outputs, vars=x, batch_size=simd_lanes())
+
+
+def _choice(choices: dict[int, tuple[Any, Any]], negations: dict[int, Any], x: Any, y: Any) -> Any | None:
+    """CasADi writes ``c ? a : b`` as ``(c ? a : 0) + (!c ? b : 0)``; one select instead of four operations."""
+    import heyoka as hy
+
+    if id(x) not in choices or id(y) not in choices:
+        return None
+    (c, a), (d, b) = choices[id(x)], choices[id(y)]
+    if negations.get(id(d)) is c:
+        return hy.select(c, a, b)
+    if negations.get(id(c)) is d:
+        return hy.select(d, b, a)
+    return None
 
 
 def call(compiled: Any, inputs: NDArray[np.float64], outputs: NDArray[np.float64]) -> None:

@@ -17,7 +17,7 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 
 Array = NDArray[np.float64]
 
-_SCRATCH_BYTES = 1 << 18  # inputs and outputs of one chunk stay in the second-level cache
+_SCRATCH_BYTES = 1 << 21  # inputs and outputs of one chunk stay in the second-level cache
 BACKENDS = ("heyoka", "casadi")
 
 
@@ -45,6 +45,9 @@ class Kernel:
         outputs: CasADi ``SX`` expressions of them.
         backend: ``"heyoka"`` (LLVM, SIMD, threads) or ``"casadi"`` (virtual machine); None: the default.
 
+    Attributes:
+        lanes: Rows handled at once.
+
     Raises:
         KernelError: Unknown backend, or an operation the backend does not have.
     """
@@ -55,9 +58,9 @@ class Kernel:
         self.backend = backend or default_backend()
         if self.backend not in BACKENDS:
             raise KernelError(f"backend '{self.backend}' is not known; use one of {', '.join(BACKENDS)}")
-        self._lanes = heyoka_backend.simd_lanes() if self.backend == "heyoka" else 1
+        self.lanes = heyoka_backend.simd_lanes() if self.backend == "heyoka" else 1
         rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
-        self._chunk = max(self._lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
+        self._chunk = max(self.lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
         self._compiled = self._compile()
         self._scratch = threading.local()
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
@@ -66,7 +69,7 @@ class Kernel:
     def _compile(self) -> Any:
         if self.backend == "casadi":
             return casadi_backend.compile_program(self.program)
-        name = cache.key(self.program.digest, self._lanes)
+        name = cache.key(self.program.digest, self.lanes)
         compiled = cache.load(name)
         if compiled is None:
             compiled = heyoka_backend.compile_program(self.program)
@@ -121,6 +124,18 @@ class Kernel:
             arrays.append(a.reshape(a.shape[0], -1))
         return arrays, rows
 
+    def evaluate_columns(self, inputs: Array, outputs: Array) -> None:
+        """Evaluate in the backend's own layout, without padding, copies or threads.
+
+        Args:
+            inputs: (n_in, W) contiguous, W a multiple of ``lanes``.
+            outputs: (n_out, W) contiguous, overwritten.
+        """
+        if self.backend == "heyoka":
+            heyoka_backend.call(self._compiled, inputs, outputs)
+        else:
+            casadi_backend.call(self._compiled, inputs, outputs)
+
     def _buffers(self, width: int) -> tuple[Array, Array]:
         made: dict[int, tuple[Array, Array]] | None = getattr(self._scratch, "made", None)
         if made is None:
@@ -132,7 +147,7 @@ class Kernel:
     def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> None:
         used = stop - start
         # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
-        width = self._lanes
+        width = self.lanes
         while width < used:
             width *= 2
         scratch_in, scratch_out = self._buffers(width)
@@ -142,10 +157,7 @@ class Kernel:
             scratch_in[rows, :used] = a.T if a.shape[0] == 1 else a[start:stop].T
             row += a.shape[1]
         scratch_in[:, used:] = scratch_in[:, used - 1 : used]
-        if self.backend == "heyoka":
-            heyoka_backend.call(self._compiled, scratch_in, scratch_out)
-        else:
-            casadi_backend.call(self._compiled, scratch_in, scratch_out)
+        self.evaluate_columns(scratch_in, scratch_out)
         out[start:stop] = scratch_out[:, :used].T
 
     def __repr__(self) -> str:

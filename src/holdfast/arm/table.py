@@ -1,0 +1,244 @@
+"""Arms from YAML files that hold a Denavit-Hartenberg table.
+
+An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, must be there::
+
+    name: my arm              # default: the file's name
+    convention: standard      # or modified; see holdfast.arm.dh.DH
+    angles: deg               # unit of alpha, theta, rpy and of revolute limits and velocities; default rad
+    rows:
+      - {a: 0, alpha: -90, d: 0.3, lower: -170, upper: 170, name: shoulder, velocity: 90, effort: 120}
+      - {a: 0.5, alpha: 0, theta: 90, friction: 0.1, armature: 0.02}     # no lower and upper: no limits
+      - {a: 0, alpha: 0, type: prismatic, lower: 0, upper: 0.4}          # metres, whatever the angles are in
+    base: {xyz: [0, 0, 0.8], rpy: [0, 0, 180]}   # pose of the arm's base in the world; R = Rz(yaw) Ry(pitch) Rx(roll)
+    tool:                                        # pose of the tool in the last row's frame; either form serves for both
+      - [1, 0, 0, 0]
+      - [0, 1, 0, 0]
+      - [0, 0, 1, 0.1]
+      - [0, 0, 0, 1]
+    gravity: [0, 0, -9.81]    # in the world, m/s^2
+    links:                    # one per row, each in its row's frame; null where nothing is known
+      - {name: upper arm, mass: 4, com: [0, 0.1, 0], inertia: [0.02, 0.01, 0.02, 0, 0, 0]}   # xx, yy, zz, xy, xz, yz
+      - {mass: 2, com: [-0.25, 0, 0], inertia: [[0.01, 0, 0], [0, 0.05, 0], [0, 0, 0.05]]}   # about com, kg m^2
+      - null
+    payload: {mass: 1, com: [0, 0, 0.1], inertia: [0.001, 0.001, 0.001, 0, 0, 0]}           # in the last row's frame
+    source: Where the numbers come from.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import yaml
+from annotated_types import Len
+from numpy.typing import NDArray
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Tag, ValidationError
+
+from holdfast.arm.dh import DH
+from holdfast.arm.model import GRAVITY, Arm, Link
+from holdfast.errors import ArmError
+
+Array = NDArray[np.float64]
+
+
+def load(path: str | Path) -> Arm:
+    """The arm of a YAML file in the format of this module.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The arm, in rad and m.
+
+    Raises:
+        ArmError: The file cannot be read, or an entry is wrong; the sentence names its place, as in ``rows[2].alpha``.
+    """
+    path = Path(path)
+    try:
+        return _arm(_Table.model_validate(_content(path)), path)
+    except ValidationError as error:
+        raise ArmError(f"{path.name}: {_sentence(error)}") from error
+    except ArmError as error:
+        raise ArmError(f"{path.name}: {error}") from error
+
+
+# ---- the format --------------------------------------------------------------------------------------------------
+
+
+def _not_a_flag(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError("it must be a number")
+    return value
+
+
+def _full_inertia(value: Any) -> Any:
+    if isinstance(value, list) and not any(isinstance(x, list) for x in value):
+        if len(value) != 6:
+            raise ValueError("it must be 6 numbers (xx, yy, zz, xy, xz, yz) or 3 rows of 3")
+        xx, yy, zz, xy, xz, yz = value
+        return [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+    return value
+
+
+# Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
+Number = Annotated[float, BeforeValidator(_not_a_flag)]
+Three = Annotated[list[Number], Len(3, 3)]
+Four = Annotated[list[Number], Len(4, 4)]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class _Row(_Strict):
+    a: Number
+    alpha: Number
+    d: Number = 0.0
+    theta: Number = 0.0
+    type: Literal["revolute", "prismatic"] = "revolute"
+    lower: Number | None = None
+    upper: Number | None = None
+    name: str | None = None
+    velocity: Number | None = None
+    effort: Number | None = None
+    friction: Number = 0.0
+    armature: Number = 0.0
+
+
+class _Body(_Strict):
+    mass: Number
+    com: Three
+    inertia: Annotated[list[Three], Len(3, 3), BeforeValidator(_full_inertia)]
+    name: str | None = None
+
+
+class _Placement(_Strict):
+    xyz: Three = [0.0, 0.0, 0.0]
+    rpy: Three = [0.0, 0.0, 0.0]
+
+
+TAGS = ("as rows", "as xyz and rpy")
+_Pose = Annotated[
+    Annotated[list[Four], Len(4, 4), Tag(TAGS[0])] | Annotated[_Placement, Tag(TAGS[1])],
+    Discriminator(lambda value: TAGS[0] if isinstance(value, list) else TAGS[1]),
+]
+
+
+class _Table(_Strict):
+    rows: Annotated[list[_Row], Len(1)]
+    name: str | None = None
+    convention: Literal["standard", "modified"] = "standard"
+    angles: Literal["rad", "deg"] = "rad"
+    base: _Pose | None = None
+    tool: _Pose | None = None
+    gravity: Three = list(GRAVITY)
+    links: list[_Body | None] | None = None
+    payload: _Body | None = None
+    source: str = ""
+
+
+# ---- reading -----------------------------------------------------------------------------------------------------
+
+
+class _OneKeyOnce(yaml.SafeLoader):
+    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        keys = [key.value for key, _ in node.value]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise ArmError(f"line {node.start_mark.line + 1}: the key '{key}' is given twice; give it once")
+        return super().construct_mapping(node, deep)
+
+
+def _content(path: Path) -> Any:
+    try:
+        content = yaml.load(path.read_text(encoding="utf-8"), _OneKeyOnce)
+    except OSError as error:
+        raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a YAML file") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        reason = " ".join(str(error).split())
+        raise ArmError(f"this is not sound YAML ({reason}); see holdfast.arm.table for an example") from error
+    if not isinstance(content, dict):
+        raise ArmError("the file must hold keys and values, at least rows; see holdfast.arm.table for an example")
+    return content
+
+
+def _sentence(error: ValidationError) -> str:
+    """The most telling of pydantic's complaints; a misspelt key comes before the key that it leaves missing."""
+    problems = error.errors()
+    first = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
+    trail = tuple(x for x in first["loc"] if x not in TAGS)
+    place = "".join(f"[{x}]" if isinstance(x, int) else f".{x}" for x in trail).lstrip(".")
+    given = repr(first["input"])
+    match first["type"]:
+        case "extra_forbidden":
+            return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(trail))}"
+        case "missing":
+            return f"{place}: it is missing; it must be given"
+        case "literal_error":
+            return f"{place}: {given} is not known; use {first['ctx']['expected']}"
+        case "value_error":
+            return f"{place}: {given} is wrong; {first['ctx']['error']}"
+        case "too_short" | "too_long":
+            return f"{place}: it has {first['ctx']['actual_length']} entries; it must have {_wanted(first['ctx'])}"
+        case _:
+            return f"{place}: {given} is wrong; {first['msg'][0].lower()}{first['msg'][1:]}"
+
+
+def _wanted(context: dict[str, Any]) -> str:
+    return f"at least {context['min_length']}" if context.get("min_length") == 1 else str(_bound(context))
+
+
+def _bound(context: dict[str, Any]) -> int:
+    return int(context["min_length"] if "min_length" in context else context["max_length"])
+
+
+def _keys(trail: tuple[int | str, ...]) -> list[str]:
+    model: type[BaseModel] = _Table
+    if len(trail) > 1:
+        model = {"rows": _Row, "links": _Body, "payload": _Body}.get(str(trail[0]), _Placement)
+    return list(model.model_fields)
+
+
+# ---- the arm -----------------------------------------------------------------------------------------------------
+
+
+def _arm(table: _Table, path: Path) -> Arm:
+    unit = np.pi / 180 if table.angles == "deg" else 1.0
+    links = table.links
+    return Arm.from_dh(
+        [_row(row, unit) for row in table.rows],
+        None if links is None else [None if x is None else _link(x, f"link{k + 1}") for k, x in enumerate(links)],
+        table.convention,
+        _pose(table.base, unit),
+        _pose(table.tool, unit),
+        table.gravity,
+        None if table.payload is None else _link(table.payload, "payload"),
+        table.name or path.stem,
+        table.source or path.name,
+    )
+
+
+def _row(row: _Row, unit: float) -> DH:
+    moved = 1.0 if row.type == "prismatic" else unit
+    in_joint_unit = {key: None if (x := getattr(row, key)) is None else x * moved for key in ("lower", "upper", "velocity")}
+    return DH(**{**row.model_dump(), **in_joint_unit, "alpha": row.alpha * unit, "theta": row.theta * unit})
+
+
+def _link(body: _Body, label: str) -> Link:
+    return Link(body.mass, np.array(body.com), np.array(body.inertia), body.name or label)
+
+
+def _pose(pose: list[list[float]] | _Placement | None, unit: float) -> Array | None:
+    if not isinstance(pose, _Placement):
+        return None if pose is None else np.array(pose)
+    roll, pitch, yaw = (angle * unit for angle in pose.rpy)
+    (cr, sr), (cp, sp), (cy, sy) = ((np.cos(x), np.sin(x)) for x in (roll, pitch, yaw))
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+    out = np.eye(4)
+    out[:3, :3], out[:3, 3] = about_z @ about_y @ about_x, pose.xyz
+    return out

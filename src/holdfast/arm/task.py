@@ -1,0 +1,158 @@
+"""Tasks: which rows of the twist the hand must produce."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.errors import TaskError
+from holdfast.kernels import SX
+
+Array = NDArray[np.float64]
+ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
+NAMES = ("pose", "pointing", "position", "planar", "planar-pose")
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """Rows of the hand's twist (linear; angular) that the task prescribes.
+
+    Attributes:
+        name: ``pose`` (6 rows), ``pointing`` (5: position, and direction of the tool's z axis; turning about it is free,
+            as for a drill, a torch or a camera), ``position`` (3), ``planar`` (2: position in the arm's plane),
+            ``planar-pose`` (3: with its angle), or a name of your own.
+        rows: (m, 6) orthonormal rows; the task velocity is ``rows @ twist``.
+        frame: The frame of the twist: ``base`` (the world axes) or ``tool``.
+        length: Characteristic length, m. Linear rows are divided by it, so that indices which mix metres and radians
+            have a meaning; it is printed with every result. 1 m by default.
+    """
+
+    name: str
+    rows: Array
+    frame: Literal["base", "tool"] = "base"
+    length: float = 1.0
+    angular: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        rows = np.array(self.rows, dtype=np.float64)
+        if rows.ndim != 2 or rows.shape[1] != 6 or not 1 <= rows.shape[0] <= 6 or not np.isfinite(rows).all():
+            raise TaskError(f"task '{self.name}': rows must be an array (m, 6) with m from 1 to 6, got shape {rows.shape}")
+        if not np.allclose(rows @ rows.T, np.eye(len(rows)), atol=1e-9):
+            raise TaskError(f"task '{self.name}': its rows must be orthonormal, each a direction of (vx, vy, vz, wx, wy, wz)")
+        if not (np.isfinite(self.length) and self.length > 0):
+            raise TaskError(f"task '{self.name}': the characteristic length is {self.length:g} m; it must be above 0")
+        if self.frame not in ("base", "tool"):
+            raise TaskError(f"task '{self.name}': frame '{self.frame}' is not known; use 'base' or 'tool'")
+        rows.setflags(write=False)
+        object.__setattr__(self, "rows", rows)
+        object.__setattr__(self, "angular", bool(np.abs(rows[:, 3:]).max() > 0))
+
+    @property
+    def m(self) -> int:
+        """Number of rows."""
+        return len(self.rows)
+
+    @property
+    def invariant(self) -> bool:
+        """True if all six rows are kept: then any frame and reference point give the same subspace."""
+        return self.m == 6
+
+    def error(self, twist: SX, tool_rotation: SX) -> SX:
+        """Task rows (m,) of a world-frame error or twist (6,), linear rows in metres."""
+        if self.frame == "tool":
+            twist = ca.vertcat(tool_rotation.T @ twist[:3], tool_rotation.T @ twist[3:])
+        return ca.sparsify(ca.SX(ca.DM(self.rows))) @ twist
+
+    def jacobian(self, arm: Arm, q: SX) -> SX:
+        """Task Jacobian (m, n), linear rows divided by the characteristic length."""
+        full = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.jacobian(arm, q)
+        return self.select(full)
+
+    def select(self, full: SX) -> SX:
+        """Task rows of a Jacobian (6, n) that is in the task's frame, linear rows divided by the length."""
+        scale = np.diag([1 / self.length] * 3 + [1.0] * 3)
+        return ca.sparsify(ca.SX(ca.DM(self.rows @ scale))) @ full
+
+    def describe(self) -> str:
+        """One phrase for people."""
+        text = f"{self.name} ({self.m} rows)"
+        mixed = self.angular and float(np.abs(self.rows[:, :3]).max()) > 0
+        return text + (f", characteristic length {self.length:g} m" if mixed else "")
+
+    def __repr__(self) -> str:
+        return f"Task({self.name!r}, m={self.m}, frame={self.frame!r}, length={self.length:g})"
+
+
+def rows_task(rows: Sequence[str], frame: Literal["base", "tool"] = "base", length: float = 1.0, name: str | None = None) -> Task:
+    """A task of chosen rows, for example ``rows_task(["vx", "vy", "wz"], frame="tool")``.
+
+    Raises:
+        TaskError: A row that is not one of vx, vy, vz, wx, wy, wz, or that appears twice.
+    """
+    unknown = [r for r in rows if r not in ROWS]
+    if unknown:
+        raise TaskError(f"task row '{unknown[0]}' is not known; rows are {', '.join(ROWS)}")
+    if len(set(rows)) != len(rows) or not rows:
+        raise TaskError("a task needs at least one row, and each row once")
+    picked = np.zeros((len(rows), 6))
+    for i, r in enumerate(rows):
+        picked[i, ROWS.index(r)] = 1.0
+    return Task(name or "+".join(rows), picked, frame, length)
+
+
+def plane_normal(arm: Arm) -> Array | None:
+    """Unit normal (3,), world frame, of the plane in which the arm moves; None if it does not move in one.
+
+    All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
+    """
+    rotation = arm.base[:3, :3]
+    turning, sliding = [], []
+    for joint in arm.joints:
+        rotation = rotation @ joint.origin[:3, :3]
+        # Earlier joints turn about the normal itself, which keeps parallel axes parallel: q = 0 speaks for every q.
+        (sliding if joint.prismatic else turning).append(rotation @ joint.axis)
+    if not turning:
+        return None
+    normal = turning[0]
+    if any(np.linalg.norm(np.cross(normal, z)) > 1e-9 for z in turning) or any(abs(normal @ s) > 1e-9 for s in sliding):
+        return None
+    return np.asarray(normal * (1.0 if normal[np.argmax(np.abs(normal))] > 0 else -1.0))
+
+
+def as_task(arm: Arm, task: str | Task | Sequence[str], length: float | None = None) -> Task:
+    """The task of an arm from its name, a list of rows, or itself.
+
+    Raises:
+        TaskError: Unknown name, or a planar task for an arm that does not move in a plane.
+    """
+    if isinstance(task, Task):
+        return task if length is None else Task(task.name, task.rows, task.frame, length)
+    size = 1.0 if length is None else length
+    if not isinstance(task, str):
+        return rows_task(list(task), length=size)
+    eye = np.eye(6)
+    if task == "pose":
+        return Task(task, eye, "base", size)
+    if task == "position":
+        return Task(task, eye[:3], "base", size)
+    if task == "pointing":
+        return Task(task, eye[:5], "tool", size)
+    if task in ("planar", "planar-pose"):
+        normal = plane_normal(arm)
+        if normal is None:
+            raise TaskError(f"'{arm.name}' does not move in a plane, so it has no task '{task}'; use pose, pointing or position")
+        seed = np.eye(3)[int(np.argmin(np.abs(normal)))]
+        first = seed - normal * (normal @ seed)
+        first /= np.linalg.norm(first)
+        rows: list[Any] = [np.r_[first, 0, 0, 0], np.r_[np.cross(normal, first), 0, 0, 0]]
+        if task == "planar-pose":
+            rows.append(np.r_[0, 0, 0, normal])
+        return Task(task, np.array(rows), "base", size)
+    raise TaskError(f"task '{task}' is not known; use one of {', '.join(NAMES)} or a list of rows such as vx, vy, wz")

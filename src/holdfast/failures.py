@@ -1,0 +1,71 @@
+"""Failure modes: which joints stand still.
+
+A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
+is a locked joint as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+from holdfast.arm.model import Arm, joint_list
+from holdfast.errors import TaskError
+
+FailureSets = tuple[tuple[int, ...], ...]
+FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
+
+_MOST = 5000
+
+
+def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
+    """The sets of joints that fail together, as indices from 0.
+
+    Args:
+        arm: The arm.
+        failures: ``"single"`` (each joint alone), ``"pairs"`` (every two joints), an int k (every k joints), or a list
+            of sets, each a joint or several joints by name or index from 0.
+
+    Raises:
+        TaskError: No failure, an empty or repeated set, more sets than can be handled.
+        InputError: There is no such joint.
+    """
+    if failures == "single":
+        failures = 1
+    elif failures == "pairs":
+        failures = 2
+    if isinstance(failures, str):
+        raise TaskError(f"failures '{failures}' is not known; use 'single', 'pairs', a number of joints, or a list of sets")
+    if isinstance(failures, int):
+        if not 1 <= failures < arm.n:
+            raise TaskError(f"{failures} of the {arm.n} joints of '{arm.name}' cannot fail together; use 1 to {arm.n - 1}")
+        sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
+    else:
+        sets = [joint_list(arm, [f] if isinstance(f, (str, int)) else f) for f in failures]
+    if not sets or any(not s or len(set(s)) != len(s) for s in sets):
+        raise TaskError("each failure must name at least one joint, and each of its joints once")
+    if len(set(sets)) != len(sets):
+        raise TaskError("a set of joints is listed twice among the failures; list each once")
+    if len(sets) > _MOST:
+        raise TaskError(f"{len(sets)} failure sets are too many for one kernel; give {_MOST} or fewer")
+    return tuple(sets)
+
+
+def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None:
+    """Raise :class:`TaskError` unless every failed arm still has at least as many joints as the task has rows."""
+    if arm.n <= rows:
+        raise TaskError(
+            f"'{arm.name}' is not redundant for task '{task}': {arm.n} joints for {rows} rows, so any locked joint ends the task; "
+            f"choose a task with fewer rows, for example {'pointing (5) or ' if rows > 5 else ''}position (3)"
+        )
+    most = max(len(s) for s in sets)
+    if arm.n - most < rows:
+        raise TaskError(
+            f"locking {most} of the {arm.n} joints of '{arm.name}' leaves {arm.n - most} for the {rows} rows of task '{task}'; "
+            f"lock at most {arm.n - rows} joints together or choose a task with fewer rows"
+        )
+
+
+def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
+    """Names for people and files: joint names, joined by ``+``."""
+    return ["+".join(arm.joint_names[k] for k in s) for s in sets]

@@ -1,0 +1,96 @@
+"""An index of your own: one symbolic function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.errors import TaskError
+from holdfast.failures import FailureSpec
+from holdfast.indices.index import Index
+from holdfast.kernels import SX, Kernel
+
+Array = NDArray[np.float64]
+Formula = Callable[[SX], SX]
+
+
+class CustomIndex(Index):
+    """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
+
+    Args:
+        formula: Takes the reduced task Jacobian, CasADi ``SX`` (m, n - |S|), returns a scalar ``SX``.
+        arm, task, failures, length: As for every index.
+        name, unit: For people and files.
+        better: ``"larger"`` or ``"smaller"``.
+        bound: The best value possible, if known.
+
+    Raises:
+        TaskError: The formula does not return one scalar.
+    """
+
+    def __init__(
+        self,
+        formula: Formula,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+        name: str = "custom index",
+        better: Literal["larger", "smaller"] = "larger",
+        unit: str = "1",
+        bound: float | None = None,
+    ) -> None:
+        super().__init__(name, arm, task, failures, length)
+        if better not in ("larger", "smaller"):
+            raise TaskError(f"{name}: better is '{better}'; it must be 'larger' or 'smaller'")
+        self.better, self.unit, self.bound = better, unit, bound
+        self._formula = formula
+
+    def _symbols(self) -> tuple[SX, list[SX]]:
+        q = kinematics.joint_symbols(self.arm)
+        j = self.task.jacobian(self.arm, q)
+        values = []
+        for failed in self.failures:
+            value = ca.SX(self._formula(j[:, [k for k in range(self.arm.n) if k not in failed]]))
+            if value.shape != (1, 1):
+                raise TaskError(f"{self.name}: its formula returned shape {value.shape}; it must return one scalar")
+            values.append(value)
+        return q, values
+
+    @cached_property
+    def _values_kernel(self) -> Kernel:
+        q, values = self._symbols()
+        return Kernel(self.name, [q], [ca.vertcat(*values)])
+
+    @cached_property
+    def _gradient_kernel(self) -> Kernel:
+        q, values = self._symbols()
+        worst = values[0]
+        for value in values[1:]:
+            worst = ca.if_else(value < worst if self.better == "larger" else value > worst, value, worst)
+        return Kernel(f"{self.name} gradient", [q], [ca.gradient(worst, q)])
+
+    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+        values = self._values_kernel(q).reshape(len(q), -1)
+        singular = self._singular_rows(q)
+        values[singular] = self.singular_value_by_convention
+        return values, singular
+
+    def _gradient(self, q: Array) -> Array:
+        g = self._gradient_kernel(q).reshape(len(q), -1)
+        g[self._singular_rows(q)] = 0.0
+        return g
+
+    def _singular_rows(self, q: Array) -> NDArray[np.bool_]:
+        singular = np.zeros(len(q), dtype=bool)
+        finite = np.flatnonzero(np.isfinite(q).all(axis=1))
+        singular[finite] = self._is_singular(q[finite])
+        return singular

@@ -1,0 +1,190 @@
+"""What every index can do, whatever its formula."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, as_task
+from holdfast.errors import InputError, TaskError
+from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
+from holdfast.kernels import Kernel
+from holdfast.status import Status
+
+Array = NDArray[np.float64]
+
+SINGULAR_RATIO = 1e-12
+"""A Jacobian is singular if its smallest singular value is at most this times its largest: the same everywhere."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """An index at N configurations, or at one (then without the leading N).
+
+    Attributes:
+        value: (N,) the worst case over the failures.
+        by_failure: (N, F) the value for each failure, in the order of ``index.failures``.
+        worst: (N,) position in ``index.failures`` of the failure that attains the worst case; the first one of several.
+        status: (N,) ``OK``, ``SINGULAR`` (value by convention) or ``BAD_INPUT``.
+    """
+
+    value: Array
+    by_failure: Array
+    worst: NDArray[np.int64]
+    status: NDArray[np.uint8]
+
+
+class Index(ABC):
+    """A number that says what a configuration is worth after any one of a set of failures.
+
+    Attributes:
+        name: For people and files.
+        unit: Of the value; ``1`` if it has none.
+        better: ``"larger"`` or ``"smaller"``.
+        arm, task: What it is an index of.
+        failures: Sets of joints, indices from 0, that fail together.
+        source: Paper and equation.
+        bound: The value no configuration can beat, or None if there is none.
+    """
+
+    better: Literal["larger", "smaller"] = "larger"
+    unit = "1"
+    source = ""
+    bound: float | None = None
+
+    def __init__(
+        self,
+        name: str,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+    ) -> None:
+        self.name = name
+        self.arm = arm
+        self.task = as_task(arm, task, length)
+        self.failures = failure_sets(arm, failures)
+        require_redundant(arm, self.task.m, self.task.name, self.failures)
+
+    # ---- what a formula provides -------------------------------------------------------------------------------
+
+    @abstractmethod
+    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Values (N, F), NaN where q (N, n) is not finite, and which rows are singular (N,)."""
+
+    @abstractmethod
+    def _gradient(self, q: Array) -> Array:
+        """Gradient (N, n) of the worst case, NaN where q (N, n) is not finite."""
+
+    # ---- what a user asks --------------------------------------------------------------------------------------
+
+    @property
+    def singular_value_by_convention(self) -> float:
+        """The value at a singular configuration: 0, or infinity if smaller is better."""
+        return 0.0 if self.better == "larger" else np.inf
+
+    @cached_property
+    def failure_names(self) -> list[str]:
+        """Joint names, joined by ``+`` where several fail together."""
+        return failure_names(self.arm, self.failures)
+
+    def evaluate(self, q: ArrayLike) -> Evaluation:
+        """Value, value per failure, worst failure and status in one pass.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+
+        Raises:
+            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+        """
+        rows, single = self._rows(q)
+        by_failure, singular = self._by_failure(rows)
+        status = np.where(singular, Status.SINGULAR, Status.OK).astype(np.uint8)
+        status[np.isnan(by_failure).any(axis=1)] = Status.BAD_INPUT
+        worst = (by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)).astype(np.int64)
+        value = np.take_along_axis(by_failure, worst[:, None], axis=1)[:, 0]
+        if single:
+            return Evaluation(value[0], by_failure[0], worst[0], status[0])
+        return Evaluation(value, by_failure, worst, status)
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
+        return self.evaluate(q).value
+
+    def by_joint(self, q: ArrayLike) -> Array:
+        """The value for each failure, (N, F) or (F,); for single failures one column per joint."""
+        return self.evaluate(q).by_failure
+
+    def worst_failure(self, q: ArrayLike) -> NDArray[np.int64]:
+        """Position in :attr:`failures` of the worst one, (N,) or a scalar."""
+        return self.evaluate(q).worst
+
+    def worst_joint(self, q: ArrayLike) -> NDArray[np.int64]:
+        """Index from 0 of the joint whose failure is the worst, (N,) or a scalar.
+
+        Raises:
+            TaskError: Some failures are of several joints; ask for :meth:`worst_failure`.
+        """
+        if any(len(s) != 1 for s in self.failures):
+            raise TaskError(f"{self.name}: several joints fail together here; ask for worst_failure and failure_names")
+        return np.array([s[0] for s in self.failures], dtype=np.int64)[self.evaluate(q).worst]
+
+    def gradient(self, q: ArrayLike) -> Array:
+        """Exact gradient of the worst case, (N, n) or (n,), per rad and m.
+
+        Where two failures tie it is that of the first. It is 0 at a singular configuration and where the worst case is 0
+        whatever the joints do (both are kinks or constants), and NaN where q is.
+        """
+        rows, single = self._rows(q)
+        g = self._gradient(rows)
+        return g[0] if single else g
+
+    def singular(self, q: ArrayLike) -> NDArray[np.bool_]:
+        """True where the healthy arm's task Jacobian is singular, (N,) or a scalar."""
+        rows, single = self._rows(q)
+        finite = np.isfinite(rows).all(axis=1)
+        result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
+        return result[0] if single else result
+
+    # ---- shared machinery --------------------------------------------------------------------------------------
+
+    @cached_property
+    def _task_jacobian(self) -> Kernel:
+        q = kinematics.joint_symbols(self.arm)
+        return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])
+
+    def task_jacobian(self, q: Array) -> Array:
+        """Task Jacobian (N, m, n) for q (N, n), linear rows divided by the characteristic length."""
+        j: Array = self._task_jacobian(q)
+        return j.reshape(*q.shape[:-1], self.task.m, self.arm.n)
+
+    def _is_singular(self, q: Array) -> NDArray[np.bool_]:
+        """The definition itself, by singular values of the task Jacobian."""
+        if not len(q):
+            return np.zeros(0, dtype=bool)
+        sigma = np.linalg.svd(self.task_jacobian(q), compute_uv=False)
+        return np.asarray(sigma[:, -1] <= SINGULAR_RATIO * sigma[:, 0])
+
+    def _rows(self, q: ArrayLike) -> tuple[Array, bool]:
+        a = self.arm.check_configurations(q)
+        single = a.ndim == 1
+        if single and not np.isfinite(a).all():
+            raise InputError(f"q for '{self.arm.name}' holds NaN or infinity; give {self.arm.n} finite numbers")
+        return np.atleast_2d(a), single
+
+    def describe(self) -> str:
+        """One phrase for people: what it is, of which task, after which failures."""
+        kinds = {len(s) for s in self.failures}
+        what = "any one joint" if kinds == {1} and len(self.failures) == self.arm.n else f"{len(self.failures)} failure sets"
+        return f"worst-case {self.name} over {what}, task {self.task.describe()}"
+
+    def __repr__(self) -> str:
+        return f"<{self.describe()}, arm {self.arm.name!r}>"

@@ -1,0 +1,231 @@
+"""Manipulability and relative manipulability after a failure, from the null space of J.
+
+Both are invariant to ``J -> A J``: rho for every invertible A, the manipulability for det A = 1. A task of all six rows
+therefore uses the Jacobian with the most zeros, and the null-space form needs no determinant of a reduced Jacobian: one
+factorisation serves every failure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.failures import FailureSpec
+from holdfast.indices.index import Index
+from holdfast.kernels import SX, Kernel
+from holdfast.linalg import HouseholderQR, dot, householder, squared_volume
+
+Array = NDArray[np.float64]
+
+_FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
+
+
+class RelativeManipulability(Index):
+    r"""Share of the manipulability that is left when joints S lock.
+
+    :math:`\rho_S = \sqrt{\det({}^SJ\,{}^SJ^\top)/\det(JJ^\top)} = \sqrt{\det(N_S N_S^\top)}`, where :math:`{}^SJ` is the
+    task Jacobian without the columns S and :math:`N_S` the rows S of an orthonormal null-space basis of J.
+
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma.
+    """
+
+    source = "Abdi et al. 2012, eq. (3), (4)"
+
+    def __init__(
+        self,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+    ) -> None:
+        super().__init__("relative manipulability", arm, task, failures, length)
+        sizes = {len(s) for s in self.failures}
+        if len(self.failures) == arm.n and sizes == {1}:
+            # The squares sum to n - m, so the smallest is at most their mean.
+            self.bound = float(np.sqrt((arm.n - self.task.m) / arm.n))
+
+    # ---- symbols -----------------------------------------------------------------------------------------------
+
+    def _symbols(self) -> tuple[SX, SX, HouseholderQR]:
+        q = kinematics.joint_symbols(self.arm)
+        j = kinematics.invariant_jacobian(self.arm, q) if self.task.invariant else self.task.jacobian(self.arm, q)
+        return q, j, householder(j)
+
+    def _scale(self, qr: HouseholderQR) -> SX:
+        """Factor that turns rho into this index."""
+        return ca.SX(1)
+
+    def _squares(self, qr: HouseholderQR) -> list[SX]:
+        """rho^2 of every failure."""
+        rows = qr.null_rows()
+        return [squared_volume([rows[k] for k in s]) for s in self.failures]
+
+    def _clear(self, qr: HouseholderQR) -> SX:
+        """True only where J is certainly not singular; false also where the factorisation divided by zero.
+
+        The product of the singular values bounds the smallest one from below: by the means inequality
+        ``sigma_m >= |det| ((m - 1) / |J|^2)^((m - 1) / 2)``. The factor covers the change of frame and point.
+        """
+        length = max(self.task.length, 1 / self.task.length)
+        reach = sum(float(np.linalg.norm(x.origin[:3, 3])) for x in self.arm.joints) + float(np.linalg.norm(self.arm.tool[:3, 3]))
+        threshold = min(1e-11 * (1 + reach) ** 2 * length, 1e-6)
+        return qr.squared_volume() > threshold**2 * qr.squared_norm() ** self.task.m
+
+    def _mark(self, qr: HouseholderQR, outputs: list[SX], marked: bool) -> SX:
+        """NaN in every output of a row that is not clear: such a row is then looked at with singular values."""
+        clear = self._clear(qr)
+        return ca.vertcat(*[ca.if_else(clear, y, np.nan) if marked else y for y in outputs])
+
+    def _build_values(self, marked: bool, worst_only: bool) -> Kernel:
+        q, _, qr = self._symbols()
+        squares = self._squares(qr)
+        if worst_only:
+            squares = [_smallest(squares)]
+        scale = self._scale(qr)
+        values = [scale * ca.sqrt(s) for s in squares]
+        return Kernel(self.name, [q], [self._mark(qr, values, marked)])
+
+    def _build_gradient(self, marked: bool) -> Kernel:
+        q, j, qr = self._symbols()
+        if all(len(s) == 1 for s in self.failures):
+            cotangent = self._cotangent(qr)
+            # Through the kinematics by reverse differentiation of J alone: fewer operations, and exact.
+            seed = ca.SX.sym("seed", self.task.m, self.arm.n)
+            pull = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
+            g = pull(q, cotangent)
+        else:
+            best, scale = _smallest(self._squares(qr)), self._scale(qr)
+            rho = ca.sqrt(best)
+            slope = ca.if_else(rho > _FLAT, 0.5 / rho, 0.0)
+            # Held apart so that no root is differentiated at 0.
+            s, b = ca.SX.sym("scale"), ca.SX.sym("best")
+            outer = ca.jtimes(ca.vertcat(scale, best), q, ca.vertcat(b, s), True)
+            g = ca.substitute(ca.vertcat(outer), ca.vertcat(s, b), ca.vertcat(scale * slope, rho))
+        return Kernel(f"{self.name} gradient", [q], [self._mark(qr, ca.vertsplit(ca.densify(g)), marked)])
+
+    def _cotangent(self, qr: HouseholderQR) -> SX:
+        r"""Derivative of the worst case by J, (m, n).
+
+        With ``P = N N'``, ``dP = -J^+ dJ P - (J^+ dJ P)'``, so ``d rho_k / dJ = -a_k (P e_k)' / rho_k`` with
+        ``a_k = (J J')^-1 j_k = R^-1 (Q' e_k)_{1..m}``. The worst k enters as a unit vector.
+        """
+        rows = qr.null_rows()
+        squares = [dot(r, r) for r in rows]
+        best, unit = ca.SX(np.inf), [ca.SX(0)] * self.arm.n
+        for s in self.failures:
+            k = s[0]
+            less = squares[k] < best
+            best = ca.if_else(less, squares[k], best)
+            unit = [ca.if_else(less, float(i == k), u) for i, u in enumerate(unit)]
+        rotated = qr.q_transposed(unit)
+        a = qr.pinv_transposed(rotated)
+        p = [dot(r, rotated[self.task.m :]) for r in rows]
+        rho = ca.sqrt(best)
+        return self._assemble(qr, rho, a, p)
+
+    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        slope = ca.if_else(rho > _FLAT, 1 / rho, 0.0)
+        return -ca.vertcat(*a) @ (ca.horzcat(*p) * slope)
+
+    # ---- kernels -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _worst_kernel(self) -> Kernel:
+        return self._build_values(marked=True, worst_only=True)
+
+    @cached_property
+    def _values_kernel(self) -> Kernel:
+        return self._build_values(marked=True, worst_only=False)
+
+    @cached_property
+    def _plain_values_kernel(self) -> Kernel:
+        return self._build_values(marked=False, worst_only=False)
+
+    @cached_property
+    def _gradient_kernel(self) -> Kernel:
+        return self._build_gradient(marked=True)
+
+    @cached_property
+    def _plain_gradient_kernel(self) -> Kernel:
+        return self._build_gradient(marked=False)
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
+        rows, single = self._rows(q)
+        value = self._worst_kernel(rows).reshape(len(rows))
+        if np.isnan(np.add.reduce(value)):
+            again = np.flatnonzero(np.isnan(value))
+            value[again] = super().evaluate(rows[again]).value
+        return value[0] if single else value
+
+    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+        values = self._values_kernel(q).reshape(len(q), -1)
+        again, singular = self._second_look(q, values)
+        if again.size:
+            values[again] = self._plain_values_kernel(q[again]).reshape(again.size, -1)
+            values[singular] = 0.0
+        return values, singular
+
+    def _gradient(self, q: Array) -> Array:
+        g = self._gradient_kernel(q).reshape(len(q), -1)
+        again, singular = self._second_look(q, g)
+        if again.size:
+            g[again] = self._plain_gradient_kernel(q[again]).reshape(again.size, -1)
+            g[singular] = 0.0
+        return g
+
+    def _second_look(self, q: Array, marked: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Rows that a kernel marked with NaN although q is finite, and which rows are singular."""
+        singular = np.zeros(len(q), dtype=bool)
+        again = np.zeros(0, dtype=np.int64)
+        if np.isnan(np.add.reduce(marked[:, 0])):
+            again = np.flatnonzero(np.isnan(marked[:, 0]) & np.isfinite(q).all(axis=1))
+            singular[again] = self._is_singular(q[again])
+        return again, singular
+
+
+class Manipulability(RelativeManipulability):
+    r"""Manipulability :math:`{}^Sr = \sqrt{\det({}^SJ\,{}^SJ^\top)}` left when joints S lock; unit of det of the rows.
+
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (1) and (2).
+    """
+
+    source = "Abdi et al. 2012, eq. (1), (2)"
+
+    def __init__(
+        self,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+    ) -> None:
+        super().__init__(arm, task, failures, length)
+        self.name = "manipulability"
+        self.bound = None
+        # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
+        self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
+        self.unit = "1" if self.task.length != 1.0 else ("m^3" if self.task.invariant else "m, rad mixed")
+
+    def _scale(self, qr: HouseholderQR) -> SX:
+        return qr.volume() * self._rows_scale
+
+    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        # kr = rho D with dD/dJ = D (J^+)'
+        units = [[ca.SX(float(i == k)) for i in range(self.arm.n)] for k in range(self.arm.n)]
+        columns = [qr.pinv_transposed(qr.q_transposed(e)) for e in units]
+        pinv_transposed = ca.horzcat(*[ca.vertcat(*c) for c in columns])
+        return self._scale(qr) * (super()._assemble(qr, rho, a, p) + rho * pinv_transposed)
+
+
+def _smallest(values: list[SX]) -> SX:
+    best = values[0]
+    for x in values[1:]:
+        best = ca.if_else(x < best, x, best)
+    return best

@@ -1,0 +1,159 @@
+"""Indices of the singular values of the reduced Jacobian: means, smallest value, condition number.
+
+Singular values come from one-sided Jacobi sweeps on the rows (relative accuracy also for the small ones); one sweep is
+one kernel, and rows of the batch that have converged drop out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.failures import FailureSpec
+from holdfast.indices.index import SINGULAR_RATIO, Index
+from holdfast.kernels import Kernel, Loop
+from holdfast.linalg import jacobi_sweep
+
+Array = NDArray[np.float64]
+Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
+
+_MOST_SWEEPS = 30
+_CONVERGED = 1e-14
+_BLOCK = 1024  # with every failure some thousand small matrices: they stay in the cache
+
+_SOURCES = {
+    "mean": ("mean singular value", "Abdi et al. 2012, eq. (7)"),
+    "geometric mean": ("geometric mean of the singular values", "Abdi et al. 2012, eq. (8)"),
+    "minimum": ("minimum singular value", "Abdi et al. 2012, eq. (9)"),
+    "condition number": ("condition number", "Abdi et al. 2012, eq. (10)"),
+}
+
+
+class Rotator:
+    """Singular values of batches of small wide matrices (N, m, c)."""
+
+    def __init__(self, m: int, c: int) -> None:
+        self.m, self.c = m, c
+        a = ca.SX.sym("a", m * c)
+        rows, off = jacobi_sweep([[a[i * c + k] for k in range(c)] for i in range(m)])
+        self._loop = Loop("Jacobi sweep", a, [], ca.vertcat(*[x for row in rows for x in row]), off)
+
+    def rotate(self, a: Array) -> Array:
+        """Rows made orthogonal by rotations: their lengths are the singular values, their directions the right vectors."""
+        flat = np.ascontiguousarray(a).reshape(len(a), self.m * self.c)
+        turned = self._loop.run(flat, np.empty((len(a), 0)), _CONVERGED, _MOST_SWEEPS).state
+        return turned.reshape(-1, self.m, self.c)
+
+
+class SpectralIndex(Index):
+    r"""An index of the singular values :math:`{}^S\sigma_1 \ge \dots \ge {}^S\sigma_m` of the reduced Jacobian.
+
+    Linear rows are divided by the task's characteristic length, which every one of these indices depends on.
+
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (7) to (10).
+    """
+
+    def __init__(
+        self,
+        formula: Formula,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+    ) -> None:
+        name, source = _SOURCES[formula]
+        super().__init__(name, arm, task, failures, length)
+        self.formula, self.source = formula, source
+        self.better = "smaller" if formula == "condition number" else "larger"
+        if formula != "condition number":
+            self.unit = "m/rad, rad/rad mixed" if self.task.length == 1.0 and self.task.angular else "1"
+        self._kept = np.array([[float(k not in s) for k in range(arm.n)] for s in self.failures])  # (F, n)
+
+    @cached_property
+    def _rotator(self) -> Rotator:
+        # A locked column set to zero leaves the same singular values as a column left out, so one width serves all.
+        return Rotator(self.task.m, self.arm.n)
+
+    @cached_property
+    def _pull_back(self) -> Kernel:
+        q = kinematics.joint_symbols(self.arm)
+        j = self.task.jacobian(self.arm, q)
+        seed = ca.SX.sym("seed", self.task.m, self.arm.n)
+        return Kernel("pull back", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
+
+    # ---- formulas: value, and derivative by each singular value ------------------------------------------------------
+
+    def _value(self, sigma: Array) -> Array:
+        low, high = sigma.min(axis=-1), sigma.max(axis=-1)
+        if self.formula == "mean":
+            return np.asarray(sigma.mean(axis=-1))
+        if self.formula == "geometric mean":
+            return np.asarray(np.prod(sigma, axis=-1) ** (1 / self.task.m))
+        if self.formula == "minimum":
+            return np.asarray(low)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.where(low > SINGULAR_RATIO * high, high / low, np.inf)
+        return np.where(np.isnan(low), np.nan, ratio)
+
+    def _slope(self, sigma: Array) -> Array:
+        if self.formula == "mean":
+            return np.full_like(sigma, 1 / self.task.m)
+        low, high = sigma.argmin(axis=-1), sigma.argmax(axis=-1)
+        rows = np.arange(len(sigma))
+        slope = np.zeros_like(sigma)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            if self.formula == "geometric mean":
+                slope = self._value(sigma)[:, None] / (self.task.m * sigma)
+            elif self.formula == "minimum":
+                slope[rows, low] = 1.0
+            else:
+                slope[rows, high] = 1 / sigma[rows, low]
+                slope[rows, low] -= sigma[rows, high] / sigma[rows, low] ** 2
+        return slope
+
+    # ---- batches -----------------------------------------------------------------------------------------------------
+
+    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+        values = np.empty((len(q), len(self.failures)))
+        singular = np.zeros(len(q), dtype=bool)
+        for start in range(0, len(q), _BLOCK):
+            part = slice(start, start + _BLOCK)
+            j = self.task_jacobian(q[part])
+            whole = np.linalg.norm(self._rotator.rotate(j), axis=-1)
+            singular[part] = whole.min(axis=-1) <= SINGULAR_RATIO * whole.max(axis=-1)
+            reduced = (j[:, None] * self._kept[:, None, :]).reshape(-1, self.task.m, self.arm.n)
+            sigma = np.linalg.norm(self._rotator.rotate(reduced), axis=-1)
+            values[part] = self._value(sigma).reshape(len(j), -1)
+        values[singular] = self.singular_value_by_convention
+        return values, singular
+
+    def _gradient(self, q: Array) -> Array:
+        g = np.empty_like(q)
+        for start in range(0, len(q), _BLOCK):
+            part = slice(start, start + _BLOCK)
+            g[part] = self._gradient_block(q[part])
+        return g
+
+    def _gradient_block(self, q: Array) -> Array:
+        values, singular = self._by_failure(q)
+        worst = values.argmin(axis=1) if self.better == "larger" else values.argmax(axis=1)
+        kept = self._kept[worst][:, None, :]
+        reduced = self.task_jacobian(q) * kept
+        turned = self._rotator.rotate(reduced)  # rows sigma_i v_i'
+        sigma = np.linalg.norm(turned, axis=-1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            v = turned / sigma[:, :, None]
+            u = np.einsum("rmc,ric->rmi", reduced, v) / sigma[:, None, :]
+            seed = np.einsum("rmi,ri,ric->rmc", u, self._slope(sigma), v) * kept  # d sigma_i = u_i' dJ v_i
+        kink = singular | (sigma.min(axis=1) <= SINGULAR_RATIO * sigma.max(axis=1))
+        seed[kink & np.isfinite(q).all(axis=1)] = 0.0
+        g: Array = self._pull_back(q, seed[:, 0] if self.task.m == 1 else seed)
+        return g.reshape(len(q), self.arm.n)

@@ -1,0 +1,214 @@
+"""Straight-line factorisations of small symbolic matrices: no loops at run time, no LAPACK, ready for SIMD.
+
+Matrices are lists of CasADi ``SX`` scalars, so that structural zeros vanish from the code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import casadi as ca
+
+from holdfast.kernels import SX
+
+Vector = list[SX]
+
+
+def dot(a: Sequence[SX], b: Sequence[SX]) -> SX:
+    """Sum of products of two equally long vectors."""
+    total = a[0] * b[0]
+    for x, y in zip(a[1:], b[1:], strict=True):
+        total = total + x * y
+    return total
+
+
+@dataclass(frozen=True)
+class HouseholderQR:
+    """``(A J B)' = Q [R; 0]`` of a wide matrix J (m, n), by Householder reflections; A and B permute rows and columns.
+
+    The last n - m columns of Q are an orthonormal basis of the null space. Against 60-digit arithmetic its rows keep
+    1e-10 at cond(J) = 1e7, where the Gram matrix J J' keeps 2e-3. Sparse rows and dense columns go first, which keeps
+    zeros zero (measured: 733 instead of 955 operations for the 9-joint PA10). Every method speaks in the caller's order.
+
+    Attributes:
+        reflectors: (vector, 2/|vector|^2) of each reflection, the k-th acting on entries k to n - 1.
+        r: upper triangle of R, ``r[i][j]`` for i <= j < m.
+        pivots: squares of the diagonal of R.
+        rows, columns: the permutations: ``rows[i]`` of J is eliminated as the i-th.
+    """
+
+    reflectors: list[tuple[Vector, SX]]
+    r: list[list[SX]]
+    pivots: list[SX]
+    rows: list[int]
+    columns: list[int]
+
+    @property
+    def m(self) -> int:
+        """Rows of J."""
+        return len(self.rows)
+
+    @property
+    def n(self) -> int:
+        """Columns of J."""
+        return len(self.columns)
+
+    def q_transposed(self, x: Vector) -> Vector:
+        """``Q' x`` for x of n entries: the first m in the order of elimination, then coordinates in the null space."""
+        y = [x[c] for c in self.columns]
+        for j in range(self.m):
+            self._reflect(j, y)
+        return y
+
+    def _reflect(self, j: int, y: Vector) -> None:
+        v, beta = self.reflectors[j]
+        t = dot(v, y[j:]) * beta
+        for k, entry in enumerate(v):
+            y[j + k] = y[j + k] - t * entry
+
+    def null_rows(self) -> list[Vector]:
+        """n rows of n - m entries: the orthonormal null-space basis N, row by row."""
+        rows: list[Vector] = [[] for _ in range(self.n)]
+        for c in range(self.m, self.n):
+            y = [ca.SX(float(i == c)) for i in range(self.n)]
+            for j in reversed(range(self.m)):
+                self._reflect(j, y)
+            for position, column in enumerate(self.columns):
+                rows[column].append(y[position])
+        return rows
+
+    def pinv_transposed(self, rotated: Vector) -> Vector:
+        """``(J^+)' x`` from ``rotated = Q' x``, m entries; for x = e_k this is ``(J J')^-1 j_k``."""
+        x: Vector = [None] * self.m
+        for i in reversed(range(self.m)):
+            total = rotated[i]
+            for k in range(i + 1, self.m):
+                total = total - self.r[i][k] * x[k]
+            x[i] = total / self.r[i][i]
+        return [x[self.rows.index(i)] for i in range(self.m)]
+
+    def volume(self) -> SX:
+        """``sqrt(det(J J'))``, the product of the singular values of J."""
+        return ca.sqrt(self.squared_volume())
+
+    def squared_volume(self) -> SX:
+        """``det(J J')``."""
+        product = self.pivots[0]
+        for pivot in self.pivots[1:]:
+            product = product * pivot
+        return product
+
+    def squared_norm(self) -> SX:
+        """Sum of the squares of all entries of J."""
+        total = sum(self.pivots[1:], self.pivots[0])
+        for i in range(self.m):
+            for k in range(i + 1, self.m):
+                total = total + self.r[i][k] * self.r[i][k]
+        return total
+
+
+def householder(j: SX) -> HouseholderQR:
+    """Factor the transpose of J (m, n), n >= m. A rank-deficient J divides by zero: the caller tests for it."""
+    m, n = j.shape
+    order = sorted(range(m), key=lambda i: j[i, :].nnz())
+    columns = sorted(range(n), key=lambda k: -j[:, k].nnz())
+    rows = [[j[i, k] for k in columns] for i in order]
+    reflectors: list[tuple[Vector, SX]] = []
+    r: list[list[SX]] = [[ca.SX(0)] * m for _ in range(m)]
+    pivots: list[SX] = []
+    for i in range(m):
+        x = rows[i][i:]
+        pivots.append(dot(x, x))
+        length = ca.sqrt(pivots[i])
+        sign = ca.if_else(x[0] < 0, -1.0, 1.0)  # reflect away from x: no cancellation in v
+        v = [x[0] + sign * length, *x[1:]]
+        beta = 1 / (length * (length + sign * x[0]))
+        reflectors.append((v, beta))
+        r[i][i] = -sign * length
+        for k in range(i + 1, m):
+            t = dot(v, rows[k][i:]) * beta
+            for c, entry in enumerate(v):
+                rows[k][i + c] = rows[k][i + c] - t * entry
+            r[i][k] = rows[k][i]
+    return HouseholderQR(reflectors, r, pivots, order, columns)
+
+
+def jacobi_sweep(rows: list[Vector]) -> tuple[list[Vector], SX]:
+    """One sweep of one-sided Jacobi rotations over all pairs of rows.
+
+    Returns:
+        The rotated rows, and the largest cosine of an angle between two rows before its rotation: 0 when the rows are
+        orthogonal, and their lengths are then the singular values.
+
+    Source: Hestenes 1958; Demmel and Veselic 1992 for the accuracy of the small singular values.
+    """
+    rows = [list(r) for r in rows]
+    largest = ca.SX(0)
+    for i in range(len(rows)):
+        for k in range(i + 1, len(rows)):
+            a, b, g = dot(rows[i], rows[i]), dot(rows[k], rows[k]), dot(rows[i], rows[k])
+            size = ca.sqrt(a * b)
+            cosine = ca.if_else(size > 0, ca.fabs(g) / size, 0.0)
+            largest = ca.if_else(cosine > largest, cosine, largest)
+            difference = b - a
+            root = ca.fabs(difference) + ca.sqrt(difference * difference + 4 * g * g)
+            sign = ca.if_else(difference < 0, -1.0, 1.0)
+            t = ca.if_else(root > 0, 2 * sign * g / root, 0.0)  # tangent of the smaller angle that makes them orthogonal
+            c = 1 / ca.sqrt(1 + t * t)
+            s = c * t
+            first, second = rows[i], rows[k]
+            rows[i] = [c * x - s * y for x, y in zip(first, second, strict=True)]
+            rows[k] = [s * x + c * y for x, y in zip(first, second, strict=True)]
+    return rows, largest
+
+
+def squared_volume(rows: Sequence[Vector]) -> SX:
+    """``det(A A')`` of a wide s x r matrix as the sum of its squared minors (Cauchy-Binet): exact near zero, no division."""
+    s, r = len(rows), len(rows[0])
+    total = ca.SX(0)
+    for columns in combinations(range(r), s):
+        minor = determinant([[row[c] for c in columns] for row in rows])
+        total = total + minor * minor
+    return total
+
+
+def determinant(a: Sequence[Vector]) -> SX:
+    """Determinant by expansion along the first row, for the small sizes of simultaneous failures."""
+    if len(a) == 1:
+        return a[0][0]
+    total = ca.SX(0)
+    for c, entry in enumerate(a[0]):
+        minor = determinant([[*row[:c], *row[c + 1 :]] for row in a[1:]])
+        total = total + entry * minor if c % 2 == 0 else total - entry * minor
+    return total
+
+
+def solve_spd(a: list[list[SX]], b: Vector) -> Vector:
+    """Solve ``A x = b`` for a symmetric positive definite A by Cholesky (L D L', no roots)."""
+    n = len(b)
+    lower: list[list[SX]] = [[None] * n for _ in range(n)]
+    inverse: Vector = []
+    scaled: list[list[SX]] = [[None] * n for _ in range(n)]  # L D
+    for j in range(n):
+        pivot = a[j][j]
+        for k in range(j):
+            pivot = pivot - lower[j][k] * scaled[j][k]
+        inverse.append(1 / pivot)
+        for i in range(j + 1, n):
+            entry = a[i][j]
+            for k in range(j):
+                entry = entry - scaled[i][k] * lower[j][k]
+            scaled[i][j] = entry
+            lower[i][j] = entry * inverse[j]
+    x = list(b)
+    for i in range(n):
+        for k in range(i):
+            x[i] = x[i] - lower[i][k] * x[k]
+    for i in range(n):
+        x[i] = x[i] * inverse[i]
+    for i in reversed(range(n)):
+        for k in range(i + 1, n):
+            x[i] = x[i] - lower[k][i] * x[k]
+    return x
