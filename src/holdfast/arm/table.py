@@ -31,9 +31,8 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 import yaml
-from annotated_types import Len
 from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Tag, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from holdfast.arm.dh import DH
 from holdfast.arm.model import GRAVITY, Arm, Link
@@ -83,8 +82,8 @@ def _full_inertia(value: Any) -> Any:
 
 # Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
 Number = Annotated[float, BeforeValidator(_not_a_flag)]
-Three = Annotated[list[Number], Len(3, 3)]
-Four = Annotated[list[Number], Len(4, 4)]
+Three = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Four = Annotated[list[Number], Field(min_length=4, max_length=4)]
 
 
 class _Strict(BaseModel):
@@ -109,7 +108,7 @@ class _Row(_Strict):
 class _Body(_Strict):
     mass: Number
     com: Three
-    inertia: Annotated[list[Three], Len(3, 3), BeforeValidator(_full_inertia)]
+    inertia: Annotated[list[Three], Field(min_length=3, max_length=3), BeforeValidator(_full_inertia)]
     name: str | None = None
 
 
@@ -120,13 +119,13 @@ class _Placement(_Strict):
 
 TAGS = ("as rows", "as xyz and rpy")
 _Pose = Annotated[
-    Annotated[list[Four], Len(4, 4), Tag(TAGS[0])] | Annotated[_Placement, Tag(TAGS[1])],
+    Annotated[list[Four], Field(min_length=4, max_length=4), Tag(TAGS[0])] | Annotated[_Placement, Tag(TAGS[1])],
     Discriminator(lambda value: TAGS[0] if isinstance(value, list) else TAGS[1]),
 ]
 
 
 class _Table(_Strict):
-    rows: Annotated[list[_Row], Len(1)]
+    rows: Annotated[list[_Row], Field(min_length=1)]
     name: str | None = None
     convention: Literal["standard", "modified"] = "standard"
     angles: Literal["rad", "deg"] = "rad"

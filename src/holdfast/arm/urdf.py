@@ -221,7 +221,7 @@ def _joint(element: ElementTree.Element) -> _UrdfJoint:
     for role in ("parent", "child"):
         end = element.find(role)
         if end is None:
-            raise ArmError(f"{where} has no <{role}>; it needs <{role} link=\"...\"/>")
+            raise ArmError(f'{where} has no <{role}>; it needs <{role} link="..."/>')
         ends[role] = _attribute(end, "link", f"{where}: <{role}>")
     axis = np.array([1.0, 0.0, 0.0])  # the default of the format
     stated = element.find("axis")
@@ -348,7 +348,9 @@ def _arm(
     path = tree.path(base, tip or _only_tip(tree, base))
     moving = [joint for joint in path if joint.moving]
     if not moving:
-        raise ArmError(f"no moving joint lies between '{base}' and '{tip or base}'; choose a base and tip with joints in between")
+        raise ArmError(
+            f"no moving joint lies between '{base}' and '{tip or base}'; choose a base and tip with joints in between"
+        )
     for joint in moving:
         if joint.type not in MOVING:
             raise ArmError(f"joint '{joint.name}' on the chain is {joint.type}; a serial arm needs {', '.join(MOVING)}")
@@ -374,9 +376,7 @@ def _arm(
 
 def _model_joint(joint: _UrdfJoint, origin: Array) -> Joint:
     kind: JointType = "prismatic" if joint.type == "prismatic" else "revolute" if joint.type == "revolute" else "continuous"
-    return Joint(
-        joint.name, kind, origin, joint.axis, joint.lower, joint.upper, joint.velocity, joint.effort, joint.friction
-    )
+    return Joint(joint.name, kind, origin, joint.axis, joint.lower, joint.upper, joint.velocity, joint.effort, joint.friction)
 
 
 def _only_tip(tree: _Tree, base: str) -> str:

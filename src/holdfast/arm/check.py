@@ -1,0 +1,111 @@
+"""Is an arm's data sound? Findings for people, and a gate for analyses that need inertials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from holdfast.arm.model import Arm, Joint, Link
+from holdfast.errors import ArmError
+
+LARGEST_EFFORT = 20_000.0  # N m or N; beyond any arm's joint, so a placeholder
+WIDEST_RANGE = 4 * np.pi  # rad; two turns, beyond what cables allow
+ROUNDING = 1e-9  # relative to the largest moment
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that is missing, implausible or impossible.
+
+    Attributes:
+        severity: ``error``: no analysis that uses the number can be right; ``warning``: some analyses lack it.
+        subject: The joint or link, as ``joint 'elbow'``.
+        message: One sentence: what is wrong and what would be right.
+    """
+
+    severity: Literal["warning", "error"]
+    subject: str
+    message: str
+
+
+def check(arm: Arm) -> list[Finding]:
+    """All findings about an arm, from base to tip, each joint before its link; empty if there are none.
+
+    A rod without inertia about its own axis (moments 0, I, I) is accepted. Upside-down limits cannot occur: they are
+    refused when a joint is made.
+    """
+    findings: list[Finding] = []
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        findings += _joint(joint)
+        findings += _link(link, joint)
+    if arm.payload is not None:
+        findings += _body(arm.payload, "payload")
+    return findings
+
+
+def require_inertia(arm: Arm) -> None:
+    """Refuse an arm whose links are not all known, with mass and a possible inertia.
+
+    Raises:
+        ArmError: The first link that is not, and why.
+    """
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        for finding in _link(link, joint):
+            raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
+    for finding in [] if arm.payload is None else _body(arm.payload, "payload"):
+        raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
+
+
+def _joint(joint: Joint) -> list[Finding]:
+    subject = f"joint '{joint.name}'"
+    warnings = []
+    width = joint.upper - joint.lower
+    if not np.isfinite(width):
+        kind = "is continuous" if joint.type == "continuous" else "lacks a limit"
+        warnings.append(f"it {kind}; analyses over the whole joint range need lower and upper, in {joint.unit}")
+    elif width == 0:
+        warnings.append(f"its lower and upper limit are both {joint.lower:g} {joint.unit}; a joint needs room to move")
+    elif not joint.prismatic and width > WIDEST_RANGE * (1 + ROUNDING):
+        warnings.append(
+            f"its range is {width:.4g} rad; more than two turns ({WIDEST_RANGE:.4g} rad) is a placeholder on most arms"
+        )
+    speed, push = ("m/s", "N") if joint.prismatic else ("rad/s", "N m")
+    if not np.isfinite(joint.velocity):
+        warnings.append(f"it has no largest velocity; give it in {speed}")
+    elif joint.velocity <= 0:
+        warnings.append(f"its largest velocity is {joint.velocity:g} {speed}; it must be above 0")
+    if not np.isfinite(joint.effort):
+        warnings.append(f"it has no largest effort; give it in {push}")
+    elif joint.effort <= 0 or joint.effort > LARGEST_EFFORT:
+        warnings.append(
+            f"its largest effort is {joint.effort:g} {push}; it should be above 0 and below {LARGEST_EFFORT:g} {push}"
+        )
+    return [Finding("warning", subject, message) for message in warnings]
+
+
+def _link(link: Link | None, joint: Joint) -> list[Finding]:
+    if link is None:
+        message = "it has no inertial data; give mass, centre of mass and inertia for analyses with forces"
+        return [Finding("warning", f"link after joint '{joint.name}'", message)]
+    return _body(link, f"link '{link.name}'" if link.name else f"link after joint '{joint.name}'")
+
+
+def _body(body: Link, subject: str) -> list[Finding]:
+    if body.mass == 0:
+        return [Finding("error", subject, "its mass is 0 kg; a moving link needs a mass above 0")]
+    small, middle, large = np.linalg.eigvalsh(body.inertia)
+    slack = ROUNDING * max(abs(small), abs(large))
+    if small < -slack:
+        message = f"its inertia has the principal moment {small:.4g} kg m^2; all three must be 0 or more"
+        return [Finding("error", subject, message)]
+    if large > small + middle + slack:
+        message = (
+            f"its principal moments {small:.4g}, {middle:.4g} and {large:.4g} kg m^2 break the triangle inequality; "
+            "no body has one above the sum of the other two"
+        )
+        return [Finding("error", subject, message)]
+    if large <= 0:
+        return [Finding("error", subject, f"it has a mass of {body.mass:g} kg and no inertia; give its moments in kg m^2")]
+    return []

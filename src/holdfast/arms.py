@@ -1,0 +1,41 @@
+"""Where arms come from: built-in ones by name, others from URDF and DH files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from holdfast.arm import table, urdf
+from holdfast.arm.builtin import Builtin, about, load, names
+from holdfast.arm.model import Arm
+from holdfast.errors import ArmError
+
+__all__ = ["Builtin", "about", "load", "names", "resolve"]
+
+URDF_ENDINGS = (".urdf", ".xml")
+TABLE_ENDINGS = (".yaml", ".yml")
+
+
+def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
+    """The arm that a person means on the command line.
+
+    Args:
+        spec: A built-in name (see :func:`names`), a path ending in ``.urdf`` or ``.xml``, or a path of a DH table ending in
+            ``.yaml`` or ``.yml`` (see :mod:`holdfast.arm.table`).
+        base, tip: Links of a URDF file between which the arm lies; see :func:`holdfast.arm.urdf.load`.
+
+    Raises:
+        ArmError: There is no such arm, the file is wrong, or base and tip are given for something that is not a URDF file.
+    """
+    ending = Path(spec).suffix.lower()
+    if spec in names() or ending in TABLE_ENDINGS:
+        if base is not None or tip is not None:
+            raise ArmError(f"'{spec}' is not a URDF file, so it has no links to choose; leave out base and tip")
+        return load(spec) if spec in names() else table.load(spec)
+    if ending in URDF_ENDINGS:
+        return urdf.load(spec, base, tip)
+    if Path(spec).exists():
+        raise ArmError(f"'{spec}' is neither a URDF file (.urdf, .xml) nor a DH table (.yaml, .yml); rename or convert it")
+    try:
+        return load(spec)
+    except ArmError as error:
+        raise ArmError(f"{error}; give one of these (see 'holdfast arms'), a .urdf file or a .yaml DH table") from error

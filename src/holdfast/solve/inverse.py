@@ -1,0 +1,249 @@
+"""Inverse kinematics of whole batches: damped least squares from random starts, within the joint limits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, as_task
+from holdfast.errors import InputError
+from holdfast.kernels import SX, Kernel, Loop
+from holdfast.linalg import solve_spd
+from holdfast.status import Status, require_ok
+
+Array = NDArray[np.float64]
+
+STEPS = 40  # per start; most starts that arrive do so within 15
+_FREE_RANGE = np.pi  # start interval of a joint without limits: +-pi rad, or +-1 m for a sliding one
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Configurations found for N poses, or for one (then without the leading N).
+
+    Attributes:
+        q: (N, n) rad and m, within the limits; the best found where ``status`` is not OK, NaN where the pose is NaN.
+        status: (N,) ``OK``, ``NOT_FOUND`` (not found within the budget, which proves nothing) or ``BAD_INPUT``.
+        position_error: (N,) m, of the task rows.
+        rotation_error: (N,) rad, of the task rows; 0 for a task without angular rows.
+        restarts: (N,) starts used.
+    """
+
+    q: Array
+    status: NDArray[np.uint8]
+    position_error: Array
+    rotation_error: Array
+    restarts: NDArray[np.int64]
+
+    @property
+    def success(self) -> NDArray[np.bool_]:
+        """(N,) True where the pose is reached within tolerance and limits."""
+        return np.asarray(self.status == Status.OK)
+
+    def require_ok(self) -> Reach:
+        """Itself, or :class:`holdfast.HoldfastError` naming the first row that failed."""
+        require_ok(self.status, "inverse kinematics")
+        return self
+
+
+def check_poses(poses: ArrayLike) -> Array:
+    """Poses as (N, 4, 4) float64.
+
+    Raises:
+        InputError: Not 4x4, or the upper left block of a finite pose is not a rotation.
+    """
+    t = np.asarray(poses, dtype=np.float64)
+    if t.ndim not in (2, 3) or t.shape[-2:] != (4, 4):
+        raise InputError(f"poses have shape {t.shape}; they must be (4, 4) or (N, 4, 4) arrays")
+    t = t.reshape(-1, 4, 4)
+    rotation = t[:, :3, :3]
+    finite = np.isfinite(t).all(axis=(1, 2))
+    off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2), initial=0.0)
+    wrong = np.flatnonzero(finite & ((off > 1e-6) | (np.linalg.det(np.where(finite[:, None, None], rotation, np.eye(3))) < 0)))
+    if wrong.size:
+        raise InputError(f"pose {wrong[0]} has no rotation in its upper left 3x3 block (orthonormal, determinant +1)")
+    return t
+
+
+def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
+    """World-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest turn, also near 180 degrees."""
+    r = target_rotation @ rotation.T
+    skew = 0.5 * ca.vertcat(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])  # axis sin(angle)
+    sine, cosine = ca.sqrt(ca.sumsqr(skew)), 0.5 * (r[0, 0] + r[1, 1] + r[2, 2] - 1)
+    angle = ca.atan2(sine, cosine)
+    factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
+    return ca.vertcat(target - position, skew * factor)
+
+
+def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
+    """As :func:`pose_error` for a task that leaves the turn about the tool axis free: turns z to the target's z."""
+    z, zd = rotation[:, 2], target_rotation[:, 2]
+    turn = ca.cross(z, zd)
+    sine, cosine = ca.sqrt(ca.sumsqr(turn)), ca.dot(z, zd)
+    angle = ca.atan2(sine, cosine)
+    factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
+    return ca.vertcat(target - position, turn * factor)
+
+
+class InverseKinematics:
+    """The compiled solver of one arm and task.
+
+    One step is damped least squares with the joints that press against a limit taken out:
+    ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
+    """
+
+    def __init__(self, arm: Arm, task: Task) -> None:
+        self.arm, self.task = arm, task
+        q = kinematics.joint_symbols(arm)
+        p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        chain = kinematics.chain(arm, q)
+        free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
+        error = (pointing_error if free_spin else pose_error)(chain.position, chain.rotation, p, r)
+        e = task.error(error, chain.rotation)
+        # Errors are in metres and radians whatever the characteristic length of the indices.
+        full = kinematics.jacobian_of(arm, chain, chain.position)
+        j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
+        step, residual = _damped_step(arm, q, e, j)
+        self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
+        linear = ca.SX(ca.DM(task.rows * np.r_[1, 1, 1, 0, 0, 0]))
+        angular = ca.SX(ca.DM(task.rows * np.r_[0, 0, 0, 1, 1, 1]))
+        twist = error if task.frame == "base" else ca.vertcat(chain.rotation.T @ error[:3], chain.rotation.T @ error[3:])
+        self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(linear @ twist), ca.norm_2(angular @ twist))])
+        bounded = np.where(arm.prismatic, 1.0, _FREE_RANGE)
+        self._low = np.where(np.isfinite(arm.lower), arm.lower, -bounded)
+        self._high = np.where(np.isfinite(arm.upper), arm.upper, bounded)
+
+    def starts(self, rows: int, generator: np.random.Generator) -> Array:
+        """Random configurations (rows, n), uniform within the limits."""
+        return generator.uniform(self._low, self._high, (rows, self.arm.n))
+
+    def solve(
+        self, poses: Array, seed: np.random.SeedSequence, restarts: int, tolerance: float, first: Array | None = None
+    ) -> Reach:
+        """Solve (N, 4, 4) poses.
+
+        Start k of pose i is row i of a draw from child k of ``seed``, so it does not depend on which poses are left.
+        """
+        rows = len(poses)
+        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(rows, 9)], axis=1)
+        finite = np.isfinite(parameters).all(axis=1)
+        q = np.full((rows, self.arm.n), np.nan)
+        residual = np.full(rows, np.inf)
+        used = np.zeros(rows, dtype=np.int64)
+        left = np.flatnonzero(finite)
+        children = np.random.SeedSequence(seed.entropy, spawn_key=seed.spawn_key).spawn(restarts)
+        for k in range(restarts):
+            if not left.size:
+                break
+            draw = first if k == 0 and first is not None else self.starts(rows, np.random.default_rng(children[k]))
+            run = self._loop.run(draw[left], parameters[left], tolerance**2, STEPS)
+            used[left] += 1
+            better = run.residual < residual[left]
+            q[left[better]] = run.state[better]
+            residual[left[better]] = run.residual[better]
+            left = left[~run.done]
+        q = self._wrapped(q)
+        position_error, rotation_error = np.full(rows, np.nan), np.full(rows, np.nan)
+        known = np.flatnonzero(np.isfinite(q).all(axis=1))
+        errors = self._errors(q[known], poses[known, :3, 3], poses[known, :3, :3])
+        position_error[known], rotation_error[known] = errors[:, 0], errors[:, 1]
+        # The verdict comes from the configuration handed out, not from the solver's own residual.
+        inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
+        good = inside & (position_error <= tolerance) & (rotation_error <= tolerance)
+        status = np.where(good, Status.OK, Status.NOT_FOUND).astype(np.uint8)
+        status[~finite] = Status.BAD_INPUT
+        return Reach(q, status, position_error, rotation_error, used)
+
+    def _wrapped(self, q: Array) -> Array:
+        """Joints without limits come back to -pi..pi."""
+        turning = [k for k, j in enumerate(self.arm.joints) if not j.prismatic and np.isinf(j.lower) and np.isinf(j.upper)]
+        q[:, turning] = np.arctan2(np.sin(q[:, turning]), np.cos(q[:, turning]))
+        return q
+
+
+def _damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
+    m, n = e.numel(), arm.n
+    size = ca.sumsqr(e)
+    pull = [ca.dot(j[:, k], e) for k in range(n)]
+    active = []
+    for k in range(n):
+        # CasADi has no short way to say "at the lower limit and pulled below it".
+        low = ca.logic_and(q[k] <= arm.lower[k], pull[k] < 0) if np.isfinite(arm.lower[k]) else ca.SX(0)
+        high = ca.logic_and(q[k] >= arm.upper[k], pull[k] > 0) if np.isfinite(arm.upper[k]) else ca.SX(0)
+        active.append(ca.if_else(ca.logic_or(low, high), 0.0, 1.0))
+    masked = ca.horzcat(*[j[:, k] * active[k] for k in range(n)])
+    gram = masked @ masked.T
+    damping = 1e-3 * size + 1e-12
+    a = [[gram[i, k] + (damping if i == k else 0) for k in range(m)] for i in range(m)]
+    y = ca.vertcat(*solve_spd(a, [e[i] for i in range(m)]))
+    step = masked.T @ y
+    moved = []
+    for k in range(n):
+        x = q[k] + step[k]
+        if np.isfinite(arm.lower[k]):
+            x = ca.if_else(x < arm.lower[k], arm.lower[k], x)
+        if np.isfinite(arm.upper[k]):
+            x = ca.if_else(x > arm.upper[k], arm.upper[k], x)
+        moved.append(x)
+    return ca.vertcat(*moved), size
+
+
+@lru_cache(maxsize=16)
+def _solver(arm: Arm, task: Task) -> InverseKinematics:
+    return InverseKinematics(arm, task)
+
+
+def solver(arm: Arm, task: Task) -> InverseKinematics:
+    """The solver of an arm and task, compiled once."""
+    return _solver(arm, task)
+
+
+def solve_ik(
+    arm: Arm,
+    poses: ArrayLike,
+    seed: int = 0,
+    task: str | Task | Sequence[str] = "pose",
+    restarts: int = 100,
+    tolerance: float = 1e-6,
+    start: ArrayLike | None = None,
+) -> Reach:
+    """Configurations that put the hand at poses, within the joint limits.
+
+    Args:
+        arm: The arm.
+        poses: (4, 4) or (N, 4, 4) tool poses in the world; of them only the task's rows must be met.
+        seed: Of the random starts: the same seed gives the same result.
+        task: Rows of the pose that matter.
+        restarts: Random starts per pose before giving up.
+        tolerance: Largest error, m and rad.
+        start: (n,) or (N, n) where to start from the first time; random if not given.
+
+    Returns:
+        A :class:`Reach`. It never says OK for a configuration outside the limits or beyond the tolerance.
+
+    Raises:
+        InputError: Poses that are not 4x4 transforms, or options out of range.
+    """
+    targets = check_poses(poses)
+    if restarts < 1:
+        raise InputError(f"restarts is {restarts}; it must be 1 or more")
+    if not tolerance > 0:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    engine = solver(arm, as_task(arm, task))
+    first = None
+    if start is not None:
+        first = np.broadcast_to(arm.check_configurations(start), (len(targets), arm.n))
+        if not np.isfinite(first).all():
+            raise InputError("start holds NaN or infinity; give finite joint values")
+        first = np.clip(first, arm.lower, arm.upper)
+    result = engine.solve(targets, np.random.SeedSequence(seed), restarts, tolerance, first)
+    if np.ndim(poses) == 2:
+        return Reach(*(getattr(result, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))
+    return result
