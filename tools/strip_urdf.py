@@ -2,9 +2,9 @@
 
 Usage: python tools/strip_urdf.py IN.urdf OUT.urdf
 
-Kept word for word: ``<inertial>``, ``<origin>``, ``<parent>``, ``<child>``, ``<axis>``, ``<limit>``, ``<dynamics>``, ``<mimic>`` and
-the comments before ``<robot>`` (where licences stand). Dropped: everything else, such as visuals, collisions, materials,
-transmissions, controllers and simulator tags. No number is rewritten.
+Kept word for word: the inertials of links; origin, parent, child, axis, limit, dynamics and mimic of joints; the comments
+before ``<robot>`` (where licences stand). Dropped: everything else, such as visuals, collisions, materials, transmissions,
+controllers and simulator tags. No number is rewritten.
 """
 
 from __future__ import annotations

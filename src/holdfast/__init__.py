@@ -1,7 +1,37 @@
 """holdfast: what happens to the task when a joint of a redundant arm fails, and what can be done about it beforehand."""
 
+from holdfast import arms, indices
 from holdfast.arm import DH, Arm, Joint, Link
+from holdfast.arm.task import Task
+from holdfast.assess import Assessment, Region, assess, load
+from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
+from holdfast.kernels import set_threads
+from holdfast.solve import Reach, solve_ik
+from holdfast.status import Status
 
 __version__ = "0.1.0"
 
-__all__ = ["DH", "Arm", "Joint", "Link", "__version__"]
+__all__ = [
+    "DH",
+    "Arm",
+    "ArmError",
+    "Assessment",
+    "HoldfastError",
+    "InputError",
+    "Joint",
+    "KernelError",
+    "Link",
+    "Reach",
+    "Region",
+    "Status",
+    "StoreError",
+    "Task",
+    "TaskError",
+    "__version__",
+    "arms",
+    "assess",
+    "indices",
+    "load",
+    "set_threads",
+    "solve_ik",
+]

@@ -21,7 +21,8 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
     Args:
         spec: A built-in name (see :func:`names`), a path ending in ``.urdf`` or ``.xml``, or a path of a DH table ending in
             ``.yaml`` or ``.yml`` (see :mod:`holdfast.arm.table`).
-        base, tip: Links of a URDF file between which the arm lies; see :func:`holdfast.arm.urdf.load`.
+        base: Link of a URDF file on which the arm stands; see :func:`holdfast.arm.urdf.load`.
+        tip: Link of a URDF file whose frame is the tool.
 
     Raises:
         ArmError: There is no such arm, the file is wrong, or base and tip are given for something that is not a URDF file.

@@ -111,9 +111,9 @@ def _entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             _pa10_7,
             (0, 30, 0, 90, 0, 60, 0),
             "Mitsubishi PA10-7C, kinematics only",
-            "link lengths as in the first joints of Table I of Abdi, Maciejewski and Nahavandi (2012), with the PA10's own last "
-            "row; limits from the maker's general specification of the PA10-7C as commonly published, not from the paper; no "
-            "inertials",
+            "link lengths as in the first joints of Table I of Abdi, Maciejewski and Nahavandi (2012), with the PA10's own "
+            "last row; limits from the maker's general specification of the PA10-7C as commonly published, not from the "
+            "paper; no inertials",
             "pose",
         ),
         in_code(

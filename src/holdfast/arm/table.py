@@ -36,6 +36,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Fiel
 
 from holdfast.arm.dh import DH
 from holdfast.arm.model import GRAVITY, Arm, Link
+from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -181,23 +182,19 @@ def _sentence(error: ValidationError) -> str:
         case "value_error":
             return f"{place}: {given} is wrong; {first['ctx']['error']}"
         case "too_short" | "too_long":
-            return f"{place}: it has {first['ctx']['actual_length']} entries; it must have {_wanted(first['ctx'])}"
+            return f"{place}: it has {first['ctx']['actual_length']} entries; it must have {_length(first['ctx'])}"
         case _:
             return f"{place}: {given} is wrong; {first['msg'][0].lower()}{first['msg'][1:]}"
 
 
-def _wanted(context: dict[str, Any]) -> str:
-    return f"at least {context['min_length']}" if context.get("min_length") == 1 else str(_bound(context))
-
-
-def _bound(context: dict[str, Any]) -> int:
-    return int(context["min_length"] if "min_length" in context else context["max_length"])
+def _length(context: dict[str, Any]) -> str:
+    least = context.get("min_length", context.get("max_length"))
+    return "at least 1" if least == 1 else str(least)
 
 
 def _keys(trail: tuple[int | str, ...]) -> list[str]:
-    model: type[BaseModel] = _Table
-    if len(trail) > 1:
-        model = {"rows": _Row, "links": _Body, "payload": _Body}.get(str(trail[0]), _Placement)
+    inner: dict[str, type[BaseModel]] = {"rows": _Row, "links": _Body, "payload": _Body}
+    model = _Table if len(trail) == 1 else inner.get(str(trail[0]), _Placement)
     return list(model.model_fields)
 
 
@@ -233,11 +230,6 @@ def _link(body: _Body, label: str) -> Link:
 def _pose(pose: list[list[float]] | _Placement | None, unit: float) -> Array | None:
     if not isinstance(pose, _Placement):
         return None if pose is None else np.array(pose)
-    roll, pitch, yaw = (angle * unit for angle in pose.rpy)
-    (cr, sr), (cp, sp), (cy, sy) = ((np.cos(x), np.sin(x)) for x in (roll, pitch, yaw))
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
     out = np.eye(4)
-    out[:3, :3], out[:3, 3] = about_z @ about_y @ about_x, pose.xyz
+    out[:3, :3], out[:3, 3] = rpy_rotation([angle * unit for angle in pose.rpy]), pose.xyz
     return out

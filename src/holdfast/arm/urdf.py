@@ -282,19 +282,23 @@ def _size(element: ElementTree.Element, key: str, where: str) -> float:
 
 
 def _origin(element: ElementTree.Element, where: str) -> Array:
-    """(4, 4) from ``<origin xyz rpy>``: roll, pitch, yaw about the fixed x, y, z axes, so ``Rz(yaw) Ry(pitch) Rx(roll)``."""
+    """(4, 4) from ``<origin xyz rpy>``."""
     pose = np.eye(4)
     origin = element.find("origin")
     if origin is None:
         return pose
     pose[:3, 3] = _numbers(origin.get("xyz", "0 0 0"), 3, f"{where}: origin xyz")
-    angles = _numbers(origin.get("rpy", "0 0 0"), 3, f"{where}: origin rpy")
-    (cr, sr), (cp, sp), (cy, sy) = (_cos_sin(angle) for angle in angles)
+    pose[:3, :3] = rpy_rotation(_numbers(origin.get("rpy", "0 0 0"), 3, f"{where}: origin rpy"))
+    return pose
+
+
+def rpy_rotation(rpy: Sequence[float]) -> Array:
+    """(3, 3) rotation from roll, pitch, yaw (3,), rad, about the fixed x, y, z axes in turn: ``Rz(yaw) Ry(pitch) Rx(roll)``."""
+    (cr, sr), (cp, sp), (cy, sy) = (_cos_sin(angle) for angle in rpy)
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    pose[:3, :3] = about_z @ about_y @ about_x
-    return pose
+    return about_z @ about_y @ about_x
 
 
 def _cos_sin(angle: float) -> tuple[float, float]:
@@ -310,7 +314,7 @@ def _turn(axis: Array, angle: float) -> Array:
     c, s = _cos_sin(angle)
     x, y, z = axis
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis)
+    return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))
 
 
 def _attribute(element: ElementTree.Element, key: str, where: str) -> str:
@@ -345,12 +349,11 @@ def _arm(
         if link is not None and link not in tree.bodies:
             raise ArmError(f"there is no {role} link '{link}'; the links are {', '.join(tree.bodies)}")
     base = base or tree.root
-    path = tree.path(base, tip or _only_tip(tree, base))
+    tip = tip or _only_tip(tree, base)
+    path = tree.path(base, tip)
     moving = [joint for joint in path if joint.moving]
     if not moving:
-        raise ArmError(
-            f"no moving joint lies between '{base}' and '{tip or base}'; choose a base and tip with joints in between"
-        )
+        raise ArmError(f"no moving joint lies between '{base}' and '{tip}'; choose a base and tip with joints in between")
     for joint in moving:
         if joint.type not in MOVING:
             raise ArmError(f"joint '{joint.name}' on the chain is {joint.type}; a serial arm needs {', '.join(MOVING)}")

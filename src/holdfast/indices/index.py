@@ -180,6 +180,11 @@ class Index(ABC):
             raise InputError(f"q for '{self.arm.name}' holds NaN or infinity; give {self.arm.n} finite numbers")
         return np.atleast_2d(a), single
 
+    @property
+    def slug(self) -> str:
+        """The name as used on the command line and in files."""
+        return self.name.replace(" ", "-")
+
     def describe(self) -> str:
         """One phrase for people: what it is, of which task, after which failures."""
         kinds = {len(s) for s in self.failures}

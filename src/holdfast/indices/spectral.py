@@ -31,7 +31,7 @@ _BLOCK = 1024  # with every failure some thousand small matrices: they stay in t
 
 _SOURCES = {
     "mean": ("mean singular value", "Abdi et al. 2012, eq. (7)"),
-    "geometric mean": ("geometric mean of the singular values", "Abdi et al. 2012, eq. (8)"),
+    "geometric mean": ("geometric mean singular value", "Abdi et al. 2012, eq. (8)"),
     "minimum": ("minimum singular value", "Abdi et al. 2012, eq. (9)"),
     "condition number": ("condition number", "Abdi et al. 2012, eq. (10)"),
 }

@@ -1,0 +1,72 @@
+"""An arm as plain data and back, so that a results folder can say exactly which arm it is about."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from holdfast.arm.model import Arm, Joint, Link
+from holdfast.errors import ArmError
+
+_JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
+
+
+def to_dict(arm: Arm) -> dict[str, Any]:
+    """Everything that defines the arm, as JSON types; infinite limits become null."""
+    return {
+        "name": arm.name,
+        "source": arm.source,
+        "base": arm.base.tolist(),
+        "tool": arm.tool.tolist(),
+        "gravity": arm.gravity.tolist(),
+        "joints": [
+            {
+                "name": j.name,
+                "type": j.type,
+                "origin": j.origin.tolist(),
+                "axis": j.axis.tolist(),
+                **{f: (getattr(j, f) if np.isfinite(getattr(j, f)) else None) for f in _JOINT_NUMBERS},
+            }
+            for j in arm.joints
+        ],
+        "links": [_link_to_dict(x) for x in arm.links],
+        "payload": _link_to_dict(arm.payload),
+    }
+
+
+def from_dict(data: dict[str, Any]) -> Arm:
+    """The arm that :func:`to_dict` wrote.
+
+    Raises:
+        ArmError: The data are not such a description.
+    """
+    try:
+        joints = []
+        for entry in data["joints"]:
+            values = {f: entry[f] for f in _JOINT_NUMBERS if entry[f] is not None}
+            joints.append(Joint(entry["name"], entry["type"], np.array(entry["origin"]), np.array(entry["axis"]), **values))
+        return Arm(
+            name=data["name"],
+            joints=tuple(joints),
+            links=tuple(_link_from_dict(x) for x in data["links"]),
+            base=np.array(data["base"]),
+            tool=np.array(data["tool"]),
+            gravity=np.array(data["gravity"]),
+            payload=_link_from_dict(data["payload"]),
+            source=data["source"],
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ArmError(f"this is not an arm description written by holdfast: {error!r} is missing or malformed") from error
+
+
+def _link_to_dict(link: Link | None) -> dict[str, Any] | None:
+    if link is None:
+        return None
+    return {"name": link.name, "mass": link.mass, "com": link.com.tolist(), "inertia": link.inertia.tolist()}
+
+
+def _link_from_dict(data: dict[str, Any] | None) -> Link | None:
+    if data is None:
+        return None
+    return Link(data["mass"], np.array(data["com"]), np.array(data["inertia"]), data["name"])

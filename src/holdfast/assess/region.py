@@ -1,0 +1,277 @@
+"""Regions: which poses matter, and how often."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import yaml
+from numpy.typing import ArrayLike, NDArray
+from pydantic import BaseModel, ConfigDict, ValidationError
+from scipy.spatial.transform import Rotation
+from scipy.stats import qmc
+
+from holdfast.arm.model import Arm
+from holdfast.errors import InputError
+
+Array = NDArray[np.float64]
+Sampling = Literal["random", "sobol"]
+
+_POSE_BLOCK = 1024
+_JOINT_BLOCK = 16384
+
+
+def rotation_from_rpy(rpy: ArrayLike) -> Array:
+    """Rotation matrices (..., 3, 3) from (roll, pitch, yaw), rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+
+    This is the order of the paper's toolbox, *not* the one of URDF and ROS, ``Rz(yaw) Ry(pitch) Rx(roll)``: the two swap
+    the names of the first and the last angle. Convert at the edge by reversing the three numbers.
+
+    Source: Abdi et al. 2012, section V.B; see ``docs/conventions``.
+    """
+    return np.asarray(Rotation.from_euler("ZYX", np.asarray(rpy, dtype=np.float64)).as_matrix())
+
+
+def rpy_from_rotation(rotation: ArrayLike) -> Array:
+    """One (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
+    return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
+
+
+@dataclass(frozen=True)
+class Region:
+    """A distribution of poses (a box in position and angles) or of configurations (a box in the joints).
+
+    Use :meth:`box` or :meth:`joints`. Samples come in blocks, each with its own seed, so that the k-th sample of a seed
+    is the same whatever is computed before, beside or after it.
+
+    Attributes:
+        kind: ``box`` or ``joints``.
+        center, size: Of the box: (6,) position then roll, pitch, yaw; or (n,) joints. m and rad.
+        name: For reports.
+    """
+
+    kind: Literal["box", "joints"]
+    center: tuple[float, ...]
+    size: tuple[float, ...]
+    name: str = "region"
+
+    @classmethod
+    def box(
+        cls,
+        center: ArrayLike,
+        size: ArrayLike,
+        rpy_center: ArrayLike = (0.0, 0.0, 0.0),
+        rpy_size: ArrayLike = (0.0, 0.0, 0.0),
+        name: str = "region",
+    ) -> Region:
+        """Poses uniform in a box of positions and, independently, a box of angles.
+
+        Args:
+            center, size: (3,) middle and full edge lengths in the world, m; a scalar size is a cube.
+            rpy_center, rpy_size: (3,) middle and full ranges of (roll, pitch, yaw), rad; angles are drawn about the centre
+                by addition, so they may leave +-90 degrees. ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+            name: For reports.
+
+        Raises:
+            InputError: Not three finite numbers, or a negative size.
+        """
+        parts = []
+        for what, value, scalar in (
+            ("center", center, False),
+            ("size", size, True),
+            ("rpy_center", rpy_center, False),
+            ("rpy_size", rpy_size, True),
+        ):
+            a = np.asarray(value, dtype=np.float64)
+            if scalar and a.ndim == 0:
+                a = np.full(3, float(a))
+            if a.shape != (3,) or not np.isfinite(a).all():
+                raise InputError(f"region: {what} is {value!r}; it must be 3 finite numbers")
+            if scalar and (a < 0).any():
+                raise InputError(f"region: {what} is {a.tolist()}; sizes must not be negative")
+            parts.append(a)
+        middle, edges = np.r_[parts[0], parts[2]], np.r_[parts[1], parts[3]]
+        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name)
+
+    @classmethod
+    def joints(cls, lower: ArrayLike, upper: ArrayLike, name: str = "joint range") -> Region:
+        """Configurations uniform between (n,) lower and upper joint values, rad and m: no inverse kinematics.
+
+        Raises:
+            InputError: Limits that are infinite, upside down or of different length.
+        """
+        low, high = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
+        if low.ndim != 1 or low.shape != high.shape:
+            raise InputError(f"region of joints: lower has shape {low.shape} and upper {high.shape}; both must be (n,)")
+        if not (np.isfinite(low).all() and np.isfinite(high).all()):
+            raise InputError("region of joints: a limit is infinite; give finite ranges, for example -pi to pi")
+        if (low > high).any():
+            k = int(np.flatnonzero(low > high)[0])
+            raise InputError(f"region of joints: lower {low[k]:g} of joint {k + 1} is above upper {high[k]:g}; swap them")
+        return cls("joints", tuple(((low + high) / 2).tolist()), tuple((high - low).tolist()), name)
+
+    @classmethod
+    def around(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
+        """A region to begin with when none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
+
+        Angles range 90 degrees about the pose at ``q``; for an arm that moves in a plane, positions stay in that plane and
+        the angle is free. ``q`` is the middle of the joint ranges if not given.
+        """
+        from holdfast.arm.task import plane_normal
+
+        low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+        high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+        middle = (low + high) / 2 if q is None else arm.check_configurations(q)
+        pose = arm.forward_kinematics(middle)
+        reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
+        edge = share * max(reach, 1e-3)
+        angles = rpy_from_rotation(pose[:3, :3])
+        normal = plane_normal(arm)
+        if normal is not None and abs(normal[2]) > 1 - 1e-9:
+            return cls.box(pose[:3, 3], [edge, edge, 0.0], angles, [2 * np.pi, 0.0, 0.0], name="default region")
+        return cls.box(pose[:3, 3], edge, angles, np.pi / 2, name="default region")
+
+    # ---- sampling --------------------------------------------------------------------------------------------------
+
+    @property
+    def block(self) -> int:
+        """Samples per block: the unit that has its own seed."""
+        return _POSE_BLOCK if self.kind == "box" else _JOINT_BLOCK
+
+    def blocks(self, first: int, seed: int, sampling: Sampling = "random") -> Iterator[Array]:
+        """Blocks of samples (block, 6) or (block, n), in order, from block number ``first`` on.
+
+        Args:
+            first: Number of the first block.
+            seed: Of the run.
+            sampling: ``random`` or ``sobol`` (scrambled low-discrepancy points; use a power of two of them).
+        """
+        width = len(self.center)
+        low = np.array(self.center) - np.array(self.size) / 2
+        engine = None
+        if sampling == "sobol":
+            engine = qmc.Sobol(width, scramble=True, rng=np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))))
+            if first:
+                engine.fast_forward(first * self.block)
+        number = first
+        while True:
+            if engine is not None:
+                unit = engine.random(self.block)
+            else:
+                generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
+                unit = generator.random((self.block, width))
+            unit *= np.array(self.size)
+            unit += low
+            yield unit
+            number += 1
+
+    def poses(self, samples: Array) -> Array:
+        """Poses (N, 4, 4) of samples (N, 6) of a box."""
+        t = np.zeros((len(samples), 4, 4))
+        t[:, :3, 3] = samples[:, :3]
+        t[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
+        t[:, 3, 3] = 1.0
+        return t
+
+    # ---- files -----------------------------------------------------------------------------------------------------
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON data of the region."""
+        return {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Region:
+        """The region :meth:`to_dict` wrote."""
+        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"])
+
+    @classmethod
+    def load(cls, path: str | Path) -> Region:
+        """A region from a YAML file; see ``docs/files``.
+
+        Raises:
+            InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+        """
+        file = Path(path)
+        try:
+            data = yaml.safe_load(file.read_text())
+        except OSError as error:
+            raise InputError(f"cannot read region file '{file}': {error.strerror}") from error
+        except (yaml.YAMLError, UnicodeDecodeError) as error:
+            reason = " ".join(str(error).split())
+            raise InputError(f"region file '{file}' is not valid YAML: {reason}") from error
+        if not isinstance(data, dict):
+            raise InputError(f"region file '{file}' must hold 'box:' or 'joints:' at its top level")
+        try:
+            model = _RegionFile.model_validate(data)
+        except ValidationError as error:
+            raise InputError(f"region file '{file}': {_first(error)}") from error
+        if (model.box is None) == (model.joints is None):
+            raise InputError(f"region file '{file}' must hold either 'box:' or 'joints:'")
+        name = model.name or file.stem
+        unit = np.pi / 180 if model.angles == "deg" else 1.0
+        try:
+            if model.box is not None:
+                b = model.box
+                size = np.broadcast_to(b.size, 3)
+                return cls.box(b.center, size, np.multiply(b.rpy_center, unit), np.broadcast_to(b.rpy_size, 3) * unit, name=name)
+            assert model.joints is not None
+            return cls.joints(np.multiply(model.joints.lower, unit), np.multiply(model.joints.upper, unit), name=name)
+        except InputError as error:
+            raise InputError(f"region file '{file}': {error}") from error
+
+    def describe(self) -> str:
+        """One sentence for people, degrees and metres."""
+        if self.kind == "joints":
+            return f"configurations uniform in a box of {len(self.center)} joints"
+        c, s = np.array(self.center), np.array(self.size)
+        return (
+            f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; roll, pitch, yaw in "
+            f"{np.rad2deg(s[3]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[5]):.4g} deg about "
+            f"({np.rad2deg(c[3]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[5]):.4g}) deg, R = Rz(roll) Ry(pitch) Rx(yaw)"
+        )
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class _Box(_Strict):
+    center: tuple[float, float, float]
+    size: float | tuple[float, float, float]
+    rpy_center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rpy_size: float | tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+class _Joints(_Strict):
+    lower: list[float]
+    upper: list[float]
+
+
+class _RegionFile(_Strict):
+    name: str | None = None
+    angles: Literal["deg", "rad"] = "rad"
+    box: _Box | None = None
+    joints: _Joints | None = None
+
+
+def _first(error: ValidationError) -> str:
+    entry = error.errors()[0]
+    place = _place(entry["loc"])
+    if entry["type"] == "extra_forbidden":
+        known = _known_keys(entry["loc"][:-1])
+        return f"key '{place}' is not known; keys there are {', '.join(known)}"
+    if entry["type"] == "missing":
+        return f"key '{place}' is missing"
+    return f"{place}: {entry['msg'].lower()}, got {entry.get('input')!r}"
+
+
+def _place(loc: Sequence[int | str]) -> str:
+    return ".".join(str(x) for x in loc)
+
+
+def _known_keys(loc: Sequence[int | str]) -> list[str]:
+    model: type[BaseModel] = {"box": _Box, "joints": _Joints}.get(str(loc[0]), _RegionFile) if loc else _RegionFile
+    return list(model.model_fields)

@@ -1,0 +1,288 @@
+"""A results folder: chunks of rows in Zarr, each committed as a whole, so that a stopped run can go on.
+
+Knows no robots: rows have named columns. The folder holds ``samples.zarr``, readable with ``xarray.open_zarr``, and
+``run.json``, which says what is computed and which chunks are done. A chunk counts only once ``run.json`` names it,
+and ``run.json`` is replaced in one step; whatever a crash leaves behind is computed again.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import StoreError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_FORMAT = "holdfast-run"
+_VERSION = 1
+_RUN = "run.json"
+_SAMPLES = "samples.zarr"
+_LOCK = "run.lock"
+
+
+@dataclass(frozen=True)
+class Column:
+    """One quantity per row.
+
+    Attributes:
+        name: Of the variable.
+        dtype: NumPy name.
+        dims: Names of the further dimensions, with their lengths.
+        units: Text for people, ``1`` if none.
+        about: What it is.
+    """
+
+    name: str
+    dtype: str
+    dims: tuple[tuple[str, int], ...] = ()
+    units: str = "1"
+    about: str = ""
+
+    @property
+    def fill(self) -> Any:
+        """Value of rows not computed yet: NaN, or the largest value of an unsigned type, or -1."""
+        kind = np.dtype(self.dtype)
+        if kind.kind == "f":
+            return np.nan
+        return int(np.iinfo(kind).max) if kind.kind == "u" else -1
+
+
+class Store:
+    """A results folder opened for writing or reading; see :meth:`create`, :meth:`open`."""
+
+    def __init__(self, path: Path, run: dict[str, Any]) -> None:
+        self.path = path
+        self._run = run
+
+    # ---- opening ---------------------------------------------------------------------------------------------------
+
+    @classmethod
+    def create(cls, path: str | Path, plan: Mapping[str, Any], columns: list[Column], rows: int, chunk: int) -> Store:
+        """A new folder, or the existing one if it belongs to the same plan, ready to go on.
+
+        Args:
+            path: The folder; its parent must exist or be creatable.
+            plan: JSON data that defines the results; two runs with equal plans are the same run.
+            columns: What each row holds.
+            rows: Number of rows.
+            chunk: Rows per chunk.
+
+        Raises:
+            StoreError: Not writable, not a results folder, or a folder of another plan; the message names the difference.
+        """
+        folder = Path(path)
+        plan = json.loads(json.dumps(plan))
+        if (folder / _RUN).exists():
+            store = cls.open(folder)
+            old = store.plan
+            if old != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
+                raise StoreError(
+                    f"'{folder}' holds another run: {_difference(old, plan, store._run, rows, chunk)}; "
+                    "give another folder, or the same options to go on with it"
+                )
+            return store
+        if folder.exists() and any(folder.iterdir()):
+            raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast run; give a new or empty folder")
+        run = {
+            "format": _FORMAT,
+            "version": _VERSION,
+            "plan": plan,
+            "rows": rows,
+            "chunk": chunk,
+            "done": [],
+            "columns": [[c.name, c.dtype, [list(d) for d in c.dims], c.units, c.about] for c in columns],
+            "notes": {},
+        }
+        store = cls(folder, run)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            store._make_arrays(columns)
+            store._commit()
+        except OSError as error:
+            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        return store
+
+    @classmethod
+    def open(cls, path: str | Path) -> Store:
+        """An existing folder.
+
+        Raises:
+            StoreError: There is no run, or ``run.json`` is damaged or of another version.
+        """
+        folder = Path(path)
+        file = folder / _RUN
+        if not file.exists():
+            raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN}; give the folder that --out named")
+        try:
+            run = json.loads(file.read_text())
+        except (OSError, ValueError) as error:
+            raise StoreError(f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder") from error
+        if not isinstance(run, dict) or run.get("format") != _FORMAT:
+            raise StoreError(f"'{file}' was not written by holdfast; give the folder of a holdfast run")
+        if run.get("version") != _VERSION:
+            raise StoreError(f"'{folder}' was written in format {run.get('version')}; this holdfast reads format {_VERSION}")
+        return cls(folder, run)
+
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """Hold the folder: a second program that tries is told so instead of spoiling the run."""
+        lock = self.path / _LOCK
+        try:
+            handle = os.open(lock, os.O_CREAT | os.O_RDWR, 0o644)
+        except OSError as error:
+            raise StoreError(f"cannot write to '{self.path}': {error.strerror}; choose another folder") from error
+        try:
+            try:
+                import fcntl
+
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except ImportError:  # no such locks on this system
+                pass
+            except OSError as error:
+                raise StoreError(f"another program is writing to '{self.path}'; wait for it or stop it") from error
+            # Another program may have gone on with the run since it was opened.
+            self._run = Store.open(self.path)._run
+            yield
+        finally:
+            os.close(handle)
+
+    # ---- what is there ---------------------------------------------------------------------------------------------
+
+    @property
+    def plan(self) -> dict[str, Any]:
+        """What is computed."""
+        plan: dict[str, Any] = self._run["plan"]
+        return plan
+
+    @property
+    def notes(self) -> dict[str, Any]:
+        """Facts about how it was computed (versions, times); they do not define the run."""
+        notes: dict[str, Any] = self._run["notes"]
+        return notes
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of the finished run."""
+        return int(self._run["rows"])
+
+    @property
+    def chunks(self) -> list[tuple[int, int]]:
+        """First row and row after the last of every chunk."""
+        size = int(self._run["chunk"])
+        return [(start, min(start + size, self.rows)) for start in range(0, self.rows, size)]
+
+    @property
+    def done(self) -> list[int]:
+        """Chunks that are committed."""
+        return list(self._run["done"])
+
+    @property
+    def missing(self) -> list[int]:
+        """Chunks still to compute."""
+        done = set(self.done)
+        return [k for k in range(len(self.chunks)) if k not in done]
+
+    @property
+    def complete(self) -> bool:
+        """True once every chunk is committed."""
+        return not self.missing
+
+    # ---- rows ------------------------------------------------------------------------------------------------------
+
+    def write(self, chunk: int, columns: Mapping[str, NDArray[Any]]) -> None:
+        """Write all columns of a chunk, then commit it.
+
+        Raises:
+            StoreError: The disk refuses; chunks committed before stay valid.
+        """
+        import zarr
+
+        start, stop = self.chunks[chunk]
+        try:
+            group = zarr.open_group(self.path / _SAMPLES, mode="r+")
+            for name, values in columns.items():
+                group[name][start:stop] = values
+            self._run["done"] = sorted({*self.done, chunk})
+            self._commit()
+        except OSError as error:
+            raise StoreError(
+                f"cannot write chunk {chunk + 1} to '{self.path}': {error.strerror or error}; "
+                "what was committed before is safe: make room and run the same command again"
+            ) from error
+
+    def note(self, **facts: Any) -> None:
+        """Add facts about how the run went."""
+        self._run["notes"].update(facts)
+        self._commit()
+
+    def dataset(self) -> xr.Dataset:
+        """All rows with names, units and attributes; rows not computed yet hold fill values.
+
+        Raises:
+            StoreError: The arrays are missing or damaged.
+        """
+        import xarray as xr
+
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", category=UserWarning)
+                data = xr.open_zarr(self.path / _SAMPLES, consolidated=False, mask_and_scale=False, chunks=None)
+                data = data.load()
+        except Exception as error:  # zarr and xarray raise many kinds for damaged files
+            raise StoreError(f"'{self.path / _SAMPLES}' is damaged ({error}); start the run again in a new folder") from error
+        return data
+
+    # ---- files -----------------------------------------------------------------------------------------------------
+
+    def _make_arrays(self, columns: list[Column]) -> None:
+        import zarr
+
+        group = zarr.open_group(self.path / _SAMPLES, mode="w")
+        group.attrs["plan"] = json.dumps(self.plan)
+        for c in columns:
+            lengths = [n for _, n in c.dims]
+            array = group.create_array(
+                c.name,
+                shape=(self.rows, *lengths),
+                chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
+                dtype=c.dtype,
+                fill_value=c.fill,
+                dimension_names=["row", *[d for d, _ in c.dims]],
+            )
+            array.attrs.update({"units": c.units, "long_name": c.about})
+
+    def _commit(self) -> None:
+        handle, temporary = tempfile.mkstemp(dir=self.path, prefix=".run-")
+        try:
+            with os.fdopen(handle, "w") as file:
+                json.dump(self._run, file, indent=1)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(temporary, self.path / _RUN)
+        except OSError:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+
+
+def _difference(old: Mapping[str, Any], new: Mapping[str, Any], run: Mapping[str, Any], rows: int, chunk: int) -> str:
+    for key in sorted({*old, *new}):
+        if old.get(key) != new.get(key):
+            a, b = json.dumps(old.get(key)), json.dumps(new.get(key))
+            return f"its {key} is {_short(a)}, asked for is {_short(b)}"
+    return f"it has {run['rows']} rows in chunks of {run['chunk']}, asked for are {rows} in chunks of {chunk}"
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 60 else text[:57] + "..."

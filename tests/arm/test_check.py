@@ -1,0 +1,126 @@
+"""Every finding, on an arm that has just that fault; and none on a sound one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from holdfast import arms
+from holdfast.arm.check import check, require_inertia
+from holdfast.arm.model import Arm, Joint, Link
+from holdfast.errors import ArmError
+
+JOINT = Joint("elbow", "revolute", np.eye(4), np.array([0, 0, 1.0]), -1, 1, velocity=2, effort=3)
+LINK = Link(1.0, np.zeros(3), np.diag([1.0, 1.0, 1.5]), "forearm")
+
+
+def arm(joint: Joint = JOINT, link: Link | None = LINK, payload: Link | None = None) -> Arm:
+    return Arm("bot", (joint,), (link,), payload=payload)
+
+
+def messages(a: Arm) -> list[str]:
+    return [f"{x.severity}: {x.subject}: {x.message}" for x in check(a)]
+
+
+def test_a_sound_arm_has_no_findings() -> None:
+    assert check(arm()) == []
+    require_inertia(arm())
+
+
+JOINTS: list[tuple[dict[str, Any], str]] = [
+    ({"type": "continuous", "lower": -np.inf, "upper": np.inf}, "it is continuous; analyses over the whole joint range need"),
+    ({"upper": np.inf}, "it lacks a limit; analyses over the whole joint range need lower and upper, in rad"),
+    (
+        {"type": "prismatic", "lower": -np.inf},
+        "it lacks a limit; analyses over the whole joint range need lower and upper, in m",
+    ),
+    ({"lower": 1}, "its lower and upper limit are both 1 rad; a joint needs room to move"),
+    ({"lower": -7, "upper": 7}, "its range is 14 rad; more than two turns (12.57 rad) is a placeholder on most arms"),
+    ({"velocity": np.inf}, "it has no largest velocity; give it in rad/s"),
+    ({"velocity": 0}, "its largest velocity is 0 rad/s; it must be above 0"),
+    ({"effort": np.inf}, "it has no largest effort; give it in N m"),
+    ({"effort": 0}, "its largest effort is 0 N m; it should be above 0 and below 20000 N m"),
+    ({"effort": 50_000, "type": "prismatic"}, "its largest effort is 50000 N; it should be above 0 and below 20000 N"),
+]
+
+
+@pytest.mark.parametrize(("change", "sentence"), JOINTS, ids=[case[1][:40] for case in JOINTS])
+def test_joints(change: dict[str, Any], sentence: str) -> None:
+    (message,) = messages(arm(replace(JOINT, **change)))
+    assert message.startswith(f"warning: joint 'elbow': {sentence}")
+    require_inertia(arm(replace(JOINT, **change)))
+
+
+def turned(moments: tuple[float, float, float]) -> np.ndarray:
+    rotation = Rotation.random(rng=np.random.default_rng(0)).as_matrix()
+    return rotation @ np.diag(moments) @ rotation.T
+
+
+LINKS: list[tuple[Link | None, str]] = [
+    (None, "warning: link after joint 'elbow': it has no inertial data; give mass, centre of mass and inertia"),
+    (
+        Link(0.0, np.zeros(3), np.eye(3), "forearm"),
+        "error: link 'forearm': its mass is 0 kg; a moving link needs a mass above 0",
+    ),
+    (
+        Link(1.0, np.zeros(3), turned((-0.5, 1, 1))),
+        "error: link after joint 'elbow': its inertia has the principal moment -0.5 kg m^2; all three must be 0 or more",
+    ),
+    (
+        Link(1.0, np.zeros(3), turned((1, 1, 2.1)), "forearm"),
+        "error: link 'forearm': its principal moments 1, 1 and 2.1 kg m^2 break the triangle inequality",
+    ),
+    (
+        Link(1.0, np.zeros(3), np.zeros((3, 3)), "forearm"),
+        "error: link 'forearm': it has a mass of 1 kg and no inertia; give its moments in kg m^2",
+    ),
+]
+
+
+@pytest.mark.parametrize(("link", "sentence"), LINKS, ids=[case[1][:60] for case in LINKS])
+def test_links(link: Link | None, sentence: str) -> None:
+    (message,) = messages(arm(link=link))
+    assert message.startswith(sentence)
+    with pytest.raises(ArmError) as caught:
+        require_inertia(arm(link=link))
+    assert str(caught.value).startswith(f"arm 'bot', {sentence.split(': ', 1)[1]}")
+
+
+def test_thin_rods_and_flat_plates_are_sound() -> None:
+    assert check(arm(link=Link(1.0, np.zeros(3), turned((0, 1, 1))))) == []
+    assert check(arm(link=Link(1.0, np.zeros(3), turned((1, 1, 2))))) == []
+
+
+def test_the_payload_is_checked_too() -> None:
+    bad = Link(1.0, np.zeros(3), np.diag([1.0, 1.0, 3.0]), "box")
+    assert messages(arm(payload=bad))[0].startswith("error: payload: its principal moments")
+    with pytest.raises(ArmError, match="arm 'bot', payload: its principal moments"):
+        require_inertia(arm(payload=bad))
+
+
+def test_two_full_turns_are_plausible() -> None:
+    """Some files round 2 pi up in the last digit."""
+    assert check(arm(replace(JOINT, lower=-6.28318530718, upper=6.28318530718))) == []
+
+
+SOUND = ["planar-2r", "planar-3r", "panda", "xarm7", "iiwa14", "ur5", "ur5-rail", "kinova-j2s6s200"]
+
+
+@pytest.mark.parametrize("name", arms.names())
+def test_builtin_arms(name: str) -> None:
+    found = check(arms.load(name))
+    assert not [x for x in found if x.severity == "error"]
+    if name in SOUND:
+        require_inertia(arms.load(name))
+    else:
+        with pytest.raises(ArmError, match=f"arm '{name}', link after joint 'joint1': it has no inertial data"):
+            require_inertia(arms.load(name))
+    # Only the arms in code leave speeds and efforts open; only the Kinova has joints without limits.
+    if name == "kinova-j2s6s200":
+        assert [x.subject for x in found] == [f"joint 'j2s6s200_joint_{k}'" for k in (1, 4, 6)]
+    elif not name.startswith(("planar", "pa10")):
+        assert found == []
