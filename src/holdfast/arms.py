@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from holdfast.arm import table, urdf
 from holdfast.arm.builtin import Builtin, about, load, names
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
@@ -27,6 +26,8 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
     Raises:
         ArmError: There is no such arm, the file is wrong, or base and tip are given for something that is not a URDF file.
     """
+    from holdfast.arm import table, urdf
+
     ending = Path(spec).suffix.lower()
     if spec in names() or ending in TABLE_ENDINGS:
         if base is not None or tip is not None:

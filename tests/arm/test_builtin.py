@@ -46,7 +46,7 @@ def test_files_are_those_whose_provenance_is_told(name: str) -> None:
     assert entry["package"] in arms.about(name).source
     for text in entry["texts"]:
         assert len(DATA.joinpath("licenses", text).read_text()) > 500
-    for left_over in (b"<visual", b"<collision", b"<transmission", b"<gazebo", b"mesh", b"ns0:"):
+    for left_over in (b"<visual", b"<collision", b"<transmission", b"<gazebo", b"<mesh", b"ns0:"):
         assert left_over not in content
 
 
@@ -60,7 +60,8 @@ def test_every_file_has_its_provenance() -> None:
 def test_stripping_keeps_every_number_and_every_notice(tmp_path: Path) -> None:
     source = tmp_path / "in.urdf"
     source.write_text(
-        "<?xml version='1.0'?>\n<!-- Copyright someone -->\n<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><material name='m'/>"
+        "<?xml version='1.0'?>\n<!-- Copyright someone -->\n"
+        "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><material name='m'/>"
         "<link name='a'><visual><origin xyz='9 9 9'/></visual><inertial><mass value='0.10'/></inertial></link><link name='b'/>"
         "<joint name='j' type='continuous'><parent link='a'/><child link='b'/><origin xyz='1.50 0 0'/><calibration/></joint>"
         "<transmission name='t'><joint name='j'/></transmission></robot>"
@@ -165,9 +166,9 @@ def test_resolve(tmp_path: Path) -> None:
         arms.resolve("panda", tip="panda_link8")
     with pytest.raises(ArmError, match="is not a URDF file"):
         arms.resolve(str(path), base="x")
-    with pytest.raises(ArmError, match="did you mean 'xarm7'.*see 'holdfast arms'.*a .urdf file or a .yaml DH table"):
+    with pytest.raises(ArmError, match=r"did you mean 'xarm7'.*see 'holdfast arms'.*a \.urdf file or a \.yaml DH table"):
         arms.resolve("xarm")
-    with pytest.raises(ArmError, match="none.urdf: the file cannot be read"):
+    with pytest.raises(ArmError, match="the file cannot be read"):
         arms.resolve(str(tmp_path / "none.urdf"))
     other = tmp_path / "arm.sdf"
     other.write_text("")

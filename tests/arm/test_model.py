@@ -11,6 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from holdfast import arms
+from holdfast.arm.builtin import DATA
 from holdfast.arm.dh import DH
 from holdfast.arm.model import Arm, Joint, Link, joint_list
 from holdfast.errors import ArmError, InputError
@@ -129,6 +130,14 @@ def test_configurations_are_checked() -> None:
     assert arm.forward_kinematics(np.zeros((5, 3))).shape == (5, 4, 4)
 
 
+@pytest.mark.xfail(reason="a kernel takes a 1 x 1 input for a scalar, so one joint value for a batch of one")
+def test_one_joint_has_the_shapes_of_many() -> None:
+    arm = Arm.from_dh([DH(1, 0)])
+    assert arm.forward_kinematics([0.5]).shape == (4, 4)
+    assert arm.jacobian([0.5]).shape == (6, 1)
+    assert arm.forward_kinematics([[0.5], [0.6]]).shape == (2, 4, 4)
+
+
 def test_an_arm_does_not_change_and_its_copies_do() -> None:
     arm, rng = arms.load("planar-3r"), np.random.default_rng(0)
     with pytest.raises(FrozenInstanceError):
@@ -147,8 +156,6 @@ def test_an_arm_does_not_change_and_its_copies_do() -> None:
 
 
 def test_from_urdf_is_the_reader() -> None:
-    from holdfast.arm.builtin import DATA
-
     arm = Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8", name="mine", hold={"panda_finger_joint1": 0.01})
     assert (arm.name, arm.n) == ("mine", 7)
 

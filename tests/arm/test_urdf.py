@@ -233,6 +233,7 @@ def write(tmp_path: Path, *parts: str, name: str = "bot") -> Path:
 
 
 AB = link("a") + link("b")
+J = joint("j", "a", "b")
 
 
 def test_joint_data(tmp_path: Path) -> None:
@@ -289,6 +290,26 @@ def test_mimic_follows_with_multiplier_and_offset(tmp_path: Path) -> None:
     np.testing.assert_allclose(urdf.load(path, tip="b", hold={"m": 4}).links[0].com, [1, 4, 0])
 
 
+def test_faults_far_from_the_chain_do_no_harm(tmp_path: Path) -> None:
+    """Big robots' files are often sloppy about wheels and fingers; an arm of theirs can still be used."""
+    parts = [
+        AB,
+        link("w", heavy()),
+        link("m"),
+        J,
+        joint("wheel", "b", "w", inside=""),
+        joint("n", "a", "m", inside="<mimic joint='x'/>"),
+    ]
+    arm = urdf.load(write(tmp_path, *parts), tip="b")
+    np.testing.assert_allclose(arm.links[0].com, [1, 0, 0])
+
+
+def test_long_lists_are_cut(tmp_path: Path) -> None:
+    many = [link(f"c{k}") + joint(f"k{k}", "b", f"c{k}") for k in range(20)]
+    with pytest.raises(ArmError, match=r"the arm could end at 'c0', .* 'c11' and 8 more; name one link as tip"):
+        urdf.load(write(tmp_path, AB, J, *many))
+
+
 def test_the_only_end_is_found(tmp_path: Path) -> None:
     # A dead branch on the base does not count, and the fixed frame behind the last joint is the tip.
     parts = [AB, link("c"), link("stand"), joint("j", "a", "b"), joint("f", "b", "c", "fixed", "<origin xyz='0 0 4'/>")]
@@ -298,7 +319,6 @@ def test_the_only_end_is_found(tmp_path: Path) -> None:
 
 # ---- refusals ----------------------------------------------------------------------------------------------------
 
-J = joint("j", "a", "b")
 GRIPPER = AB + link("c") + link("d") + J + joint("k", "b", "c") + joint("l", "b", "d")
 REFUSED = [
     ("", {}, "the robot has no <link>; it needs at least two links and a joint"),
@@ -357,14 +377,18 @@ REFUSED = [
     (
         AB + joint("j", "a", "b", inside=""),
         {},
-        "joint 'j' is revolute and has no <limit>; give lower and upper; if it has no limits, continuous is the right type",
+        "joint 'j' is revolute and has no <limit> with lower and upper; give them; "
+        "if it has no limits, continuous is the right type",
     ),
-    (AB + joint("j", "a", "b", "prismatic", ""), {}, "joint 'j' is prismatic and has no <limit>; give lower and upper"),
+    (
+        AB + joint("j", "a", "b", "prismatic", ""),
+        {},
+        "joint 'j' is prismatic and has no <limit> with lower and upper; give them",
+    ),
     (
         AB + joint("j", "a", "b", inside="<limit effort='3'/>"),
         {},
-        "joint 'j': its <limit> has neither lower nor upper, which means it cannot move; give both; "
-        "if it has no limits, continuous is the right type",
+        "joint 'j' is revolute and has no <limit> with lower and upper; give them",
     ),
     (
         AB + joint("j", "a", "b", inside="<limit lower='0' upper='1' effort='-3'/>"),
@@ -387,8 +411,8 @@ REFUSED = [
         "no moving joint hangs on 'a'; an arm needs at least one",
     ),
     (AB + J, {"tip": "a"}, "no moving joint lies between 'a' and 'a'; choose a base and tip with joints in between"),
-    (AB + J, {"base": "x"}, "there is no base link 'x'; the links are a, b"),
-    (AB + J, {"tip": "x"}, "there is no tip link 'x'; the links are a, b"),
+    (AB + J, {"base": "x"}, "there is no base link 'x'; the links are 'a', 'b'"),
+    (AB + J, {"tip": "x"}, "there is no tip link 'x'; the links are 'a', 'b'"),
     (
         AB + J,
         {"base": "b", "tip": "a"},
@@ -419,12 +443,13 @@ REFUSED = [
     (
         AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='j'/>"),
         {"tip": "b"},
-        "joint 'k' mimics 'j', which moves on the chain, so it cannot stand still; name it in hold to freeze it all the same",
+        "joint 'k' mimics 'j', which moves on the chain, so it cannot stand still; "
+        "choose another tip, or name it in hold to freeze it all the same",
     ),
     (
-        AB + joint("j", "a", "b", "continuous", "<mimic joint='x'/>"),
-        {},
-        "joint 'j' mimics 'x', which the file does not define",
+        AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='x'/>"),
+        {"tip": "b"},
+        "joint 'k' mimics 'x', which the file does not define",
     ),
     (
         AB + joint("j", "a", "b", "continuous", "<mimic joint='j' multiplier='two'/>"),
@@ -450,9 +475,18 @@ REFUSED = [
     (
         GRIPPER,
         {"tip": "c", "hold": {"l": 2.0}},
-        "hold puts joint 'l' at 2; it must lie within its limits -1 to 1",
+        "hold puts joint 'l' at 2; it must be a finite number within its limits -1 to 1",
     ),
-    (GRIPPER, {"tip": "c", "hold": {"l": np.nan}}, "hold puts joint 'l' at nan; it must lie within its limits -1 to 1"),
+    (
+        AB + link("c") + J + joint("k", "b", "c", "continuous"),
+        {"tip": "b", "hold": {"k": np.inf}},
+        "hold puts joint 'k' at inf; it must be a finite number within its limits -inf to inf",
+    ),
+    (
+        GRIPPER,
+        {"tip": "c", "hold": {"l": np.nan}},
+        "hold puts joint 'l' at nan; it must be a finite number within its limits -1 to 1",
+    ),
     (
         link("a") + link("b", "<inertial><inertia/></inertial>") + J,
         {},

@@ -21,6 +21,8 @@ from holdfast.errors import ArmError
 Array = NDArray[np.float64]
 MOVING = get_args(JointType)
 TYPES = (*MOVING, "fixed", "floating", "planar")
+MOST_NAMES = 12  # in a sentence
+LIMITED = ("revolute", "prismatic")
 QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
 
 
@@ -129,9 +131,6 @@ class _Tree:
         if loop:
             raise ArmError(f"the links {_quoted(loop)} are joined in a loop; a URDF must be a tree")
         self.root = roots[0]
-        for joint in self.joints.values():
-            if joint.mimic and joint.mimic[0] not in self.joints:
-                raise ArmError(f"joint '{joint.name}' mimics '{joint.mimic[0]}', which the file does not define")
 
     def links_from(self, link: str) -> Iterator[str]:
         """The link and all that hangs on it."""
@@ -257,17 +256,11 @@ def _joint(element: ElementTree.Element) -> _UrdfJoint:
 def _limits(element: ElementTree.Element, kind: str, where: str) -> tuple[float, float, float, float]:
     """Lower, upper, velocity and effort of a joint; infinite where there is none."""
     limit = element.find("limit")
-    bounded = kind in ("revolute", "prismatic")
     if limit is None:
-        if bounded:
-            remedy = "; if it has no limits, continuous is the right type" if kind == "revolute" else ""
-            raise ArmError(f"{where} is {kind} and has no <limit>; give lower and upper{remedy}")
         return -np.inf, np.inf, np.inf, np.inf
     lower, upper = -np.inf, np.inf
-    if bounded:
-        if limit.get("lower") is None and limit.get("upper") is None:
-            remedy = "; if it has no limits, continuous is the right type" if kind == "revolute" else ""
-            raise ArmError(f"{where}: its <limit> has neither lower nor upper, which means it cannot move; give both{remedy}")
+    if kind in LIMITED and (limit.get("lower") is not None or limit.get("upper") is not None):
+        # The format says that the one left out is 0.
         lower, upper = (_numbers(limit.get(key, "0"), 1, f"{where}: {key}")[0] for key in ("lower", "upper"))
         if lower > upper:
             raise ArmError(f"{where}: its limits are upside down, lower {lower:g} is above upper {upper:g}; swap them")
@@ -298,7 +291,7 @@ def rpy_rotation(rpy: Sequence[float]) -> Array:
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    return about_z @ about_y @ about_x
+    return np.asarray(about_z @ about_y @ about_x)
 
 
 def _cos_sin(angle: float) -> tuple[float, float]:
@@ -336,7 +329,8 @@ def _numbers(text: str, count: int, where: str) -> list[float]:
 
 
 def _quoted(names: Sequence[str]) -> str:
-    return ", ".join(f"'{x}'" for x in names)
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return ", ".join(f"'{x}'" for x in names[:MOST_NAMES]) + more
 
 
 # ---- the chain ---------------------------------------------------------------------------------------------------
@@ -347,7 +341,7 @@ def _arm(
 ) -> Arm:
     for role, link in (("base", base), ("tip", tip)):
         if link is not None and link not in tree.bodies:
-            raise ArmError(f"there is no {role} link '{link}'; the links are {', '.join(tree.bodies)}")
+            raise ArmError(f"there is no {role} link '{link}'; the links are {_quoted(list(tree.bodies))}")
     base = base or tree.root
     tip = tip or _only_tip(tree, base)
     path = tree.path(base, tip)
@@ -362,6 +356,10 @@ def _arm(
                 f"joint '{joint.name}' on the chain mimics '{joint.mimic[0]}', so it is not a degree of freedom; "
                 "choose a base and tip with independent joints in between"
             )
+        # Beside the chain such a joint is harmless: it stands at 0.
+        if joint.type in LIMITED and not np.isfinite(joint.lower):
+            remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
+            raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
     still = _Held(tree, {joint.name for joint in moving}, hold)
 
     joints: list[Joint] = []
@@ -429,9 +427,10 @@ class _Held:
                 listed = f"those are {_quoted(free)}" if free else "this file has none"
                 raise ArmError(f"hold names '{name}', which is not a moving joint beside the chain; {listed}")
             joint = tree.joints[name]
-            if not joint.lower <= value <= joint.upper:  # also refuses NaN
+            if not (np.isfinite(value) and joint.lower <= value <= joint.upper):
                 raise ArmError(
-                    f"hold puts joint '{name}' at {value:g}; it must lie within its limits {joint.lower:g} to {joint.upper:g}"
+                    f"hold puts joint '{name}' at {value:g}; "
+                    f"it must be a finite number within its limits {joint.lower:g} to {joint.upper:g}"
                 )
         self.tree, self.on_path, self.hold = tree, on_path, hold
 
@@ -446,7 +445,9 @@ class _Held:
             if master in self.on_path:
                 raise ArmError(
                     f"joint '{joint.name}' mimics '{master}', which moves on the chain, so it cannot stand still; "
-                    "name it in hold to freeze it all the same"
+                    "choose another tip, or name it in hold to freeze it all the same"
                 )
+            if master not in self.tree.joints:
+                raise ArmError(f"joint '{joint.name}' mimics '{master}', which the file does not define")
             return multiplier * self.value(self.tree.joints[master], (*followers, joint.name)) + offset
         return float(min(max(0.0, joint.lower), joint.upper))

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation
 
 from holdfast.arm.model import Arm
 from holdfast.arm.serial import from_dict, to_dict
@@ -263,6 +262,8 @@ def load(path: str | Path) -> Assessment:
 
 
 def _evaluate(arm: Arm, region: Region, index: Index, samples: Array, seed: int, number: int, restarts: int) -> Rows:
+    from scipy.spatial.transform import Rotation
+
     count = len(samples)
     if region.kind == "joints":
         result = index.evaluate(samples)

@@ -7,7 +7,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 
 from holdfast.errors import InputError
 
@@ -146,6 +145,8 @@ class Distribution:
         else:
             assert at_most is not None
             hits = float(self._below(np.nextafter(np.asarray(float(at_most)), np.inf), reachable_only))
+        from scipy import stats
+
         test = stats.binomtest(round(hits), size)
         limits = test.proportion_ci(confidence_level=confidence, method="wilson")
         return Interval(hits / size, float(limits.low), float(limits.high), confidence)

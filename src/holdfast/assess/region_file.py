@@ -1,0 +1,105 @@
+"""Region files: YAML, validated.
+
+.. code-block:: yaml
+
+    name: in front of the cell door
+    angles: deg            # unit of the angles below; rad if not given
+    box:
+      center: [0.968, 0, 0.041]      # m, in the world
+      size: 0.5                      # m, an edge or three
+      rpy_center: [0, 174, 0]        # roll, pitch, yaw: R = Rz(roll) Ry(pitch) Rx(yaw)
+      rpy_size: 90                   # full range, one or three
+
+or, for configurations instead of poses, ``joints:`` with the lists ``lower`` and ``upper``, rad and m.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import yaml
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from holdfast.assess.region import Region
+from holdfast.errors import InputError
+
+
+def read(path: str | Path) -> Region:
+    """The region in a file; see :meth:`holdfast.Region.load`."""
+    file = Path(path)
+    try:
+        data = yaml.safe_load(file.read_text())
+    except OSError as error:
+        raise InputError(f"cannot read region file '{file}': {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(f"region file '{file}' is not valid YAML: {reason}") from error
+    if not isinstance(data, dict):
+        raise InputError(f"region file '{file}' must hold 'box:' or 'joints:' at its top level")
+    try:
+        model = _RegionFile.model_validate(data)
+    except ValidationError as error:
+        raise InputError(f"region file '{file}': {_first(error)}") from error
+    if (model.box is None) == (model.joints is None):
+        raise InputError(f"region file '{file}' must hold either 'box:' or 'joints:'")
+    if model.joints is not None and model.angles == "deg":
+        raise InputError(f"region file '{file}': 'angles: deg' goes with 'box:'; joint values are in rad and m")
+    name = model.name or file.stem
+    unit = np.pi / 180 if model.angles == "deg" else 1.0
+    try:
+        if model.box is not None:
+            b = model.box
+            size = np.broadcast_to(b.size, 3)
+            angles = np.multiply(b.rpy_center, unit), np.broadcast_to(b.rpy_size, 3) * unit
+            return Region.box(b.center, size, *angles, name=name)
+        assert model.joints is not None
+        return Region.joints(model.joints.lower, model.joints.upper, name=name)
+    except InputError as error:
+        raise InputError(f"region file '{file}': {error}") from error
+
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class _Box(_Strict):
+    center: tuple[float, float, float]
+    size: float | tuple[float, float, float]
+    rpy_center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rpy_size: float | tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+class _Joints(_Strict):
+    lower: list[float]
+    upper: list[float]
+
+
+class _RegionFile(_Strict):
+    name: str | None = None
+    angles: Literal["deg", "rad"] = "rad"
+    box: _Box | None = None
+    joints: _Joints | None = None
+
+
+def _first(error: ValidationError) -> str:
+    entry = error.errors()[0]
+    place = _place(entry["loc"])
+    if entry["type"] == "extra_forbidden":
+        known = _known_keys(entry["loc"][:-1])
+        return f"key '{place}' is not known; keys there are {', '.join(known)}"
+    if entry["type"] == "missing":
+        return f"key '{place}' is missing"
+    return f"{place}: {entry['msg'].lower()}, got {entry.get('input')!r}"
+
+
+def _place(loc: Sequence[int | str]) -> str:
+    return ".".join(str(x) for x in loc)
+
+
+def _known_keys(loc: Sequence[int | str]) -> list[str]:
+    model: type[BaseModel] = {"box": _Box, "joints": _Joints}.get(str(loc[0]), _RegionFile) if loc else _RegionFile
+    return list(model.model_fields)

@@ -1,0 +1,238 @@
+"""``holdfast assess`` and ``holdfast report``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    FailuresOption,
+    IndexOption,
+    JsonOption,
+    LengthOption,
+    TaskOption,
+    TipOption,
+    number,
+    print_json,
+    read_arm,
+    read_failures,
+    read_task,
+)
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.arm import Arm
+    from holdfast.assess import Assessment, Region
+
+
+def assess(
+    arm: ArmArgument,
+    region: Annotated[Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)] = None,
+    index: IndexOption = "relative-manipulability",
+    task: TaskOption = None,
+    failures: FailuresOption = "single",
+    length: LengthOption = 1.0,
+    poses: Annotated[int, typer.Option("--poses", help="Number of poses.")] = 2000,
+    seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
+    sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
+    restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
+    at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder for results and report; a stopped run goes on.", show_default=False)] = None,
+    threads: Annotated[int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
+
+    Example: holdfast assess pa10-9dof --poses 2000 --seed 1 --out results
+    """
+    from holdfast.assess import assess as run
+    from holdfast.assess import explain, structures
+    from holdfast.assess.structure import structure
+    from holdfast.indices import by_name
+    from holdfast.kernels import set_threads
+
+    if threads is not None:
+        set_threads(threads)
+    model = read_arm(arm, base, tip)
+    chosen = read_region(region, arm, model)
+    measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
+    if sampling not in ("random", "sobol"):
+        raise InputError(f"sampling '{sampling}' is not known; use 'random' or 'sobol'")
+    if not json_:
+        found = structure(model, measure.task)
+        if not found.survives:
+            typer.echo(explain(model, found, structures(model)), err=True)
+    with _progress(json_) as progress:
+        result = run(
+            model,
+            chosen,
+            measure,
+            poses=poses,
+            seed=seed,
+            sampling="sobol" if sampling == "sobol" else "random",
+            restarts=restarts,
+            store=out,
+            progress=progress,
+        )
+    page = None if out is None else result.report(out / "report.html")
+    if json_:
+        print_json({**_summary(result, at_least), "report": None if page is None else str(page)})
+    else:
+        _print(result, at_least)
+        if page is not None:
+            typer.echo(f"report: {page}")
+
+
+def report(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)],
+    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    json_: JsonOption = False,
+) -> None:
+    """Write the report of a results folder again, also of a run that was stopped.
+
+    Example: holdfast report results
+    """
+    from holdfast.assess import load
+
+    result = load(folder)
+    page = result.report(to or folder / "report.html")
+    if json_:
+        print_json({**_summary(result, None), "report": str(page)})
+    else:
+        _print(result, None)
+        typer.echo(f"report: {page}")
+
+
+def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
+    """--region, or a region about the arm's home; for the paper's arm the paper's."""
+    from holdfast import arms
+    from holdfast.assess import Region
+    from holdfast.assess.region import builtin_region
+
+    if path is not None:
+        return Region.load(path)
+    known = builtin_region(spec)
+    if known is not None:
+        return known
+    return Region.around(arm, arms.about(spec).home if spec in arms.names() else None)
+
+
+class _progress:
+    """A bar on stderr while a person looks, nothing otherwise."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._quiet = quiet or not sys.stderr.isatty()
+        self._bar: Any = None
+
+    def __enter__(self) -> Any:
+        if self._quiet:
+            return None
+        from rich.console import Console
+        from rich.progress import Progress, TimeRemainingColumn
+
+        self._bar = Progress(*Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True)
+        self._bar.start()
+        job = self._bar.add_task("poses", total=None)
+        return lambda done, total: self._bar.update(job, completed=done, total=total)
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+
+def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]:
+    d = result.distribution
+    names = result.index.failure_names
+    reached = d.reached > 0
+    return {
+        "arm": result.arm.name,
+        "fingerprint": result.arm.fingerprint,
+        "index": result.index.slug,
+        "unit": result.index.unit,
+        "better": result.index.better,
+        "bound": result.index.bound,
+        "task": result.index.task.name,
+        "characteristic_length_m": result.index.task.length,
+        "region": result.region.to_dict(),
+        "poses": result.poses,
+        "seed": result.seed,
+        "sampling": result.sampling,
+        "restarts": result.restarts,
+        "complete": result.complete,
+        "evaluated": d.samples,
+        "reached": d.reached,
+        "not_found": d.unreached,
+        "singular": d.singular,
+        "mean": d.mean if reached else None,
+        "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True)) if reached else None,
+        "band_95": d.band(),
+        "probability": [_probability(result, h) for h in _thresholds(result, at_least)],
+        "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
+        "seconds": result.seconds,
+    }
+
+
+def _thresholds(result: Assessment, given: list[float] | None) -> list[float]:
+    if given:
+        return given
+    if result.index.bound is not None:
+        return [round(share * result.index.bound, 3) for share in (0.25, 0.5, 0.75)]
+    if not result.distribution.reached:
+        return []
+    return [float(f"{x:.3g}") for x in result.distribution.quantile([0.25, 0.5, 0.75]).tolist()]
+
+
+def _probability(result: Assessment, h: float) -> dict[str, Any]:
+    key = "at_least" if result.index.better == "larger" else "at_most"
+    p = result.interval(**{key: h})  # type: ignore[arg-type]
+    return {key: h, "value": p.value, "low": p.low, "high": p.high, "confidence": p.confidence}
+
+
+def _print(result: Assessment, at_least: list[float] | None) -> None:
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    out = Console(highlight=False)
+    d = result.distribution
+    out.print(f"[bold]{escape(result.arm.name)}[/]: {escape(result.index.describe())}", soft_wrap=True)
+    out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
+    if not result.complete:
+        out.print(f"[yellow]not finished: {d.samples} of {result.poses} poses; the same 'holdfast assess' command goes on[/]", soft_wrap=True)
+    out.print(
+        f"{d.samples} poses, seed {result.seed}: {d.reached} reached, {d.unreached} not found within the limits "
+        f"({d.unreached / max(d.samples, 1):.1%}, counted as failed), {d.singular} singular",
+        soft_wrap=True,
+    )
+    if not d.samples:
+        return
+    if d.reached:
+        low, middle, high = d.quantile([0.05, 0.5, 0.95]).tolist()
+        bound = f"; no configuration can beat {number(result.index.bound)}" if result.index.bound is not None else ""
+        out.print(f"over reached poses: median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(d.mean)}{bound}", soft_wrap=True)
+    sign = "at least" if result.index.better == "larger" else "at most"
+    table = Table(f"{result.index.name}", "probability", "95 % interval", box=None, pad_edge=False)
+    for h in _thresholds(result, at_least):
+        p = _probability(result, h)
+        table.add_row(f"{sign} {h:g}", f"{p['value']:.4f}", f"{p['low']:.4f} to {p['high']:.4f}")
+    out.print(table)
+    total = int(result.worst_counts.sum())
+    if total:
+        table = Table("failure", "is the worst in", box=None, pad_edge=False)
+        for name, count in zip(result.index.failure_names, result.worst_counts.tolist(), strict=True):
+            if count:
+                table.add_row(escape(name), f"{count} ({count / total:.1%})")
+        out.print(table)
+
+
+def add(app: typer.Typer) -> None:
+    """Register the commands."""
+    app.command()(assess)
+    app.command()(report)

@@ -1,0 +1,97 @@
+"""Shared fixtures: a seeded generator, a kernel cache of our own, a few arms."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+import zlib
+
+import numpy as np
+import oracles
+import pytest
+
+import holdfast as hf
+from holdfast import arms
+from holdfast.kernels import set_threads
+
+_DRAW = 20120831
+_MADE: list[str] = []
+
+
+def pytest_addoption(parser):
+    parser.addoption("--draw", type=int, default=_DRAW, metavar="SEED", help=f"seed of all random test inputs (default {_DRAW})")
+
+
+def pytest_configure(config):
+    # Workers of pytest-xdist inherit the folder and share what is compiled; only the process that made it removes it.
+    if not hasattr(config, "workerinput"):
+        folder = tempfile.mkdtemp(prefix="holdfast-tests-")
+        _MADE.append(folder)
+        os.environ["HOLDFAST_CACHE"] = folder
+    for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS"):
+        os.environ.pop(name, None)
+
+
+def pytest_unconfigure(config):
+    for folder in _MADE:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def pytest_report_header(config):
+    return f"holdfast: random inputs from --draw {config.getoption('--draw')}"
+
+
+@pytest.fixture(scope="session")
+def generator(request):
+    """``generator(name)``: a generator for fixtures that live longer than one test."""
+    seed = request.config.getoption("--draw")
+    return lambda name: np.random.default_rng([seed, zlib.crc32(name.encode())])
+
+
+@pytest.fixture
+def rng(request, generator):
+    """A generator of this test alone: its numbers do not depend on which other tests run."""
+    return generator(request.node.nodeid)
+
+
+@pytest.fixture
+def threads():
+    """``set_threads``, put back afterwards."""
+    yield set_threads
+    set_threads(None)
+
+
+@pytest.fixture(scope="session")
+def pa10() -> hf.Arm:
+    """The 9-joint PA10 of the paper, typed in from its Table I, not taken from the library."""
+    return oracles.pa10_nine()
+
+
+@pytest.fixture(scope="session")
+def pa10_7() -> hf.Arm:
+    return arms.load("pa10-7dof")
+
+
+@pytest.fixture(scope="session")
+def mixed7(generator) -> hf.Arm:
+    """Seven joints, one of them sliding, nothing aligned."""
+    return oracles.random_arm(generator("mixed7"), types="RRPRRRR", limits=2.0)
+
+
+@pytest.fixture(scope="session")
+def mixed8(generator) -> hf.Arm:
+    """Eight joints, two of them sliding, nothing aligned."""
+    return oracles.random_arm(generator("mixed8"), types="RPRRRPRR", limits=2.0)
+
+
+@pytest.fixture(scope="session")
+def planar4(generator) -> hf.Arm:
+    """Four parallel axes in a tilted plane."""
+    return oracles.planar_arm(generator("planar4"), 4)
+
+
+@pytest.fixture(scope="session")
+def flat4() -> hf.Arm:
+    """Four parallel axes along the world's z, links of 1, 0.8, 0.6 and 0.4 m: straight and singular at q = 0."""
+    return hf.Arm.from_dh([hf.DH(a=a, alpha=0.0) for a in (1.0, 0.8, 0.6, 0.4)], name="flat4")

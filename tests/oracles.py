@@ -1,0 +1,261 @@
+"""Other routes to the same numbers: numpy transforms, singular values, long doubles, Pinocchio. No CasADi, no heyoka.
+
+Functions take batches ``q (N, n)``. The Jacobian is the exact derivative of the product of transforms, not ``z x (p - p_k)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.linalg import null_space
+from scipy.spatial.transform import Rotation
+
+import holdfast as hf
+
+ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
+EPS = float(np.finfo(np.float64).eps)
+LONG = np.finfo(np.longdouble).eps < 1e-18
+
+
+# ---- arms and configurations ---------------------------------------------------------------------------------------
+
+
+def pose(rotation=None, position=(0.0, 0.0, 0.0)) -> np.ndarray:
+    t = np.eye(4)
+    t[:3, :3] = np.eye(3) if rotation is None else rotation
+    t[:3, 3] = position
+    return t
+
+
+def random_pose(rng: np.random.Generator, reach: float = 0.5) -> np.ndarray:
+    return pose(Rotation.random(random_state=rng).as_matrix(), rng.uniform(-reach, reach, 3))
+
+
+def random_arm(
+    rng: np.random.Generator,
+    n: int | None = None,
+    types: str | None = None,
+    limits: float | None = None,
+    base: bool = True,
+) -> hf.Arm:
+    """An arm with nothing aligned; ``types`` such as ``"RRPC"`` (revolute, prismatic, continuous), else drawn."""
+    if types is None:
+        types = "".join(rng.choice(list("RRRCP"), n or int(rng.integers(2, 10))))
+    joints = []
+    for k, letter in enumerate(types):
+        low, high = -np.inf, np.inf
+        if limits is not None and letter != "C":
+            low, high = -limits * rng.uniform(0.7, 1.0), limits * rng.uniform(0.7, 1.0)
+            if letter == "P":
+                low, high = low / 4, high / 4
+        kind = {"R": "revolute", "C": "continuous", "P": "prismatic"}[letter]
+        joints.append(hf.Joint(f"j{k}", kind, random_pose(rng, 0.4), rng.normal(size=3), low, high))
+    return hf.Arm(
+        f"random-{types}",
+        tuple(joints),
+        base=random_pose(rng, 1.0) if base else np.eye(4),
+        tool=random_pose(rng, 0.3),
+    )
+
+
+def planar_arm(rng: np.random.Generator, n: int, sliding: Sequence[int] = (), tilted: bool = True) -> hf.Arm:
+    """``n`` joints that move in one plane; axes point up or down at random, joints at ``sliding`` slide in the plane."""
+    joints = []
+    for k in range(n):
+        turn = pose(Rotation.from_euler("z", rng.uniform(-np.pi, np.pi)).as_matrix(), [rng.uniform(0.4, 1.0), 0, 0])
+        axis = [1.0, 0.5, 0.0] if k in sliding else [0.0, 0.0, rng.choice([-1.0, 1.0])]
+        joints.append(hf.Joint(f"j{k}", "prismatic" if k in sliding else "revolute", turn, np.array(axis)))
+    tool = pose(None, [rng.uniform(0.4, 1.0), 0, 0])
+    return hf.Arm(f"planar-{n}", tuple(joints), base=random_pose(rng) if tilted else np.eye(4), tool=tool)
+
+
+def alternating_arm(rng: np.random.Generator, n: int) -> hf.Arm:
+    """Axes across and along by turns, as most industrial arms: singular for a full pose at q = 0."""
+    rows = [
+        hf.DH(a=0.0, alpha=0.0 if k == n - 1 else (-1.0) ** (k + 1) * np.pi / 2, d=0.0 if k % 2 else rng.uniform(0.2, 0.6))
+        for k in range(n)
+    ]
+    return hf.Arm.from_dh(rows, base=random_pose(rng), name=f"alternating-{n}")
+
+
+def near_singular(rng: np.random.Generator, n: int, count: int, least: float, most: float) -> np.ndarray:
+    """Configurations (count, n) at random distances ``least`` to ``most`` from q = 0."""
+    distance = 10 ** rng.uniform(np.log10(least), np.log10(most), (count, 1))
+    return distance * rng.uniform(-1, 1, (count, n))
+
+
+NOMINAL = np.radians([0.0, 30, 0, 90, 0, 18, 0, 36, 0])
+
+
+def pa10_nine() -> hf.Arm:
+    """Table I of Abdi, Maciejewski and Nahavandi 2012."""
+    alpha = [-90.0, 90, -90, 90, -90, 90, -90, 90, 0]
+    d = [0.315, 0, 0.450, 0, 0.500, 0, 0.450, 0, 0.080]
+    low = [-45.0, -15, -45, 45, -45, -27, -45, -9, -45]
+    high = [45.0, 75, 45, 135, 45, 63, 45, 81, 45]
+    return hf.Arm.from_dh(
+        [
+            hf.DH(a=0.0, alpha=np.radians(a), d=x, lower=np.radians(lo), upper=np.radians(up))
+            for a, x, lo, up in zip(alpha, d, low, high, strict=True)
+        ],
+        name="table-1",
+    )
+
+
+def inside(arm: hf.Arm, rng: np.random.Generator, count: int) -> np.ndarray:
+    """Configurations within the limits; +-pi rad and +-1 m where there are none."""
+    free = np.where(arm.prismatic, 1.0, np.pi)
+    low = np.where(np.isfinite(arm.lower), arm.lower, -free)
+    high = np.where(np.isfinite(arm.upper), arm.upper, free)
+    return rng.uniform(low, high, (count, arm.n))
+
+
+def to_pinocchio(arm: hf.Arm):
+    """The arm as a Pinocchio model and the id of its tool frame."""
+    import pinocchio as pin
+
+    model, parent = pin.Model(), 0
+    for k, joint in enumerate(arm.joints):
+        made = pin.JointModelPrismaticUnaligned if joint.prismatic else pin.JointModelRevoluteUnaligned
+        placement = (arm.base @ joint.origin) if k == 0 else joint.origin
+        parent = model.addJoint(parent, made(np.array(joint.axis)), pin.SE3(np.array(placement)), joint.name)
+    tool = model.addFrame(pin.Frame("tool", parent, 0, pin.SE3(np.array(arm.tool)), pin.FrameType.OP_FRAME))
+    return model, tool
+
+
+# ---- kinematics ----------------------------------------------------------------------------------------------------
+
+
+def _skew(v: np.ndarray) -> np.ndarray:
+    x, y, z = v
+    return np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+
+def _motion(joint: hf.Joint, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Motions (N, 4, 4) of a joint, and the constant 4x4 matrix G with ``dM/dq = M G``."""
+    rate = np.zeros((4, 4), dtype=x.dtype)
+    t = np.broadcast_to(np.eye(4, dtype=x.dtype), (len(x), 4, 4)).copy()
+    axis = joint.axis.astype(x.dtype)
+    axis = axis / np.sqrt(axis @ axis)  # in long double: a unit vector again, not one rounded to double
+    if joint.prismatic:
+        rate[:3, 3] = axis
+        t[:, :3, 3] = x[:, None] * axis
+    else:
+        k = _skew(axis)
+        rate[:3, :3] = k
+        t[:, :3, :3] += np.sin(x)[:, None, None] * k + (1 - np.cos(x))[:, None, None] * (k @ k)
+    return t, rate
+
+
+def frames(arm: hf.Arm, q: np.ndarray) -> list[np.ndarray]:
+    """World poses (N, 4, 4) of the base, of each joint's moving frame, and of the tool: n + 2 of them."""
+    t = np.broadcast_to(arm.base.astype(q.dtype), (len(q), 4, 4))
+    out = [t]
+    for k, joint in enumerate(arm.joints):
+        t = t @ joint.origin.astype(q.dtype) @ _motion(joint, q[:, k])[0]
+        out.append(t)
+    return [*out, t @ arm.tool.astype(q.dtype)]
+
+
+def forward(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """Tool poses (N, 4, 4)."""
+    return frames(arm, q)[-1]
+
+
+def jacobian(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """Geometric Jacobian (N, 6, n): column k is the twist read off ``dT/dq_k``."""
+    made = frames(arm, q)
+    tool = made[-1]
+    rotation = tool[:, :3, :3].transpose(0, 2, 1)
+    after = np.broadcast_to(arm.tool.astype(q.dtype), tool.shape)
+    columns = []
+    for k in reversed(range(arm.n)):
+        motion, rate = _motion(arm.joints[k], q[:, k])
+        slope = made[k + 1] @ rate @ after  # dT/dq_k
+        spin = slope[:, :3, :3] @ rotation
+        columns.append(np.stack([slope[:, 0, 3], slope[:, 1, 3], slope[:, 2, 3], spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], 1))
+        after = arm.joints[k].origin.astype(q.dtype) @ motion @ after
+    return np.stack(columns[::-1], axis=2)
+
+
+def plane(arm: hf.Arm) -> np.ndarray:
+    """Normal of a planar arm's plane: the null space of the linear velocities it can have (sign open)."""
+    q = np.random.default_rng(0).uniform(-1, 1, (8, arm.n))
+    velocities = np.concatenate(list(jacobian(arm, q)[:, :3].transpose(0, 2, 1)))
+    return np.linalg.svd(velocities)[2][-1]
+
+
+def task_jacobian(arm: hf.Arm, q: np.ndarray, task, frame: str = "base", length: float = 1.0) -> np.ndarray:
+    """Task Jacobian (N, m, n): ``task`` a name or a list of rows, linear rows divided by ``length``."""
+    j = jacobian(arm, q)
+    if task == "pointing" or frame == "tool":
+        turn = forward(arm, q)[:, :3, :3].transpose(0, 2, 1)
+        j = np.concatenate([turn @ j[:, :3], turn @ j[:, 3:]], axis=1)
+    j = np.concatenate([j[:, :3] / np.asarray(length, q.dtype), j[:, 3:]], axis=1)
+    if task in ("planar", "planar-pose"):
+        normal = plane(arm)
+        across = null_space(normal[None]).T.astype(q.dtype)
+        flat = across @ j[:, :3]
+        return flat if task == "planar" else np.concatenate([flat, (normal @ j[:, 3:])[:, None]], axis=1)
+    if isinstance(task, str):
+        return j[:, : {"pose": 6, "pointing": 5, "position": 3}[task]]
+    return j[:, [ROWS.index(r) for r in task]]
+
+
+# ---- indices of a Jacobian -----------------------------------------------------------------------------------------
+
+
+def _without(j: np.ndarray, failures: Sequence[Sequence[int]]) -> list[np.ndarray]:
+    return [np.delete(j, list(s), axis=-1) for s in failures]
+
+
+def index(name: str, j: np.ndarray, failures: Sequence[Sequence[int]]) -> np.ndarray:
+    """A built-in index (N, F) of Jacobians (N, m, n), from the singular values of each reduced matrix."""
+    m = j.shape[-2]
+    values = []
+    whole = np.linalg.svd(j, compute_uv=False)
+    for kept in _without(j, failures):
+        s = np.linalg.svd(kept, compute_uv=False)
+        with np.errstate(divide="ignore"):
+            values.append(
+                {
+                    "relative-manipulability": lambda s: s.prod(-1) / whole.prod(-1),
+                    "manipulability": lambda s: s.prod(-1),
+                    "mean-singular-value": lambda s: s.mean(-1),
+                    "geometric-mean-singular-value": lambda s: s.prod(-1) ** (1 / m),
+                    "minimum-singular-value": lambda s: s[..., -1],
+                    "condition-number": lambda s: s[..., 0] / s[..., -1],
+                }[name](s)
+            )
+    return np.stack(values, axis=-1)
+
+
+def worst(name: str, values: np.ndarray) -> np.ndarray:
+    return values.max(-1) if name == "condition-number" else values.min(-1)
+
+
+def condition(j: np.ndarray) -> np.ndarray:
+    s = np.linalg.svd(j, compute_uv=False)
+    return s[..., 0] / s[..., -1]
+
+
+def rho_long(j: np.ndarray) -> np.ndarray:
+    """rho (n,) of one long double Jacobian (m, n): Gram-Schmidt twice over, then the rows of a null-space basis."""
+    m, n = j.shape
+    basis: list[np.ndarray] = []
+    for v in [*j, *np.random.default_rng(0).normal(size=(n - m, n)).astype(j.dtype)]:
+        for _ in range(3):
+            for b in basis:
+                v = v - (v @ b) * b
+            v = v / np.sqrt(v @ v)
+        basis.append(v)
+    return np.sqrt((np.array(basis[m:]) ** 2).sum(axis=0))
+
+
+def slope(function, q: np.ndarray, h: float = 2e-4) -> np.ndarray:
+    """Central differences of fourth order: ``function (M, n) -> (M, ...)``, q (n,); (n, ...)."""
+    eye = np.eye(q.size)
+    points = np.concatenate([q + s * h * eye for s in (1, -1, 2, -2)])
+    a, b, c, d = np.split(function(points), 4)
+    return (8 * (a - b) - (c - d)) / (12 * h)
