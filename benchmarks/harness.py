@@ -125,7 +125,9 @@ def race(
             lines.append([peer.name, "-", "-", "-", f"not available: {missing}"])
             continue
         except Exception as failure:  # one broken peer must not cost the others their rows
-            lines.append([peer.name, "-", "-", "-", f"failed: {type(failure).__name__}: {str(failure)[:80]}".replace("\n", " ")])
+            lines.append(
+                [peer.name, "-", "-", "-", f"failed: {type(failure).__name__}: {str(failure)[:80]}".replace("\n", " ")]
+            )
             continue
         own = [len(a) / t / 1e6 for t in first]
         their = [len(b) / t / 1e6 for t in second]

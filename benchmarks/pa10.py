@@ -15,7 +15,7 @@ LOWER = np.deg2rad([-45.0, -15, -45, 45, -45, -27, -45, -9, -45])
 UPPER = np.deg2rad([45.0, 75, 45, 135, 45, 63, 45, 81, 45])
 
 
-def ours():  # noqa: ANN201
+def ours():
     """The same arm in holdfast, after a check that it is the same."""
     from holdfast import arms
 
@@ -95,7 +95,7 @@ def worst_of_jacobians(j: Array) -> Array:
     return np.sqrt(np.maximum(1 - leverage_of(j).max(axis=1), 0))
 
 
-def pinocchio():  # noqa: ANN201
+def pinocchio():
     """(model, data, frame id of the tool) of Pinocchio."""
     import pinocchio as pin
 
@@ -109,7 +109,7 @@ def pinocchio():  # noqa: ANN201
     return model, model.createData(), tool
 
 
-def robotics_toolbox():  # noqa: ANN201
+def robotics_toolbox():
     """Elementary transform sequence of the Robotics Toolbox, whose Jacobian is written in C."""
     import roboticstoolbox as rtb
 

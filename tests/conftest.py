@@ -20,7 +20,9 @@ _MADE: list[str] = []
 
 
 def pytest_addoption(parser):
-    parser.addoption("--draw", type=int, default=_DRAW, metavar="SEED", help=f"seed of all random test inputs (default {_DRAW})")
+    parser.addoption(
+        "--draw", type=int, default=_DRAW, metavar="SEED", help=f"seed of all random test inputs (default {_DRAW})"
+    )
 
 
 def pytest_configure(config):

@@ -174,7 +174,9 @@ def jacobian(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
         motion, rate = _motion(arm.joints[k], q[:, k])
         slope = made[k + 1] @ rate @ after  # dT/dq_k
         spin = slope[:, :3, :3] @ rotation
-        columns.append(np.stack([slope[:, 0, 3], slope[:, 1, 3], slope[:, 2, 3], spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], 1))
+        columns.append(
+            np.stack([slope[:, 0, 3], slope[:, 1, 3], slope[:, 2, 3], spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], 1)
+        )
         after = arm.joints[k].origin.astype(q.dtype) @ motion @ after
     return np.stack(columns[::-1], axis=2)
 

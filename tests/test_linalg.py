@@ -125,7 +125,11 @@ def test_jacobi_sweeps_end_at_the_singular_values(m, n, rng):
     symbol = ca.SX.sym("a", m, n)
     rows, largest = linalg.jacobi_sweep([[symbol[i, k] for k in range(n)] for i in range(m)])
     sweep = ca.Function("sweep", [symbol], [ca.vertcat(*[ca.horzcat(*r) for r in rows]), largest])
-    for a in (rng.normal(size=(m, n)), with_condition(rng, m, n, 1e6), 10.0 ** -np.arange(m)[:, None] * rng.normal(size=(m, n))):
+    for a in (
+        rng.normal(size=(m, n)),
+        with_condition(rng, m, n, 1e6),
+        10.0 ** -np.arange(m)[:, None] * rng.normal(size=(m, n)),
+    ):
         turned, cosine, sweeps = a, 1.0, 0
         while cosine > 1e-15 and sweeps < 12:
             turned, cosine = (np.array(x) for x in sweep(turned))

@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+
 import pa10
 from harness import Function, MissingError
 

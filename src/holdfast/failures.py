@@ -54,14 +54,16 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
 def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None:
     """Raise :class:`TaskError` unless every failed arm still has at least as many joints as the task has rows."""
     if arm.n <= rows:
+        fewer = [f"{name} ({m})" for name, m in (("pointing", 5), ("position", 3), ("planar", 2)) if m < min(rows, arm.n)]
+        advice = f"choose a task with fewer rows, for example {fewer[0]}" if fewer else "no task of this arm is redundant"
         raise TaskError(
-            f"'{arm.name}' is not redundant for task '{task}': {arm.n} joints for {rows} rows, so any locked joint ends the task; "
-            f"choose a task with fewer rows, for example {'pointing (5) or ' if rows > 5 else ''}position (3)"
+            f"'{arm.name}' is not redundant for task '{task}': {arm.n} joints for {rows} rows, "
+            f"so any locked joint ends the task; {advice}"
         )
     most = max(len(s) for s in sets)
     if arm.n - most < rows:
         raise TaskError(
-            f"locking {most} of the {arm.n} joints of '{arm.name}' leaves {arm.n - most} for the {rows} rows of task '{task}'; "
+            f"locking {most} of the {arm.n} joints of '{arm.name}' leaves {arm.n - most} for the {rows} rows of '{task}'; "
             f"lock at most {arm.n - rows} joints together or choose a task with fewer rows"
         )
 

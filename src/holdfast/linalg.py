@@ -69,7 +69,7 @@ class HouseholderQR:
             y[j + k] = y[j + k] - t * entry
 
     def null_rows(self) -> list[Vector]:
-        """n rows of n - m entries: the orthonormal null-space basis N, row by row."""
+        """The orthonormal null-space basis N, n rows of n - m entries."""
         rows: list[Vector] = [[] for _ in range(self.n)]
         for c in range(self.m, self.n):
             y = [ca.SX(float(i == c)) for i in range(self.n)]

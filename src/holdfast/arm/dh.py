@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.model import Arm, Joint, JointType, Link
+from holdfast.arm.model import Arm, Joint, JointType, Link, snapped
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -47,12 +47,12 @@ class DH:
 
 def _rot_x(angle: float) -> Array:
     c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1.0]])
+    return snapped(np.array([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1.0]]))
 
 
 def _rot_z(angle: float) -> Array:
     c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+    return snapped(np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]]))
 
 
 def _shift(x: float, z: float) -> Array:
@@ -132,4 +132,5 @@ def build(
         gravity=np.asarray(gravity, dtype=np.float64),
         payload=None if payload is None else payload.moved(after),
         source=source,
+        flange=after,
     )

@@ -54,7 +54,7 @@ def chain(arm: Arm, q: SX, frame: int | None = None) -> Chain:
     steps = [_joint_step(arm, k, q) for k in range(n)]
     axes: list[SX] = [None] * n
     points: list[SX] = [None] * n
-    rotation, position = (_split(arm.base) if frame is None else (_eye(), ca.SX(3, 1)))
+    rotation, position = _split(arm.base) if frame is None else (_eye(), ca.SX(3, 1))
     start = 0 if frame is None else frame
     for k in range(start, n):
         rotation, position = _compose((rotation, position), _split(arm.joints[k].origin))

@@ -55,12 +55,18 @@ class Joint:
         if self.type not in ("revolute", "continuous", "prismatic"):
             raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
         object.__setattr__(self, "origin", _transform(self.origin, f"origin of joint '{self.name}'"))
-        axis = np.asarray(self.axis, dtype=np.float64)
+        axis = _numbers(self.axis, f"axis of joint '{self.name}'")
         length = float(np.linalg.norm(axis)) if axis.shape == (3,) else 0.0
         if not (np.isfinite(length) and length > 1e-9):
             raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers, not all 0")
-        object.__setattr__(self, "axis", _frozen(_snap(axis / length)))
-        if np.isnan(self.lower) or np.isnan(self.upper) or self.lower > self.upper:
+        object.__setattr__(self, "axis", _frozen(snapped(axis / length)))
+        for field_name in ("lower", "upper", "velocity", "effort", "friction", "armature"):
+            value = float(getattr(self, field_name))
+            sign = "" if field_name in ("lower", "upper") else " of 0 or more"
+            if np.isnan(value) or (value < 0 and field_name not in ("lower", "upper")):
+                raise ArmError(f"{field_name} of joint '{self.name}' is {value:g}; it must be a number{sign}")
+            object.__setattr__(self, field_name, value)
+        if self.lower > self.upper:
             raise ArmError(
                 f"limits of joint '{self.name}' are upside down: lower {self.lower:g} is above upper {self.upper:g}; swap them"
             )
@@ -95,7 +101,7 @@ class Link:
 
     def __post_init__(self) -> None:
         label = f"link '{self.name}'" if self.name else "link"
-        com, inertia = np.asarray(self.com, dtype=np.float64), np.asarray(self.inertia, dtype=np.float64)
+        com, inertia = _numbers(self.com, f"com of {label}"), _numbers(self.inertia, f"inertia of {label}")
         if com.shape != (3,) or inertia.shape != (3, 3):
             raise ArmError(f"{label}: com has shape {com.shape} and inertia {inertia.shape}; they must be (3,) and (3, 3)")
         if not (np.isfinite(self.mass) and np.isfinite(com).all() and np.isfinite(inertia).all()):
@@ -141,6 +147,8 @@ class Arm:
         links: One body per joint, moving with it, each in its joint's moving frame; None where nothing is known.
         base: (4, 4) pose of the arm's base in the world.
         tool: (4, 4) pose of the tool in the last joint's moving frame. The tool point is its origin, the tool axis its z.
+        flange: (4, 4) pose of the last link's own frame in the last joint's moving frame: the last row's frame of a DH table,
+            the identity for a URDF file. :meth:`with_tool` and :meth:`with_payload` count from here.
         gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
         payload: Body held by the hand, in the last joint's moving frame.
         source: Where the description comes from, for reports.
@@ -154,6 +162,7 @@ class Arm:
     gravity: Array = field(default_factory=lambda: np.array(GRAVITY))
     payload: Link | None = None
     source: str = ""
+    flange: Array = field(default_factory=lambda: np.eye(4))
 
     def __post_init__(self) -> None:
         joints = tuple(self.joints)
@@ -166,13 +175,14 @@ class Arm:
         links = tuple(self.links) or (None,) * len(joints)
         if len(links) != len(joints):
             raise ArmError(f"arm '{self.name}' has {len(joints)} joints and {len(links)} links; it needs one link per joint")
-        gravity = np.asarray(self.gravity, dtype=np.float64)
+        gravity = _numbers(self.gravity, f"gravity of arm '{self.name}'")
         if gravity.shape != (3,) or not np.isfinite(gravity).all():
             raise ArmError(f"arm '{self.name}': gravity must be 3 finite numbers, m/s^2, for example {GRAVITY}")
         object.__setattr__(self, "joints", joints)
         object.__setattr__(self, "links", links)
         object.__setattr__(self, "base", _transform(self.base, f"base of arm '{self.name}'"))
         object.__setattr__(self, "tool", _transform(self.tool, f"tool of arm '{self.name}'"))
+        object.__setattr__(self, "flange", _transform(self.flange, f"flange of arm '{self.name}'"))
         object.__setattr__(self, "gravity", _frozen(gravity))
 
     # ---- builders ----------------------------------------------------------------------------------------------
@@ -196,10 +206,12 @@ class Arm:
             rows: One per joint.
             links: One per joint, each in its row's frame (distal for ``standard``, proximal for ``modified``).
             convention: ``standard``: ``Rz(theta) Tz(d) Tx(a) Rx(alpha)``; ``modified``: ``Rx(alpha) Tx(a) Rz(theta) Tz(d)``.
-            base, tool: (4, 4); the identity if not given. The tool is given in the last row's frame.
+            base: (4, 4) pose of the base in the world; the identity if not given.
+            tool: (4, 4) pose of the tool in the last row's frame; the identity if not given.
             gravity: (3,) acceleration in the world frame in which ``base`` is given.
             payload: In the last row's frame.
-            name, source: For people and files.
+            name: For people and files.
+            source: Where the numbers come from.
 
         Raises:
             ArmError: What is wrong with which row.
@@ -220,12 +232,12 @@ class Arm:
         return load(path, base, tip, **options)
 
     def with_tool(self, tool: ArrayLike) -> Arm:
-        """The same arm with the tool at another pose (4, 4) in the last joint's moving frame."""
-        return replace(self, tool=np.asarray(tool, dtype=np.float64))
+        """The same arm with another tool, given as ``from_dh`` and URDF files do: (4, 4) in the last link's own frame."""
+        return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"))
 
     def with_payload(self, payload: Link | None) -> Arm:
-        """The same arm holding another body, given in the last joint's moving frame."""
-        return replace(self, payload=payload)
+        """The same arm holding another body, given in the last link's own frame; None: nothing."""
+        return replace(self, payload=None if payload is None else payload.moved(self.flange))
 
     def with_base(self, base: ArrayLike) -> Arm:
         """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
@@ -256,7 +268,9 @@ class Arm:
     @cached_property
     def prismatic(self) -> NDArray[np.bool_]:
         """(n,) True for sliding joints."""
-        return np.array([j.prismatic for j in self.joints])
+        sliding = np.array([j.prismatic for j in self.joints])
+        sliding.setflags(write=False)
+        return sliding
 
     def joint_index(self, joint: str | int) -> int:
         """Index from 0 of a joint given by name or index from 0.
@@ -277,11 +291,22 @@ class Arm:
         """SHA-256 of the numbers that define the arm (not its name or source): the same arm has the same one."""
         data: dict[str, Any] = {
             "joints": [
-                [j.name, j.type, j.origin.tolist(), j.axis.tolist(), j.lower, j.upper, j.velocity, j.effort, j.friction, j.armature]
+                [
+                    j.name,
+                    j.type,
+                    j.origin.tolist(),
+                    j.axis.tolist(),
+                    j.lower,
+                    j.upper,
+                    j.velocity,
+                    j.effort,
+                    j.friction,
+                    j.armature,
+                ]
                 for j in self.joints
             ],
             "links": [_body(x) for x in (*self.links, self.payload)],
-            "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist()],
+            "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist(), self.flange.tolist()],
         }
         return hashlib.sha256(json.dumps(data).encode()).hexdigest()
 
@@ -328,20 +353,21 @@ class Arm:
 
     def forward_kinematics(self, q: ArrayLike) -> Array:
         """Tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
-        return self._pose_kernel(self.check_configurations(q))  # type: ignore[no-any-return]
+        a = self.check_configurations(q)
+        return self._pose_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], 4, 4))
 
     def jacobian(self, q: ArrayLike) -> Array:
         """Geometric Jacobian at the tool point, (6, n) or (N, 6, n).
 
         Rows: linear velocity, then angular velocity, both in the world frame; m/rad and rad/rad for revolute columns.
         """
-        return self._jacobian_kernel(self.check_configurations(q))  # type: ignore[no-any-return]
+        a = self.check_configurations(q)
+        return self._jacobian_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], 6, self.n))
 
     def jacobian_derivative(self, q: ArrayLike) -> Array:
         """Derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
         a = self.check_configurations(q)
-        flat: Array = self._jacobian_derivative_kernel(a)
-        return flat.reshape((*a.shape[:-1], self.n, 6, self.n))
+        return self._jacobian_derivative_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n, 6, self.n))
 
     def __repr__(self) -> str:
         return f"Arm({self.name!r}, {self.n} joints)"
@@ -357,7 +383,14 @@ def _frozen(a: Array) -> Array:
     return b
 
 
-def _snap(a: Array) -> Array:
+def _numbers(value: ArrayLike, what: str) -> Array:
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ArmError(f"{what} must be numbers in an array of the right shape") from error
+
+
+def snapped(a: Array) -> Array:
     """Rounding noise of cos(pi/2) and the like becomes exactly 0, 1 or -1, so that symbolic products vanish."""
     b = a.copy()
     for value in (-1.0, 0.0, 1.0):
@@ -366,7 +399,7 @@ def _snap(a: Array) -> Array:
 
 
 def _transform(value: ArrayLike, what: str) -> Array:
-    t = np.asarray(value, dtype=np.float64)
+    t = _numbers(value, what)
     if t.shape != (4, 4) or not np.isfinite(t).all():
         raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
     rotation = t[:3, :3]
@@ -375,7 +408,7 @@ def _transform(value: ArrayLike, what: str) -> Array:
     if not np.allclose(t[3], [0, 0, 0, 1]):
         raise ArmError(f"{what}: its last row is {t[3].tolist()}; it must be 0, 0, 0, 1")
     out = t.copy()
-    out[:3, :3] = _snap(rotation)
+    out[:3, :3] = snapped(rotation)
     return _frozen(out)
 
 

@@ -19,6 +19,7 @@ def to_dict(arm: Arm) -> dict[str, Any]:
         "source": arm.source,
         "base": arm.base.tolist(),
         "tool": arm.tool.tolist(),
+        "flange": arm.flange.tolist(),
         "gravity": arm.gravity.tolist(),
         "joints": [
             {
@@ -55,6 +56,7 @@ def from_dict(data: dict[str, Any]) -> Arm:
             gravity=np.array(data["gravity"]),
             payload=_link_from_dict(data["payload"]),
             source=data["source"],
+            flange=np.array(data["flange"]),
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise ArmError(f"this is not an arm description written by holdfast: {error!r} is missing or malformed") from error

@@ -90,7 +90,9 @@ class Task:
         return f"Task({self.name!r}, m={self.m}, frame={self.frame!r}, length={self.length:g})"
 
 
-def rows_task(rows: Sequence[str], frame: Literal["base", "tool"] = "base", length: float = 1.0, name: str | None = None) -> Task:
+def rows_task(
+    rows: Sequence[str], frame: Literal["base", "tool"] = "base", length: float = 1.0, name: str | None = None
+) -> Task:
     """A task of chosen rows, for example ``rows_task(["vx", "vy", "wz"], frame="tool")``.
 
     Raises:
@@ -113,7 +115,8 @@ def plane_normal(arm: Arm) -> Array | None:
     All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
     """
     rotation = arm.base[:3, :3]
-    turning, sliding = [], []
+    turning: list[Array] = []
+    sliding: list[Array] = []
     for joint in arm.joints:
         rotation = rotation @ joint.origin[:3, :3]
         # Earlier joints turn about the normal itself, which keeps parallel axes parallel: q = 0 speaks for every q.
@@ -147,7 +150,9 @@ def as_task(arm: Arm, task: str | Task | Sequence[str], length: float | None = N
     if task in ("planar", "planar-pose"):
         normal = plane_normal(arm)
         if normal is None:
-            raise TaskError(f"'{arm.name}' does not move in a plane, so it has no task '{task}'; use pose, pointing or position")
+            raise TaskError(
+                f"'{arm.name}' does not move in a plane, so it has no task '{task}'; use pose, pointing or position"
+            )
         seed = np.eye(3)[int(np.argmin(np.abs(normal)))]
         first = seed - normal * (normal @ seed)
         first /= np.linalg.norm(first)

@@ -68,7 +68,7 @@ class Assessment:
     _rows: Rows | None = None
 
     def cdf(self, h: ArrayLike, reachable_only: bool = False) -> Array:
-        """``F(h)``: share of poses whose index is below h. A pose without a configuration counts as 0 unless asked otherwise."""
+        """``F(h)``: share of poses whose index is below h; one without a configuration counts as 0 unless asked otherwise."""
         return self.distribution.cdf(h, reachable_only)
 
     def probability(self, at_least: float | None = None, at_most: float | None = None, reachable_only: bool = False) -> float:
@@ -107,7 +107,9 @@ class Assessment:
             )
             for name, values in self._rows.items()
         }
-        return xr.Dataset(data, attrs={"plan": str(_plan(self.arm, self.region, self.index, self.seed, self.sampling, self.restarts))})
+        return xr.Dataset(
+            data, attrs={"plan": str(_plan(self.arm, self.region, self.index, self.seed, self.sampling, self.restarts))}
+        )
 
     def save(self, path: str | Path) -> Path:
         """Write the run as a results folder that :func:`load` and ``holdfast report`` read.
@@ -267,7 +269,13 @@ def _evaluate(arm: Arm, region: Region, index: Index, samples: Array, seed: int,
     count = len(samples)
     if region.kind == "joints":
         result = index.evaluate(samples)
-        return {"q": samples, "status": result.status, "index": result.value, "by_failure": result.by_failure, "worst": _worst(result)}
+        return {
+            "q": samples,
+            "status": result.status,
+            "index": result.value,
+            "by_failure": result.by_failure,
+            "worst": _worst(result),
+        }
     poses = region.poses(samples)
     child = np.random.SeedSequence(seed, spawn_key=(1, number))
     reach = solver(arm, index.task).solve(poses, child, restarts, 1e-6)

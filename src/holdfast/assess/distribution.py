@@ -93,7 +93,9 @@ class Distribution:
     def _size(self, reachable_only: bool) -> int:
         size = self.reached if reachable_only else self.samples
         if not size:
-            raise InputError("this distribution has no samples; no pose was reached: use reachable_only=False or another region")
+            raise InputError(
+                "this distribution has no samples; no pose was reached: use reachable_only=False or another region"
+            )
         return size
 
     def _below(self, h: Array, reachable_only: bool) -> Array:
@@ -101,7 +103,8 @@ class Distribution:
         if self.values is not None:
             count = np.searchsorted(self.values, h, side="left").astype(np.float64)
         else:
-            assert self.edges is not None and self.counts is not None
+            assert self.edges is not None
+            assert self.counts is not None
             cumulative = np.r_[0, np.cumsum(self.counts)]
             count = np.interp(h, self.edges, cumulative[: len(self.edges)])
         if not reachable_only and self.better == "larger":
@@ -174,9 +177,12 @@ class Distribution:
             inner = np.clip(rank - offset, 0, max(self.reached - 1, 0)).astype(np.int64)
             found = self.values[inner] if self.reached else np.full(p_.shape, np.nan)
         else:
-            assert self.edges is not None and self.counts is not None
+            assert self.edges is not None
+            assert self.counts is not None
             cumulative = np.cumsum(self.counts)
-            found = self.edges[1:][np.searchsorted(cumulative, np.maximum(rank - offset, 0), side="right").clip(max=len(self.counts) - 1)]
+            found = self.edges[1:][
+                np.searchsorted(cumulative, np.maximum(rank - offset, 0), side="right").clip(max=len(self.counts) - 1)
+            ]
         outside = rank < offset if worst_first else rank >= self.reached
         return np.where(outside, 0.0 if worst_first else np.inf, found)
 
@@ -242,7 +248,8 @@ class Collector:
         self._count(seen)
 
     def _count(self, values: Array) -> None:
-        assert self._edges is not None and self._counts is not None
+        assert self._edges is not None
+        assert self._counts is not None
         low, high = self._edges[0], self._edges[-2]
         finite = values[np.isfinite(values)]
         place = ((finite - low) * ((BINS - 1) / (high - low))).astype(np.int64)

@@ -70,9 +70,11 @@ class Region:
         """Poses uniform in a box of positions and, independently, a box of angles.
 
         Args:
-            center, size: (3,) middle and full edge lengths in the world, m; a scalar size is a cube.
-            rpy_center, rpy_size: (3,) middle and full ranges of (roll, pitch, yaw), rad; angles are drawn about the centre
-                by addition, so they may leave +-90 degrees. ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+            center: (3,) middle in the world, m.
+            size: (3,) full edge lengths, m; a scalar is a cube.
+            rpy_center: (3,) middle of (roll, pitch, yaw), rad; ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+            rpy_size: (3,) full ranges, rad, or a scalar; angles are drawn about the centre by addition, so the pitch may
+                leave +-90 degrees.
             name: For reports.
 
         Raises:
@@ -206,7 +208,8 @@ class Region:
             return f"configurations uniform in a box of {len(self.center)} joints"
         c, s = np.array(self.center), np.array(self.size)
         return (
-            f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; roll, pitch, yaw in "
+            f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
+            "roll, pitch, yaw in "
             f"{np.rad2deg(s[3]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[5]):.4g} deg about "
             f"({np.rad2deg(c[3]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[5]):.4g}) deg, R = Rz(roll) Ry(pitch) Rx(yaw)"
         )

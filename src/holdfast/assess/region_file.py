@@ -61,7 +61,6 @@ def read(path: str | Path) -> Region:
         raise InputError(f"region file '{file}': {error}") from error
 
 
-
 class _Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
@@ -101,5 +100,7 @@ def _place(loc: Sequence[int | str]) -> str:
 
 
 def _known_keys(loc: Sequence[int | str]) -> list[str]:
-    model: type[BaseModel] = {"box": _Box, "joints": _Joints}.get(str(loc[0]), _RegionFile) if loc else _RegionFile
+    model: type[BaseModel] = _RegionFile
+    if loc:
+        model = _Box if loc[0] == "box" else _Joints
     return list(model.model_fields)

@@ -21,7 +21,9 @@ def arms(json_: JsonOption = False) -> None:
 
     entries = [library.about(name) for name in library.names()]
     if json_:
-        print_json([{"name": e.name, "joints": e.n, "summary": e.summary, "source": e.source, "licence": e.licence} for e in entries])
+        print_json(
+            [{"name": e.name, "joints": e.n, "summary": e.summary, "source": e.source, "licence": e.licence} for e in entries]
+        )
         return
     from rich.console import Console
     from rich.table import Table
@@ -69,7 +71,9 @@ def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, j
     from rich.table import Table
 
     out = Console(highlight=False)
-    out.print(f"[bold]{escape(model.name)}[/]: {model.n} joints" + (f". Source: {escape(model.source)}" if model.source else ""))
+    out.print(
+        f"[bold]{escape(model.name)}[/]: {model.n} joints" + (f". Source: {escape(model.source)}" if model.source else "")
+    )
     table = Table("", "joint", "type", "lower", "upper", "speed", "effort", "link mass", box=None, pad_edge=False)
     for k, joint in enumerate(model.joints):
         link = model.links[k]
@@ -91,8 +95,14 @@ def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, j
         out.print(f"[{style}]{label}[/]{escape(explain(model, s, found))}", soft_wrap=True)
     if findings:
         out.print()
+    # The same remark about every joint is one line.
+    subjects: dict[tuple[str, str], list[str]] = {}
     for f in findings:
-        out.print(f"[{'red' if f.severity == 'error' else 'yellow'}]{f.severity}[/] {escape(f.subject)}: {escape(f.message)}", soft_wrap=True)
+        subjects.setdefault((f.severity, f.message), []).append(f.subject)
+    for (severity, message), names in subjects.items():
+        who = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more like it"
+        colour = "red" if severity == "error" else "yellow"
+        out.print(f"[{colour}]{severity}[/] {escape(who)}: {escape(message)}", soft_wrap=True)
 
 
 def _joint(arm: Arm, k: int) -> dict[str, Any]:

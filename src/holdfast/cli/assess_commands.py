@@ -32,7 +32,9 @@ if TYPE_CHECKING:
 
 def assess(
     arm: ArmArgument,
-    region: Annotated[Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)] = None,
+    region: Annotated[
+        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
+    ] = None,
     index: IndexOption = "relative-manipulability",
     task: TaskOption = None,
     failures: FailuresOption = "single",
@@ -41,9 +43,15 @@ def assess(
     seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
     restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
-    at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)] = None,
-    out: Annotated[Path | None, typer.Option("--out", help="Folder for results and report; a stopped run goes on.", show_default=False)] = None,
-    threads: Annotated[int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)] = None,
+    at_least: Annotated[
+        list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for results and report; a stopped run goes on.", show_default=False)
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
+    ] = None,
     base: BaseOption = None,
     tip: TipOption = None,
     json_: JsonOption = False,
@@ -91,7 +99,9 @@ def assess(
 
 
 def report(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)],
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)
+    ],
     to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
     json_: JsonOption = False,
 ) -> None:
@@ -137,7 +147,9 @@ class _progress:
         from rich.console import Console
         from rich.progress import Progress, TimeRemainingColumn
 
-        self._bar = Progress(*Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True)
+        self._bar = Progress(
+            *Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True
+        )
         self._bar.start()
         job = self._bar.add_task("poses", total=None)
         return lambda done, total: self._bar.update(job, completed=done, total=total)
@@ -171,7 +183,9 @@ def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]
         "not_found": d.unreached,
         "singular": d.singular,
         "mean": d.mean if reached else None,
-        "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True)) if reached else None,
+        "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True))
+        if reached
+        else None,
         "band_95": d.band(),
         "probability": [_probability(result, h) for h in _thresholds(result, at_least)],
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
@@ -205,7 +219,10 @@ def _print(result: Assessment, at_least: list[float] | None) -> None:
     out.print(f"[bold]{escape(result.arm.name)}[/]: {escape(result.index.describe())}", soft_wrap=True)
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
     if not result.complete:
-        out.print(f"[yellow]not finished: {d.samples} of {result.poses} poses; the same 'holdfast assess' command goes on[/]", soft_wrap=True)
+        out.print(
+            f"[yellow]not finished: {d.samples} of {result.poses} poses; the same 'holdfast assess' command goes on[/]",
+            soft_wrap=True,
+        )
     out.print(
         f"{d.samples} poses, seed {result.seed}: {d.reached} reached, {d.unreached} not found within the limits "
         f"({d.unreached / max(d.samples, 1):.1%}, counted as failed), {d.singular} singular",
@@ -216,7 +233,8 @@ def _print(result: Assessment, at_least: list[float] | None) -> None:
     if d.reached:
         low, middle, high = d.quantile([0.05, 0.5, 0.95]).tolist()
         bound = f"; no configuration can beat {number(result.index.bound)}" if result.index.bound is not None else ""
-        out.print(f"over reached poses: median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(d.mean)}{bound}", soft_wrap=True)
+        spread = f"median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(d.mean)}"
+        out.print(f"over reached poses: {spread}{bound}", soft_wrap=True)
     sign = "at least" if result.index.better == "larger" else "at most"
     table = Table(f"{result.index.name}", "probability", "95 % interval", box=None, pad_edge=False)
     for h in _thresholds(result, at_least):

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from holdfast.indices import Index
 
 QOption = Annotated[
-    list[str], typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False)
+    list[str],
+    typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
 ]
 
 
@@ -94,10 +95,15 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
     for q, r in zip(configurations, results, strict=True):
         out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.name)}", soft_wrap=True)
         if r["singular"]:
-            out.print("[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]", soft_wrap=True)
+            out.print(
+                "[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]",
+                soft_wrap=True,
+            )
         else:
             bound = f"; at most {number(measure.bound)} for any configuration" if measure.bound is not None else ""
-            out.print(f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}", soft_wrap=True)
+            out.print(
+                f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}", soft_wrap=True
+            )
         outside = [j.name for j, x in zip(measure.arm.joints, q, strict=True) if not j.lower <= x <= j.upper]
         if outside:
             out.print(f"[yellow]outside its limits: {escape(', '.join(outside))}[/]", soft_wrap=True)

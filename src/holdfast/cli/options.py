@@ -17,9 +17,13 @@ if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.failures import FailureSpec
 
-ArmArgument = Annotated[str, typer.Argument(metavar="ARM", help="Built-in name, URDF file, or DH table (YAML).", show_default=False)]
+ArmArgument = Annotated[
+    str, typer.Argument(metavar="ARM", help="Built-in name, URDF file, or DH table (YAML).", show_default=False)
+]
 BaseOption = Annotated[str | None, typer.Option("--base", help="URDF: base link. Default: the root.", show_default=False)]
-TipOption = Annotated[str | None, typer.Option("--tip", help="URDF: tip link. Default: the only end there is.", show_default=False)]
+TipOption = Annotated[
+    str | None, typer.Option("--tip", help="URDF: tip link. Default: the only end there is.", show_default=False)
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TaskOption = Annotated[
     str | None,

@@ -79,13 +79,13 @@ class CustomIndex(Index):
         return Kernel(f"{self.name} gradient", [q], [ca.gradient(worst, q)])
 
     def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
-        values = self._values_kernel(q).reshape(len(q), -1)
+        values = self._values_kernel.rows(q)
         singular = self._singular_rows(q)
         values[singular] = self.singular_value_by_convention
         return values, singular
 
     def _gradient(self, q: Array) -> Array:
-        g = self._gradient_kernel(q).reshape(len(q), -1)
+        g = self._gradient_kernel.rows(q)
         g[self._singular_rows(q)] = 0.0
         return g
 

@@ -150,7 +150,7 @@ class Index(ABC):
     def singular(self, q: ArrayLike) -> NDArray[np.bool_]:
         """True where the healthy arm's task Jacobian is singular, (N,) or a scalar."""
         rows, single = self._rows(q)
-        finite = np.isfinite(rows).all(axis=1)
+        finite: NDArray[np.bool_] = np.asarray(np.isfinite(rows).all(axis=1))
         result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
         return result[0] if single else result
 
@@ -163,8 +163,7 @@ class Index(ABC):
 
     def task_jacobian(self, q: Array) -> Array:
         """Task Jacobian (N, m, n) for q (N, n), linear rows divided by the characteristic length."""
-        j: Array = self._task_jacobian(q)
-        return j.reshape(*q.shape[:-1], self.task.m, self.arm.n)
+        return self._task_jacobian.rows(q).reshape(-1, self.task.m, self.arm.n)
 
     def _is_singular(self, q: Array) -> NDArray[np.bool_]:
         """The definition itself, by singular values of the task Jacobian."""

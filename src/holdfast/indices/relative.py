@@ -74,7 +74,9 @@ class RelativeManipulability(Index):
         ``sigma_m >= |det| ((m - 1) / |J|^2)^((m - 1) / 2)``. The factor covers the change of frame and point.
         """
         length = max(self.task.length, 1 / self.task.length)
-        reach = sum(float(np.linalg.norm(x.origin[:3, 3])) for x in self.arm.joints) + float(np.linalg.norm(self.arm.tool[:3, 3]))
+        reach = sum(float(np.linalg.norm(x.origin[:3, 3])) for x in self.arm.joints) + float(
+            np.linalg.norm(self.arm.tool[:3, 3])
+        )
         threshold = min(1e-11 * (1 + reach) ** 2 * length, 1e-6)
         return qr.squared_volume() > threshold**2 * qr.squared_norm() ** self.task.m
 
@@ -159,25 +161,25 @@ class RelativeManipulability(Index):
     def __call__(self, q: ArrayLike) -> Array:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
         rows, single = self._rows(q)
-        value = self._worst_kernel(rows).reshape(len(rows))
+        value = self._worst_kernel.rows(rows)[:, 0]
         if np.isnan(np.add.reduce(value)):
             again = np.flatnonzero(np.isnan(value))
             value[again] = super().evaluate(rows[again]).value
         return value[0] if single else value
 
     def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
-        values = self._values_kernel(q).reshape(len(q), -1)
+        values = self._values_kernel.rows(q)
         again, singular = self._second_look(q, values)
         if again.size:
-            values[again] = self._plain_values_kernel(q[again]).reshape(again.size, -1)
+            values[again] = self._plain_values_kernel.rows(q[again])
             values[singular] = 0.0
         return values, singular
 
     def _gradient(self, q: Array) -> Array:
-        g = self._gradient_kernel(q).reshape(len(q), -1)
+        g = self._gradient_kernel.rows(q)
         again, singular = self._second_look(q, g)
         if again.size:
-            g[again] = self._plain_gradient_kernel(q[again]).reshape(again.size, -1)
+            g[again] = self._plain_gradient_kernel.rows(q[again])
             g[singular] = 0.0
         return g
 

@@ -5,4 +5,15 @@ from holdfast.kernels.loop import Loop, LoopResult
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import pool, set_threads, thread_count
 
-__all__ = ["BACKENDS", "SX", "Kernel", "Loop", "LoopResult", "Program", "default_backend", "pool", "set_threads", "thread_count"]
+__all__ = [
+    "BACKENDS",
+    "SX",
+    "Kernel",
+    "Loop",
+    "LoopResult",
+    "Program",
+    "default_backend",
+    "pool",
+    "set_threads",
+    "thread_count",
+]

@@ -77,8 +77,8 @@ def store(name: str, compiled: Any) -> None:
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(hashlib.sha256(body).digest() + body)
-            os.replace(temporary, path / name)
+            Path(temporary).replace(path / name)
         except OSError:
-            os.unlink(temporary)
+            Path(temporary).unlink()
     except OSError:
         return

@@ -33,8 +33,8 @@ class Kernel:
     """A batched function of CasADi expressions.
 
     Each input of shape ``(r, c)`` takes an array ``(N, r, c)``; axes of length 1 are dropped, so a scalar takes
-    ``(N,)`` and a column ``(N, r)``. Without the leading ``N`` the result is that of one row. Inputs without it are
-    used for every row. Results follow the same rule.
+    ``(N,)`` or ``(N, 1)`` and a column ``(N, r)``. Without the leading ``N`` the result is that of one row. Inputs
+    without it are used for every row. Results follow the same rule.
 
     The same row gives the same bits whatever the batch, the chunks and the number of threads: every call, also of one
     row, is padded to the SIMD width. NaN or infinity in a row gives NaN in all results of that row, and in no other.
@@ -85,16 +85,10 @@ class Kernel:
         Raises:
             InputError: Wrong number of inputs, a wrong shape, or batches of different lengths.
         """
-        arrays, rows = self._rows(inputs)
+        arrays, rows = self._read(inputs)
         single = rows is None
-        count = 1 if rows is None else rows
-        out = np.empty((count, self.program.n_out))
-        if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
-            for start in range(0, count, self._chunk):
-                self._run(arrays, out, start, min(start + self._chunk, count))
-        else:
-            starts = range(0, count, self._chunk)
-            list(pool().map(lambda s: self._run(arrays, out, s, min(s + self._chunk, count)), starts))
+        out = self._evaluate(arrays, rows)
+        count = len(out)
         results, at = [], 0
         for dims, shape in zip(self._out_dims, self.program.output_shapes, strict=True):
             size = shape[0] * shape[1]
@@ -105,7 +99,22 @@ class Kernel:
             results = [r[()] if r.ndim == 0 else r for r in results]
         return results[0] if len(results) == 1 else tuple(results)
 
-    def _rows(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
+    def rows(self, *inputs: ArrayLike) -> Array:
+        """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row."""
+        return self._evaluate(*self._read(inputs))
+
+    def _evaluate(self, arrays: list[Array], rows: int | None) -> Array:
+        count = 1 if rows is None else rows
+        out = np.empty((count, self.program.n_out))
+        if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
+            for start in range(0, count, self._chunk):
+                self._run(arrays, out, start, min(start + self._chunk, count))
+        else:
+            starts = range(0, count, self._chunk)
+            list(pool().map(lambda s: self._run(arrays, out, s, min(s + self._chunk, count)), starts))
+        return out
+
+    def _read(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
         if len(inputs) != len(self._in_dims):
             raise InputError(f"kernel '{self.name}' takes {len(self._in_dims)} inputs, got {len(inputs)}")
         arrays: list[Array] = []
@@ -115,7 +124,8 @@ class Kernel:
             if a.shape == dims:
                 arrays.append(a.reshape(1, -1))
                 continue
-            if a.ndim != len(dims) + 1 or a.shape[1:] != dims:
+            column = dims == () and a.ndim == 2 and a.shape[1] == 1  # a vector of one element, batch of them
+            if not column and (a.ndim != len(dims) + 1 or a.shape[1:] != dims):
                 want = "(" + ", ".join(["N", *map(str, dims)]) + ")"
                 raise InputError(f"kernel '{self.name}': input {k} has shape {a.shape}; it must be {want} or {dims}")
             if rows is not None and rows != a.shape[0]:

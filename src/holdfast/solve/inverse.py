@@ -64,7 +64,7 @@ def check_poses(poses: ArrayLike) -> Array:
         raise InputError(f"poses have shape {t.shape}; they must be (4, 4) or (N, 4, 4) arrays")
     t = t.reshape(-1, 4, 4)
     rotation = t[:, :3, :3]
-    finite = np.isfinite(t).all(axis=(1, 2))
+    finite: NDArray[np.bool_] = np.asarray(np.isfinite(t).all(axis=(1, 2)))
     off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2), initial=0.0)
     wrong = np.flatnonzero(finite & ((off > 1e-6) | (np.linalg.det(np.where(finite[:, None, None], rotation, np.eye(3))) < 0)))
     if wrong.size:
@@ -152,7 +152,7 @@ class InverseKinematics:
         q = self._wrapped(q)
         position_error, rotation_error = np.full(rows, np.nan), np.full(rows, np.nan)
         known = np.flatnonzero(np.isfinite(q).all(axis=1))
-        errors = self._errors(q[known], poses[known, :3, 3], poses[known, :3, :3])
+        errors = self._errors.rows(q[known], poses[known, :3, 3], poses[known, :3, :3])
         position_error[known], rotation_error[known] = errors[:, 0], errors[:, 1]
         # The verdict comes from the configuration handed out, not from the solver's own residual.
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)

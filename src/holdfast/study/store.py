@@ -128,7 +128,9 @@ class Store:
         try:
             run = json.loads(file.read_text())
         except (OSError, ValueError) as error:
-            raise StoreError(f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder") from error
+            raise StoreError(
+                f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder"
+            ) from error
         if not isinstance(run, dict) or run.get("format") != _FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a holdfast run")
         if run.get("version") != _VERSION:
@@ -242,7 +244,8 @@ class Store:
                 data = data.load()
         except Exception as error:  # zarr and xarray raise many kinds for damaged files
             raise StoreError(f"'{self.path / _SAMPLES}' is damaged ({error}); start the run again in a new folder") from error
-        return data
+        dataset: xr.Dataset = data
+        return dataset
 
     # ---- files -----------------------------------------------------------------------------------------------------
 
@@ -270,7 +273,7 @@ class Store:
                 json.dump(self._run, file, indent=1)
                 file.flush()
                 os.fsync(file.fileno())
-            os.replace(temporary, self.path / _RUN)
+            Path(temporary).replace(self.path / _RUN)
         except OSError:
             Path(temporary).unlink(missing_ok=True)
             raise

@@ -1,0 +1,193 @@
+"""Pages that run what they show, so that no number in them can be out of date.
+
+Every page has one Python session and one temporary folder, shared by its directives:
+
+``run``: Python code and what it prints, the value of a last expression included.
+``shell``: command lines (``$ ...``) and what they print; ``:exit:`` is the exit code expected (0), ``:head:`` the number
+    of lines shown of each output.
+``file``: text that is shown and saved under the name given.
+``casadi-operations``: the operations that the heyoka backend translates, from its table.
+
+The role ``cite`` refers to an entry of the list of references.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import io
+import os
+import subprocess
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+from typing import Any, ClassVar
+
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective, SphinxRole
+
+WIDTH = 92
+
+SPELLING = {
+    "OP_ADD": "a + b",
+    "OP_SUB": "a - b",
+    "OP_MUL": "a * b",
+    "OP_DIV": "a / b",
+    "OP_NEG": "-a",
+    "OP_EXP": "ca.exp(a)",
+    "OP_LOG": "ca.log(a)",
+    "OP_POW": "a ** b",
+    "OP_CONSTPOW": "a ** 3.5",
+    "OP_SQRT": "ca.sqrt(a)",
+    "OP_SQ": "a ** 2",
+    "OP_TWICE": "2 * a",
+    "OP_SIN": "ca.sin(a)",
+    "OP_COS": "ca.cos(a)",
+    "OP_TAN": "ca.tan(a)",
+    "OP_ASIN": "ca.asin(a)",
+    "OP_ACOS": "ca.acos(a)",
+    "OP_ATAN": "ca.atan(a)",
+    "OP_ATAN2": "ca.atan2(a, b)",
+    "OP_INV": "1 / a",
+    "OP_LT": "a < b",
+    "OP_LE": "a <= b",
+    "OP_EQ": "a == b",
+    "OP_NE": "a != b",
+    "OP_NOT": "ca.logic_not(a)",
+    "OP_AND": "ca.logic_and(a, b)",
+    "OP_OR": "ca.logic_or(a, b)",
+    "OP_IF_ELSE_ZERO": "ca.if_else(c, a, 0)",
+    "OP_FABS": "ca.fabs(a)",
+    "OP_SIGN": "ca.sign(a)",
+    "OP_FMIN": "ca.fmin(a, b)",
+    "OP_FMAX": "ca.fmax(a, b)",
+    "OP_SINH": "ca.sinh(a)",
+    "OP_COSH": "ca.cosh(a)",
+    "OP_TANH": "ca.tanh(a)",
+    "OP_ERF": "ca.erf(a)",
+    "OP_LOG1P": "ca.log1p(a)",
+    "OP_EXPM1": "ca.expm1(a)",
+    "OP_HYPOT": "ca.hypot(a, b)",
+    "OP_ASSIGN": "a",
+}
+
+
+class _Live(SphinxDirective):
+    has_content = True
+
+    @property
+    def folder(self) -> Path:
+        made = self.env.temp_data.get("live-folder")
+        if made is None:
+            made = self.env.temp_data["live-folder"] = tempfile.TemporaryDirectory(prefix="holdfast-docs-")
+        return Path(made.name)
+
+    @property
+    def names(self) -> dict[str, Any]:
+        return self.env.temp_data.setdefault("live-names", {"__name__": "docs"})  # type: ignore[no-any-return]
+
+    def block(self, text: str, language: str, kind: str) -> nodes.Node:
+        node = nodes.literal_block(text, text, language=language, classes=[kind])
+        self.set_source_info(node)
+        return node
+
+
+class Run(_Live):
+    def run(self) -> list[nodes.Node]:
+        code = "\n".join(self.content)
+        out = io.StringIO()
+        tree = ast.parse(code)
+        last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+        before = Path.cwd()
+        try:
+            os.chdir(self.folder)
+            with contextlib.redirect_stdout(out):
+                exec(compile(tree, self.env.docname, "exec"), self.names)
+                if last is not None:
+                    value = eval(compile(ast.Expression(last.value), self.env.docname, "eval"), self.names)
+                    if value is not None:
+                        print(repr(value))
+        except Exception as error:
+            raise self.error(f"code of '{self.env.docname}' fails:\n{traceback.format_exc()}") from error
+        finally:
+            os.chdir(before)
+        shown = [self.block(code, "python", "live-code")]
+        if out.getvalue():
+            shown.append(self.block(out.getvalue().rstrip(), "text", "live-output"))
+        return shown
+
+
+class Shell(_Live):
+    option_spec: ClassVar = {"exit": int, "head": int}
+
+    def run(self) -> list[nodes.Node]:
+        expected, head = self.options.get("exit", 0), self.options.get("head")
+        environment = {**os.environ, "COLUMNS": str(WIDTH), "NO_COLOR": "1", "TERM": "dumb"}
+        environment["PATH"] = str(Path(sys.executable).parent) + os.pathsep + environment.get("PATH", "")
+        shown = []
+        for line in self.content:
+            if not line.startswith("$ "):
+                raise self.error(f"every line of a shell block must begin with '$ ', got: {line}")
+            done = subprocess.run(line[2:], shell=True, cwd=self.folder, env=environment, capture_output=True, text=True)
+            if done.returncode != expected:
+                raise self.error(f"'{line}' ended with {done.returncode} instead of {expected}:\n{done.stdout}{done.stderr}")
+            lines = [x.rstrip() for x in (done.stderr + done.stdout).rstrip().splitlines()]
+            if head is not None and len(lines) > head:
+                lines = [*lines[:head], "..."]
+            shown += [line, *lines]
+        return [self.block("\n".join(shown), "console", "live-shell")]
+
+
+class File(_Live):
+    required_arguments = 1
+    option_spec: ClassVar = {"language": directives.unchanged}
+
+    def run(self) -> list[nodes.Node]:
+        text = "\n".join(self.content)
+        name = self.arguments[0]
+        (self.folder / name).write_text(text + "\n", encoding="utf-8")
+        default = {".yaml": "yaml", ".urdf": "xml", ".py": "python"}.get(Path(name).suffix, "text")
+        caption = nodes.caption("", "", nodes.literal(name, name))
+        box = nodes.container("", classes=["literal-block-wrapper"], literal_block=True)
+        return [box + [caption, self.block(text, self.options.get("language", default), "live-file")]]
+
+
+class CasadiOperations(SphinxDirective):
+    def run(self) -> list[nodes.Node]:
+        from holdfast.kernels import heyoka_backend
+        from holdfast.kernels.program import OP_NAMES
+
+        if not heyoka_backend.available():
+            text = "This copy of the documentation was built without heyoka, so the list is missing."
+            return [nodes.note("", nodes.paragraph("", text))]
+        table = heyoka_backend._table()
+        names = sorted(OP_NAMES[op] for op in table)
+        items = nodes.bullet_list(classes=["operations"])
+        for name in names:
+            spelling = SPELLING.get(name)
+            line = nodes.paragraph("", "", nodes.literal(spelling or name, spelling or name))
+            items += nodes.list_item("", line)
+        return [items]
+
+
+class Cite(SphinxRole):
+    def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
+        reference = addnodes.pending_xref(
+            "", nodes.inline("", f"[{self.text}]"), refdomain="citation", reftype="ref", reftarget=self.text, refwarn=True
+        )
+        self.set_source_info(reference)
+        self.env.get_domain("citation").note_citation_reference(reference)  # type: ignore[attr-defined]
+        return [reference], []
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_directive("run", Run)
+    app.add_directive("shell", Shell)
+    app.add_directive("file", File)
+    app.add_directive("casadi-operations", CasadiOperations)
+    app.add_role("cite", Cite())
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

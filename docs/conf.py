@@ -1,0 +1,87 @@
+"""Sphinx configuration: ``python -m sphinx -W -b html docs docs/_build/html`` from the root of the repository."""
+
+import sys
+from pathlib import Path
+
+import holdfast
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_ext"))
+
+project = "holdfast"
+author = "The holdfast developers"
+copyright = "The holdfast developers"
+version = release = holdfast.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
+    "mathml",
+    "live",
+]
+exclude_patterns = ["_build", "_ext", "examples"]
+nitpicky = True
+nitpick_ignore_regex = [
+    # Types of other libraries; no inventories are fetched, so that the build needs no network.
+    (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io)\..*"),
+    (r"py:.*", r"(Array|ArrayLike|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
+    (r"py:.*", r"(Callable|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|Store|optional|default.*)"),
+    (r"py:.*", r"holdfast\.study\..*"),
+]
+
+html_theme = "furo"
+html_title = f"holdfast {release}"
+html_static_path = ["_static"]
+html_css_files = ["holdfast.css"]
+html_math_renderer = "mathml"
+html_show_sourcelink = False
+html_copy_source = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},
+    "dark_css_variables": {"color-brand-primary": "#6bb8e8", "color-brand-content": "#6bb8e8"},
+}
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "substitution"]
+myst_heading_anchors = 3
+math_number_all = False
+
+# The picture of the first page is there only once somebody has made it.
+_picture = HERE / "_static" / "assess-pa10.png"
+myst_substitutions = {
+    "picture": (
+        "```{image} _static/assess-pa10.png\n:alt: Probability that the nine-joint PA10 keeps a given relative manipulability "
+        "when any one joint locks\n:width: 100%\n```"
+        if _picture.exists()
+        else ""
+    )
+}
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_class_signature = "mixed"
+autodoc_default_options = {"members": True}
+autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Array": "Array"}
+autodoc_preserve_defaults = True
+python_use_unqualified_type_names = True
+napoleon_google_docstring = True
+napoleon_numpy_docstring = False
+napoleon_use_ivar = True
+napoleon_custom_sections = [("Source", "Notes")]
+
+sphinx_gallery_conf = {
+    "examples_dirs": ["examples"],
+    "gallery_dirs": ["gallery"],
+    "filename_pattern": r"[\\/]\d\d_",
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "remove_config_comments": True,
+    "min_reported_time": 1e9,
+    "show_memory": False,
+    "show_signature": False,
+    "write_computation_times": False,
+    "image_srcset": ["2x"],
+    "matplotlib_animations": False,
+}

@@ -1,0 +1,1 @@
+"""The papers' numbers and figures, made again: one package per paper."""

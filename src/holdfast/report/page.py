@@ -1,0 +1,152 @@
+"""One-file HTML pages from a few kinds of blocks; every text is escaped unless it is ``Markup``."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import ClassVar, Literal
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from holdfast.errors import StoreError
+
+Cell = str | Markup
+
+
+@dataclass(frozen=True)
+class Text:
+    """A paragraph."""
+
+    text: Cell
+    quiet: bool = False
+    kind: ClassVar[str] = "text"
+
+
+@dataclass(frozen=True)
+class Callout:
+    """A paragraph that must not be missed."""
+
+    text: Cell
+    tone: Literal["bad", "good", "note"] = "note"
+    title: str = ""
+    kind: ClassVar[str] = "callout"
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table.
+
+    Attributes:
+        rows: Cells; the first of a row is its name.
+        head: Names of the columns; none if empty.
+        numbers: Columns, from 0, that are aligned as numbers.
+        marks: Columns that are centred.
+        caption: Above the table.
+        wide: Takes the width of the page.
+    """
+
+    rows: Sequence[Sequence[Cell]]
+    head: Sequence[Cell] = ()
+    numbers: frozenset[int] = frozenset()
+    marks: frozenset[int] = frozenset()
+    caption: Cell = ""
+    wide: bool = False
+    kind: ClassVar[str] = "table"
+
+    def look(self, column: int) -> str:
+        """Class of the cells of a column."""
+        return "number" if column in self.numbers else "mark" if column in self.marks else ""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure with what it shows."""
+
+    image: Markup
+    caption: Cell
+    kind: ClassVar[str] = "picture"
+
+
+@dataclass(frozen=True)
+class Code:
+    """Text to copy."""
+
+    text: str
+    label: Cell = ""
+    kind: ClassVar[str] = "code"
+
+
+Block = Text | Callout | Table | Picture | Code
+
+
+@dataclass(frozen=True)
+class Section:
+    """Blocks under a heading."""
+
+    title: str
+    blocks: Sequence[Block]
+
+
+@dataclass(frozen=True)
+class Page:
+    """A report: the answer first, then why.
+
+    Attributes:
+        title, subtitle: At the top.
+        headline: The answer in one sentence.
+        sections: In order.
+        warnings: Before everything else.
+        footer: At the end.
+    """
+
+    title: str
+    headline: Cell
+    sections: Sequence[Section]
+    subtitle: Cell = ""
+    warnings: Sequence[Callout] = field(default_factory=tuple)
+    footer: Cell = ""
+
+
+@cache
+def _environment() -> Environment:
+    return Environment(
+        loader=PackageLoader("holdfast.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def render(page: Page) -> str:
+    """The page as HTML that needs nothing else: no scripts, no files, no network."""
+    return _environment().get_template("page.html").render(page=page)
+
+
+def write(page: Page, path: str | Path) -> Path:
+    """Write the page, all of it or nothing.
+
+    Raises:
+        StoreError: The file cannot be written; what was there before is as it was.
+    """
+    file = Path(path)
+    text = render(page)
+    temporary = file.parent / f".holdfast-{os.getpid()}-{secrets.token_hex(4)}.tmp"
+    try:
+        try:
+            # Not tempfile: its files are private, a report should get the permissions every new file gets.
+            with temporary.open("x", encoding="utf-8", errors="replace", newline="\n") as out:
+                out.write(text)
+                out.flush()
+                os.fsync(out.fileno())
+            os.replace(temporary, file)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise StoreError(f"cannot write report '{file}': {error.strerror or error}; choose another path") from error
+    return file
