@@ -190,7 +190,7 @@ def test_sparse_expressions_come_out_dense(backend):
         ((1.0, np.ones(4)), "'mixed' takes 3 inputs, got 2"),
         ((1.0, np.ones(3), np.ones((3, 2))), r"'mixed': input 1 has shape \(3,\); it must be \(N, 4\) or \(4,\)"),
         ((1.0, np.ones(4), np.ones((2, 3))), r"input 2 has shape \(2, 3\); it must be \(N, 3, 2\) or \(3, 2\)"),
-        ((np.ones((2, 1)), np.ones(4), np.ones((3, 2))), "input 0 has shape"),
+        ((np.ones((2, 3)), np.ones(4), np.ones((3, 2))), "input 0 has shape"),
         ((np.ones(2), np.ones((3, 4)), np.ones((3, 2))), "input 1 has 3 rows, another has 2"),
         ((np.ones(2), np.ones((1, 4)), np.ones((3, 2))), "input 1 has 1 rows, another has 2"),
     ],

@@ -25,6 +25,7 @@ from holdfast.assess.distribution import Interval
 from holdfast.assess.region import Region, rpy_from_rotation
 from holdfast.assess.structure import Structure, explain, structure, structures
 from holdfast.errors import InputError
+from holdfast.failures import failure_sets
 from holdfast.indices import BY_NAME
 from holdfast.report import figures, page
 from holdfast.report.figures import Bin, Curve, Mark, Scale, Scene, View, percent
@@ -98,7 +99,7 @@ def overview_figure(assessment: Assessment, threshold: float | None = None) -> F
         left, right = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
         spans, _ = figures.view_spans(scene, [view], 5.0, 4.1, 4.1)
-        figures.draw_view(left, scene, view, facts.scale, figures.dot_size(len(scene.points) + len(scene.missing)), spans)
+        figures.draw_view(left, scene, view, facts.scale, figures.dot_size(scene, [view], 5.0 / spans[0]), spans, 5.0)
         left.set_title(f"{figures.plain(facts.a.arm.name, 30)} and the region, {view.title.lower()}")
         if len(scene.points):
             figures.bar(figure, scene, facts.scale, [left], facts.axis_label)
@@ -195,14 +196,16 @@ class _Facts:
                 f"No configuration within the joint limits was found for any of the {d.samples:,} poses of the region: move the region, "
                 "widen the joint limits or give more restarts."
             )
-        lost = f"; for {percent(d.unreached / d.samples)} of poses no configuration within the joint limits was found" if d.unreached else ""
+        lost = (
+            f"; for {percent(d.unreached / d.samples)} of poses no configuration within the joint limits was found"
+            if d.unreached
+            else ""
+        )
         if self.nothing:
             worst = "0" if self.larger else "infinite"
             return f"No {noun} of the region tolerates every failure: the worst-case {name} is {worst} at each {noun} reached{lost}."
         bound = f"at {'least' if self.larger else 'most'} {_plain_number(self.threshold)}{self.unit}"
-        return (
-            f"With probability {_interval(self.answer)} a {noun} of the region keeps {_article(name)} {name} of {bound} {self.failures}{lost}."
-        )
+        return f"With probability {_interval(self.answer)} a {noun} of the region keeps {_article(name)} {name} of {bound} {self.failures}{lost}."
 
     @property
     def unit(self) -> str:
@@ -265,13 +268,17 @@ class _Facts:
         if rows is not None and rows.reached.any():
             some = np.flatnonzero(rows.reached)
             k = some[np.argsort(rows.value[some], kind="stable")[(len(some) - 1) // 2]]
-            what = "the only one there is" if len(some) == 1 else f"the one with the median index, {_number(float(rows.value[k]))}"
+            what = (
+                "the only one there is" if len(some) == 1 else f"the one with the median index, {_number(float(rows.value[k]))}"
+            )
             return rows.q[k], f"the configuration of {self.noun} {rows.number[k] + 1:,}, {what}"
         center = np.array(a.region.center)
         if a.region.kind == "joints":
             return center, "the middle of the joint ranges of the region"
         if self.d.reached:
-            reach = solver(a.arm, self.index.task).solve(a.region.poses(center[None]), np.random.SeedSequence(a.seed), a.restarts, 1e-6)
+            reach = solver(a.arm, self.index.task).solve(
+                a.region.poses(center[None]), np.random.SeedSequence(a.seed), a.restarts, 1e-6
+            )
             if reach.success[0]:
                 return reach.q[0], "a configuration for the middle of the region"
         low = np.where(np.isfinite(a.arm.lower), a.arm.lower, -np.pi / 2)
@@ -349,7 +356,12 @@ class _Facts:
         band = self.a.distribution.band()
         lost = f" (not found counts as {'0' if self.larger else 'infinite'})" if self.d.unreached else ""
         every = "" if not self.d.unreached else f"all {self.d.samples:,} poses{lost}, "
-        first = Curve(self.axis, self.a.cdf(self.axis), f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band ±{band:.3f}", band=band)
+        first = Curve(
+            self.axis,
+            self.a.cdf(self.axis),
+            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band ±{band:.3f}",
+            band=band,
+        )
         if not self.d.unreached:
             return [first]
         return [first, Curve(self.axis, self.a.cdf(self.axis, True), f"the {self.d.reached:,} reached poses only", second=True)]
@@ -377,7 +389,7 @@ def _number(x: float) -> str:
     size = abs(x)
     if size < _ZERO:
         return "0"
-    text = f"{x:.1e}" if size < 1e-3 or size >= 1e7 else f"{x:.3f}" if size < 10 else f"{x:.2f}" if size < 100 else f"{x:,.0f}"
+    text = f"{x:.1e}" if size < 1e-3 or size >= 1e7 else f"{x:.3f}" if size < 10 else f"{x:,.1f}" if size < 1000 else f"{x:,.0f}"
     return text.replace("-", "−", 1) if x < 0 else text
 
 
@@ -448,7 +460,9 @@ def _key_numbers(f: _Facts) -> list[Block]:
     if a.region.kind == "box":
         facts.append(("Reached", _share(d.reached, d.samples)))
         facts.append(("No configuration found", _share(d.unreached, d.samples)))
-    facts.append(("Singular", _share(d.singular, d.samples) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else "")))
+    facts.append(
+        ("Singular", _share(d.singular, d.samples) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else ""))
+    )
     if d.infinite:
         facts.append(("Infinite", _share(d.infinite, d.samples) + ", of those with a configuration"))
     if d.samples:
@@ -458,14 +472,19 @@ def _key_numbers(f: _Facts) -> list[Block]:
             t = f.threshold
             only = a.interval(at_least=t, reachable_only=True) if f.larger else a.interval(at_most=t, reachable_only=True)
             facts.append(("The same, reached poses only", _interval(only)))
-        facts.append(("Error of the CDF", f"at most ±{d.band():.3f} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)"))
+        facts.append(
+            (
+                "Error of the CDF",
+                f"at most ±{d.band():.3f} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)",
+            )
+        )
     if index.bound is not None and d.reached:
-        median = float(d.quantile(0.5))
+        median, best = (0.0 if f.nothing else x for x in (float(d.quantile(0.5)), d.highest))
         facts.append(
             (
                 "Largest possible value",
                 f"{index.bound:.4f}; the median of the reached {f.noun}s is {percent(median / index.bound)} of it "
-                f"(gap {_number(index.bound - median)}), the best one found {percent(d.highest / index.bound)}",
+                f"(gap {_number(index.bound - median)}), the best one found {percent(best / index.bound)}",
             )
         )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
@@ -475,8 +494,7 @@ def _key_numbers(f: _Facts) -> list[Block]:
 
 
 def _failure_kinds(f: _Facts) -> str:
-    sizes = {len(s) for s in f.index.failures}
-    if sizes == {1} and len(f.index.failures) == f.a.arm.n:
+    if f.index.failures == failure_sets(f.a.arm, "single"):
         return "each joint locked alone"
     names = f.index.failure_names
     return ", ".join(names) if len(names) <= 12 else f"{', '.join(names[:12])} and {len(names) - 12} more"
@@ -498,11 +516,20 @@ def _quantiles(f: _Facts) -> Table:
     finite = " of finite values" if d.infinite else ""
     head = [f"Index over … {f.noun}s", "5 %", "25 %", "median", "75 %", "95 %", f"mean{finite}", "best"]
     best = d.highest if f.larger else d.lowest
-    rows = [[f"the {d.reached:,} reached" if d.unreached else f"all {d.samples:,}", *[_number(float(x)) for x in d.quantile(steps)], _number(d.mean), _number(best)]]
+    rows = [
+        [
+            f"the {d.reached:,} reached" if d.unreached else f"all {d.samples:,}",
+            *[_number(float(x)) for x in d.quantile(steps)],
+            _number(d.mean),
+            _number(best),
+        ]
+    ]
     if d.unreached:
         mean = d.total / d.samples if f.larger else np.inf
         label = f"all {d.samples:,}, not found counts as {'0' if f.larger else 'infinite'}"
-        rows.append([label, *[_number(float(x)) for x in d.quantile(steps, reachable_only=False)], _number(mean), _number(best)])
+        rows.append(
+            [label, *[_number(float(x)) for x in d.quantile(steps, reachable_only=False)], _number(mean), _number(best)]
+        )
     return Table(rows, head, frozenset(range(1, 8)), wide=True)
 
 
@@ -515,12 +542,22 @@ def _structure_table(f: _Facts) -> list[Block]:
         for k in range(len(names)):
             bad = k in s.fatal or s.never
             cells.append(Markup('<span class="fatal">fatal</span>') if bad else Markup('<span class="ok">–</span>'))
-        verdict = "never possible" if s.never else "not redundant" if s.redundancy <= 0 else "single point of failure" if s.fatal else "none"
+        verdict = (
+            "never possible"
+            if s.never
+            else "not redundant"
+            if s.redundancy <= 0
+            else "single point of failure"
+            if s.fatal
+            else "none"
+        )
         rows.append([*cells, verdict])
     head = ["Task", "Redundancy", *[str(k + 1) for k in range(len(names))], "Single point of failure"]
     joints = "; ".join(f"{k + 1} {n}" for k, n in enumerate(names))
     return [
-        Text("A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps."),
+        Text(
+            "A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps."
+        ),
         Table(rows, head, frozenset({1}), frozenset(range(2, len(names) + 2)), wide=True),
         Text(f"Joints: {joints}. Redundancy: joints minus rows of the task.", quiet=True),
     ]
@@ -540,7 +577,9 @@ def _views(f: _Facts) -> list[Block]:
     if scene.box is not None:
         legend.append(("box", "positions of the region"))
     image = figures.svg(
-        figures.view_figure(scene, f.views, f.scale, f.axis_label, legend), "views", f"The arm and the {f.noun}s of the region, by index"
+        figures.view_figure(scene, f.views, f.scale, f.axis_label, legend),
+        "views",
+        f"The arm and the {f.noun}s of the region, by index",
     )
     text = f"The arm is drawn in {f.representative[1]}."
     if not drawn:
@@ -562,13 +601,19 @@ def _distribution(f: _Facts) -> list[Block]:
         f"Density (PDF), {d.reached:,} {'reached ' if d.unreached else ''}{f.noun}s",
         f"Cumulative (CDF), {d.samples:,} {f.noun}s",
     )
-    figure = figures.distribution_figure(f.histogram, f.curves, f.marks, f.axis_label, "share with a smaller value, F", titles, f.log)
+    figure = figures.distribution_figure(
+        f.histogram, f.curves, f.marks, f.axis_label, "share with a smaller value, F", titles, f.log
+    )
     meets = "1 − F" if f.larger else "F"
     text = f"The probability of meeting a threshold is {meets} there: {_interval(f.answer)} at {_plain_number(f.threshold)}{f.unit}."
     if d.unreached:
         text += f" The dashed curve leaves out the {d.unreached:,} poses for which no configuration was found."
     text += f" The density is a histogram of {len(f.histogram.heights)} bins over {'reached poses' if d.unreached else f'all {f.noun}s'}"
-    text += f" and adds up to the {percent(1 - d.infinite / d.reached)} with a finite value." if d.infinite else " and adds up to 1."
+    text += (
+        f" and adds up to the {percent(1 - d.infinite / d.reached)} with a finite value."
+        if d.infinite
+        else " and adds up to 1."
+    )
     return [Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)]
 
 
@@ -605,7 +650,9 @@ def _failure_table(f: _Facts, names: list[str], counts: NDArray[np.int64]) -> Bl
     rows = f.rows
     total = max(int(counts.sum()), 1)
     if rows is None:
-        return Text("The values after each failure were not kept; assess again with a store or with keep=True for them.", quiet=True)
+        return Text(
+            "The values after each failure were not kept; assess again with a store or with keep=True for them.", quiet=True
+        )
     values = rows.by_failure[rows.reached]
     bad = 0.05 if f.larger else 0.95
     middle, low = np.quantile(values, [0.5, bad], axis=0, method="inverted_cdf")
@@ -614,7 +661,8 @@ def _failure_table(f: _Facts, names: list[str], counts: NDArray[np.int64]) -> Bl
     if len(chosen) > _MOST_ROWS:
         chosen = np.sort(np.argsort(-counts, kind="stable")[:_MOST_ROWS])
     cells = [
-        [names[k], _number(float(middle[k])), _number(float(low[k])), percent(counts[k] / total), f"{met[k]:.3f}"] for k in chosen
+        [names[k], _number(float(middle[k])), _number(float(low[k])), percent(counts[k] / total), f"{met[k]:.3f}"]
+        for k in chosen
     ]
     sign = "≥" if f.larger else "≤"
     head = ["If this locks", "median", f"{100 * bad:.0f} % quantile", "worst of all", f"P({sign} {_plain_number(f.threshold)})"]
@@ -628,6 +676,8 @@ def _places(f: _Facts) -> list[Block]:
         return [Text(f"The {f.noun}s of this run were not kept (keep=False), so the report cannot list or map them.")]
     if not rows.reached.any():
         return [Text("No pose was reached, so there is none to list.")]
+    if f.nothing:
+        return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
     blocks: list[Block] = [_worst_table(f, rows)]
     low, high = rows.position.min(axis=0), rows.position.max(axis=0)
     flat = (high - low) < 1e-6 * max(float((high - low).max()), 1e-6)
@@ -637,7 +687,13 @@ def _places(f: _Facts) -> list[Block]:
     average = "Mean" if f.larger else "Median"
     ok = rows.reached
     figure = figures.map_figure(
-        rows.position[ok], rows.value[ok], rows.position[~ok], views, f.log, not f.larger, figures.plain(f"{average.lower()} {f.index.name}")
+        rows.position[ok],
+        rows.value[ok],
+        rows.position[~ok],
+        views,
+        f.log,
+        not f.larger,
+        figures.plain(f"{average.lower()} {f.index.name}"),
     )
     text = (
         f"{average} index of the reached {f.noun}s in each cell, over the whole depth of the region, and below it how many "
@@ -686,9 +742,9 @@ def _method(f: _Facts) -> list[Block]:
     worst = "smallest" if f.larger else "largest"
     definition = Markup("the {} value over the failures S").format(worst)
     if formula is not None:
-        definition = Markup("the {} over the failures S of {}, where <sup>S</sup>J is the task Jacobian J without the columns of S").format(
-            worst, Markup(formula)
-        )
+        definition = Markup(
+            "the {} over the failures S of {}, where <sup>S</sup>J is the task Jacobian J without the columns of S"
+        ).format(worst, Markup(formula))
         if "σ" in formula:
             definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
     if index.source:
@@ -698,7 +754,10 @@ def _method(f: _Facts) -> list[Block]:
     if box:
         solved = f"damped least squares from up to {a.restarts:,} random starts within the joint limits"
         facts.append(
-            ("Method", f"{a.sampling} poses of the region; for each, inverse kinematics ({solved}); the configuration found is evaluated as it is")
+            (
+                "Method",
+                f"{a.sampling} poses of the region; for each, inverse kinematics ({solved}); the configuration found is evaluated as it is",
+            )
         )
         facts.append(
             (
@@ -715,11 +774,21 @@ def _method(f: _Facts) -> list[Block]:
             )
         )
         if index.task.m < 6:
-            facts.append(("Free directions", f"task '{index.task.name}' fixes {index.task.m} of 6 directions; what it leaves free is not solved for"))
+            facts.append(
+                (
+                    "Free directions",
+                    f"task '{index.task.name}' fixes {index.task.m} of 6 directions; what it leaves free is not solved for",
+                )
+            )
     else:
         facts.append(("Method", f"{a.sampling} configurations of the region, evaluated directly, without inverse kinematics"))
     if a.sampling == "sobol":
-        facts.append(("Error bars", "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"))
+        facts.append(
+            (
+                "Error bars",
+                "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice",
+            )
+        )
     facts += [
         ("Index", definition),
         (
@@ -732,7 +801,10 @@ def _method(f: _Facts) -> list[Block]:
         ("Region", f"{a.region.name}: {a.region.describe()}"),
         ("Arm", a.arm.source or "no source given"),
         ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),
-        ("Seed, samples", f"seed {a.seed}, {a.poses:,} {f.noun}s, {a.sampling} sampling" + (f", {a.restarts:,} restarts" if box else "")),
+        (
+            "Seed, samples",
+            f"seed {a.seed}, {a.poses:,} {f.noun}s, {a.sampling} sampling" + (f", {a.restarts:,} restarts" if box else ""),
+        ),
         ("Time", f"{p['seconds']:.1f} s" if isinstance(p.get("seconds"), (int, float)) else "not noted"),
         ("Versions", _versions(p)),
     ]
@@ -770,15 +842,23 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         spec = a.arm.source if known else "ARM"
         what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
         remark = f"{what}; for a URDF file also its --base and --tip, if any"
-    words = ["holdfast", "assess", spec, "--region", "region.yaml", "--index", index.slug, "--task", task.name]
+    options = {"region": "region.yaml", "index": index.slug, "task": task.name}
     if task.length != 1.0:
-        words += ["--length", repr(task.length)]
-    if {len(s) for s in index.failures} != {1} or len(index.failures) != a.arm.n:
-        words += ["--failures", ",".join(index.failure_names)]
-    words += ["--poses", str(a.poses), "--seed", str(a.seed), "--sampling", a.sampling]
+        options["length"] = repr(task.length)
+    if index.failures != failure_sets(a.arm, "single"):
+        options["failures"] = ",".join(index.failure_names)
+    options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
     if a.region.kind == "box":
-        words += ["--restarts", str(a.restarts)]
-    return shlex.join(words), remark
+        options["restarts"] = str(a.restarts)
+    lines = [f"holdfast assess {shlex.quote(spec)}"]
+    for name, value in options.items():
+        word = f"--{name} {shlex.quote(value)}"
+        if len(lines[-1]) + len(word) > 90:
+            lines[-1] += " \\"
+            lines.append("    " + word)
+        else:
+            lines[-1] += " " + word
+    return "\n".join(lines), remark
 
 
 def region_file(region: Region) -> str:

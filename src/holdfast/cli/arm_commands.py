@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from holdfast.cli.options import ArmArgument, BaseOption, JsonOption, TipOption, number, print_json, read_arm
+from holdfast.cli.options import ArmArgument, BaseOption, JsonOption, TipOption, console, number, print_json, read_arm
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm, Joint
@@ -25,13 +25,12 @@ def arms(json_: JsonOption = False) -> None:
             [{"name": e.name, "joints": e.n, "summary": e.summary, "source": e.source, "licence": e.licence} for e in entries]
         )
         return
-    from rich.console import Console
     from rich.table import Table
 
     table = Table("name", "joints", "what it is", "licence", box=None, pad_edge=False)
     for e in entries:
         table.add_row(e.name, str(e.n), e.summary, e.licence)
-    Console().print(table)
+    console().print(table)
 
 
 def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, json_: JsonOption = False) -> None:
@@ -66,11 +65,10 @@ def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, j
             }
         )
         return
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    out = Console(highlight=False)
+    out = console()
     out.print(
         f"[bold]{escape(model.name)}[/]: {model.n} joints" + (f". Source: {escape(model.source)}" if model.source else "")
     )

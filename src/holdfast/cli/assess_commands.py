@@ -17,6 +17,7 @@ from holdfast.cli.options import (
     LengthOption,
     TaskOption,
     TipOption,
+    console,
     number,
     print_json,
     read_arm,
@@ -197,7 +198,7 @@ def _thresholds(result: Assessment, given: list[float] | None) -> list[float]:
     if given:
         return given
     if result.index.bound is not None:
-        return [round(share * result.index.bound, 3) for share in (0.25, 0.5, 0.75)]
+        return [h for h in (0.05, 0.1, 0.2, 0.3) if h < result.index.bound]
     if not result.distribution.reached:
         return []
     return [float(f"{x:.3g}") for x in result.distribution.quantile([0.25, 0.5, 0.75]).tolist()]
@@ -210,11 +211,10 @@ def _probability(result: Assessment, h: float) -> dict[str, Any]:
 
 
 def _print(result: Assessment, at_least: list[float] | None) -> None:
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    out = Console(highlight=False)
+    out = console()
     d = result.distribution
     out.print(f"[bold]{escape(result.arm.name)}[/]: {escape(result.index.describe())}", soft_wrap=True)
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)

@@ -16,6 +16,7 @@ from holdfast.cli.options import (
     LengthOption,
     TaskOption,
     TipOption,
+    console,
     number,
     print_json,
     read_arm,
@@ -86,11 +87,10 @@ def _evaluate(measure: Index, q: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def _print(measure: Index, configurations: NDArray[np.float64], results: list[dict[str, Any]]) -> None:
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    out = Console(highlight=False)
+    out = console()
     unit = "" if measure.unit == "1" else f" {measure.unit}"
     for q, r in zip(configurations, results, strict=True):
         out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.name)}", soft_wrap=True)
@@ -110,9 +110,9 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
         table = Table("failure", f"{measure.name}{unit}", box=None, pad_edge=False)
         for name, value in r["by_failure"].items():
             mark = " <- worst" if name == r["worst"] else ""
-            table.add_row(escape(name), f"{value:.6g}{mark}")
+            table.add_row(escape(name), f"{number(value, 6)}{mark}")
         out.print(table)
-        gradient = ", ".join(f"{name} {value:+.4g}" for name, value in r["gradient"].items())
+        gradient = ", ".join(f"{name} {number(value)}" for name, value in r["gradient"].items())
         out.print(f"gradient of the worst case, per rad or m: {escape(gradient)}", soft_wrap=True)
 
 

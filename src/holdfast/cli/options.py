@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from holdfast.arm import Arm
+    from holdfast.arm.task import Task
     from holdfast.failures import FailureSpec
 
 ArmArgument = Annotated[
@@ -29,7 +32,7 @@ TaskOption = Annotated[
     str | None,
     typer.Option(
         "--task",
-        help="pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz. Default: the arm's own.",
+        help="pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own.",
         show_default=False,
     ),
 ]
@@ -65,11 +68,19 @@ def default_task(spec: str, arm: Arm) -> str:
     return "planar" if plane_normal(arm) is not None else "pose"
 
 
-def read_task(text: str | None, spec: str, arm: Arm) -> str | list[str]:
+def read_task(text: str | None, spec: str, arm: Arm) -> str | Task:
     """--task as the library takes it."""
     if text is None:
         return default_task(spec, arm)
-    return [x.strip() for x in text.split(",") if x.strip()] if "," in text else text
+    from holdfast.arm.task import ROWS, rows_task
+
+    frame, _, rest = text.rpartition(":")
+    if frame not in ("", "base", "tool"):
+        raise InputError(f"--task: frame '{frame}' is not known; write rows as 'tool:vx,vy,wz' or 'base:vx,vy,wz'")
+    rows = [x.strip() for x in rest.split(",") if x.strip()]
+    if frame or len(rows) > 1 or rest in ROWS:
+        return rows_task(rows, "tool" if frame == "tool" else "base")
+    return rest
 
 
 def read_joint(arm: Arm, text: str) -> int:
@@ -138,5 +149,16 @@ def print_json(data: Any) -> None:
 
 
 def number(value: float | np.floating[Any], digits: int = 4) -> str:
-    """A value for a table."""
-    return "none" if not math.isfinite(value) else f"{value:.{digits}g}"
+    """A value for a table; rounding noise about 0 is 0."""
+    value = float(value)
+    if not math.isfinite(value):
+        return "infinite" if math.isinf(value) else "none"
+    return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
+
+
+def console() -> Console:
+    """Where tables for people go; wide when no terminal says how wide it is, so that names are not cut."""
+    from rich.console import Console
+
+    wide = Console(highlight=False)
+    return wide if wide.is_terminal else Console(highlight=False, width=140)

@@ -53,6 +53,7 @@ class RelativeManipulability(Index):
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
+    @cached_property
     def _symbols(self) -> tuple[SX, SX, HouseholderQR]:
         q = kinematics.joint_symbols(self.arm)
         j = kinematics.invariant_jacobian(self.arm, q) if self.task.invariant else self.task.jacobian(self.arm, q)
@@ -86,7 +87,7 @@ class RelativeManipulability(Index):
         return ca.vertcat(*[ca.if_else(clear, y, np.nan) if marked else y for y in outputs])
 
     def _build_values(self, marked: bool, worst_only: bool) -> Kernel:
-        q, _, qr = self._symbols()
+        q, _, qr = self._symbols
         squares = self._squares(qr)
         if worst_only:
             squares = [_smallest(squares)]
@@ -95,7 +96,7 @@ class RelativeManipulability(Index):
         return Kernel(self.name, [q], [self._mark(qr, values, marked)])
 
     def _build_gradient(self, marked: bool) -> Kernel:
-        q, j, qr = self._symbols()
+        q, j, qr = self._symbols
         if all(len(s) == 1 for s in self.failures):
             cotangent = self._cotangent(qr)
             # Through the kinematics by reverse differentiation of J alone: fewer operations, and exact.

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from html import escape
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,11 +24,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator, StrMethodFormatter
+from matplotlib.ticker import LogFormatter, MaxNLocator, NullFormatter, StrMethodFormatter
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
@@ -313,8 +315,7 @@ class Scale:
         """The range of the finite values, without the outermost 1 % at either end."""
         finite = values[np.isfinite(values)]
         low, high = np.quantile(finite, [0.01, 0.99]).tolist() if finite.size else (0.0, 1.0)
-        if log and low <= 0:
-            log = False
+        log = log and low > 0 and high > 10 * low
         if high - low <= 1e-9 * max(abs(high), 1e-3):
             low, high = (low / 2, low * 2) if log else (low, low + max(abs(low), 1.0))
         return cls(low, high, log, smaller_is_better)
@@ -381,7 +382,7 @@ class Scene:
 _AXES = "xyz"
 
 
-def draw_view(axes: Axes, scene: Scene, view: View, scale: Scale, size: float, spans: tuple[float, float]) -> None:
+def draw_view(axes: Axes, scene: Scene, view: View, scale: Scale, size: float, spans: tuple[float, float], width: float) -> None:
     """A scene in projection, axes equal.
 
     Args:
@@ -391,6 +392,7 @@ def draw_view(axes: Axes, scene: Scene, view: View, scale: Scale, size: float, s
         scale: Colours of the values.
         size: Of a dot, points squared.
         spans: Lengths of the two axes, m.
+        width: Of the panel, inches, about.
     """
     pick = [view.right, view.up]
     if len(scene.missing):
@@ -404,7 +406,7 @@ def draw_view(axes: Axes, scene: Scene, view: View, scale: Scale, size: float, s
         axes.add_patch(
             Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=SOFT, linewidth=0.9, linestyle=(0, (4, 2)), zorder=2.2)
         )
-    _draw_chain(axes, scene, pick, max(spans))
+    _draw_chain(axes, scene, pick, 72 * width / spans[0])
     middle = scene.extent.mean(axis=0)[pick]
     axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
     axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
@@ -414,7 +416,8 @@ def draw_view(axes: Axes, scene: Scene, view: View, scale: Scale, size: float, s
         axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
 
 
-def _draw_chain(axes: Axes, scene: Scene, pick: list[int], span: float) -> None:
+def _draw_chain(axes: Axes, scene: Scene, pick: list[int], scale: float) -> None:
+    """The polyline with numbered nodes; ``scale`` is points per metre."""
     if not len(scene.chain):
         return
     line = scene.chain[:, pick]
@@ -443,18 +446,22 @@ def _draw_chain(axes: Axes, scene: Scene, pick: list[int], span: float) -> None:
             markersize=6,
             zorder=3.2,
         )
-    for numbers, place in _clusters(nodes, 0.02 * span):
+    taken = np.zeros((0, 2))
+    for numbers, place in _clusters(nodes * scale, 6.0):
+        text = _ranges(numbers)
+        offset = _aside(line * scale, taken, place, text)
+        taken = np.vstack([taken, place + offset])
         axes.annotate(
-            _ranges(numbers),
-            place,
-            _aside(line, place, span),
+            text,
+            tuple(place / scale),
+            tuple(offset),
             textcoords="offset points",
             ha="center",
             va="center",
             fontsize=9,
             color=INK,
             zorder=4,
-            path_effects=[withStroke(linewidth=3.4, foreground="white")],
+            bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
         )
 
 
@@ -482,16 +489,25 @@ def _ranges(numbers: list[int]) -> str:
     return ", ".join(str(p[0]) if len(p) == 1 else f"{p[0]}{', ' if len(p) == 2 else '–'}{p[-1]}" for p in parts)
 
 
-def _aside(line: Array, place: Array, span: float) -> tuple[float, float]:
-    """Offset, points, to the left of the chain where it passes a place."""
-    near = np.flatnonzero(np.linalg.norm(line - place, axis=1) < 0.02 * span)
-    before, after = max(int(near.min(initial=len(line) - 1)) - 1, 0), min(int(near.max(initial=0)) + 1, len(line) - 1)
-    along = [v / np.linalg.norm(v) for v in (place - line[before], line[after] - place) if np.linalg.norm(v) > 1e-9]
-    direction = np.sum(along, axis=0) if along else np.array([1.0, 0.0])
-    if np.linalg.norm(direction) < 1e-6:
-        direction = np.array([1.0, 0.0])
-    direction /= np.linalg.norm(direction)
-    return float(-13 * direction[1]), float(13 * direction[0])
+def _aside(line: Array, taken: Array, place: Array, text: str) -> Array:
+    """Offset, points, of a text next to a place: of sixteen directions the one with most room, above rather than below."""
+    steps = np.linspace(0, 1, 41)[:, None]
+    ink = np.concatenate([a + steps * (b - a) for a, b in pairwise(line)]) if len(line) > 1 else line
+    half = np.array([2.6 * len(text) + 1, 5.0])
+    best, offset = -np.inf, np.zeros(2)
+    for angle in np.arange(16) * np.pi / 8 + np.pi / 2:
+        towards = np.array([np.cos(angle), np.sin(angle)])
+        # Far enough for the box of the text to clear the node.
+        reach = 7.0 + float(np.abs(towards * half).max() if len(text) < 2 else np.abs(towards) @ half)
+        at = place + reach * towards
+        gap = np.maximum(np.abs(ink - at) - half, 0)
+        room = min(float(np.hypot(*gap.T).min()), 6.0)
+        if len(taken):
+            room = min(room, float(np.maximum(np.abs(taken - at) - 2 * half, 0).sum(axis=1).min()))
+        score = room + 0.3 * towards[1] - 0.02 * reach
+        if score > best:
+            best, offset = score, reach * towards
+    return offset
 
 
 def view_figure(scene: Scene, views: Sequence[View], scale: Scale, label: str, legend: Sequence[tuple[str, str]]) -> Figure:
@@ -505,12 +521,12 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, label: str, l
         legend: Pairs of a kind (``dot``, ``cross``, ``box``, ``joint``, ``slide``, ``tool``, ``base``) and its text.
     """
     with style():
-        panel = 4.1 if len(views) > 1 else 5.6
-        spans, height = view_spans(scene, views, panel, 2.0, 4.6)
+        panel = 4.1 if len(views) > 1 else 5.0
+        spans, height = view_spans(scene, views, panel, 2.0, 4.6 if len(views) > 1 else 5.0)
         figure = Figure(figsize=(WIDTH if len(views) > 1 else panel + 2.2, height + 1.2))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(panels, views, strict=True):
-            draw_view(axes, scene, view, scale, dot_size(len(scene.points) + len(scene.missing)), spans)
+            draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
         if len(scene.points):
             bar(figure, scene, scale, list(panels), label)
         figure.legend(
@@ -522,13 +538,31 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, label: str, l
 def bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str) -> None:
     """A colour bar to the right of the axes."""
     b = figure.colorbar(scale.mappable, ax=axes, extend=scale.extend(scene.values), shrink=0.85, aspect=26, pad=0.015)
+    _finish_bar(b, label, scale)
+
+
+def _finish_bar(b: Colorbar, label: str, scale: Scale) -> None:
     b.set_label(label)
     b.outline.set_visible(False)  # type: ignore[operator]
+    if scale.log:
+        b.ax.yaxis.set_major_formatter(LogFormatter())
+        b.ax.yaxis.set_minor_formatter(NullFormatter())
 
 
-def dot_size(count: int) -> float:
-    """Area of a dot, points squared: large if there are few."""
-    return float(np.clip(14_000 / max(count, 1), 2.5, 28))
+def dot_size(scene: Scene, views: Sequence[View], scale: float) -> float:
+    """Area of a dot, points squared, so that dots cover about two thirds of where they are.
+
+    Args:
+        scene: With the dots.
+        views: All of them.
+        scale: Inches per metre.
+    """
+    dots = np.concatenate([scene.points, scene.missing])
+    if len(dots) < 2:
+        return 28.0
+    size = np.ptp(dots, axis=0) * scale * 72
+    area = min(max(size[v.right], 12.0) * max(size[v.up], 12.0) for v in views)
+    return float(np.clip(0.85 * area / len(dots), 1.2, 28))
 
 
 def view_spans(
@@ -611,8 +645,7 @@ def map_figure(
             _draw_cells(axes, x, y, mean, reached, drawn, scale)
             axes.set(xlabel=f"{_AXES[view.right]}, m", ylabel=f"{_AXES[view.up]}, m", title=view.title)
         b = figure.colorbar(scale.mappable, ax=list(panels), shrink=0.85, aspect=26, pad=0.015, extend=scale.extend(cells))
-        b.set_label(label)
-        b.outline.set_visible(False)  # type: ignore[operator]
+        _finish_bar(b, label, scale)
         return finished(figure)
 
 
@@ -650,7 +683,7 @@ def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, dra
         spine.set_visible(False)
     axes.set_xticks(x, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in x])
     axes.set_yticks(y, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in y])
-    axes.tick_params(length=0)
+    axes.tick_params(length=0, pad=6)
     for i, j in np.ndindex(mean.shape):
         middle = ((x[j] + x[j + 1]) / 2, (y[i] + y[i + 1]) / 2)
         luminance = float(colors[i, j, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722])

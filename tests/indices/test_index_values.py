@@ -1,0 +1,250 @@
+"""Values of all six indices: against singular values in numpy, published numbers, long doubles, and laws."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import oracles
+import pytest
+
+import holdfast as hf
+from holdfast import indices
+from holdfast.arm.task import Task, rows_task
+from holdfast.failures import failure_sets
+from holdfast.indices import BY_NAME, by_name
+
+INVARIANT = ("relative-manipulability", "manipulability")
+SPECTRAL = tuple(n for n in BY_NAME if n not in INVARIANT)
+
+# arm, task, frame, failures, length
+CASES = {
+    "PA10 pose": ("pa10", "pose", "base", "single", 1.0),
+    "PA10 pointing, long": ("pa10", "pointing", "tool", "single", 2.5),
+    "PA10 position, pairs": ("pa10", "position", "base", "pairs", 1.0),
+    "mixed pose, short": ("mixed8", "pose", "base", "single", 0.3),
+    "mixed pose, pairs": ("mixed8", "pose", "base", "pairs", 1.0),
+    "mixed pointing, sets": ("mixed8", "pointing", "tool", [("j1", "j4"), 7, (0, 2, 5), "j2"], 1.0),
+    "mixed position, triples": ("mixed7", "position", "base", 3, 1.0),
+    "mixed rows": ("mixed7", ["vz", "wx", "wy"], "base", "single", 0.5),
+    "mixed rows of the tool": ("mixed7", ["vx", "vy", "wz", "wy"], "tool", [(0, 1), (5, 6), 3], 0.5),
+    "one row": ("mixed7", ["vy"], "base", "pairs", 1.0),
+    "planar": ("planar4", "planar", "base", "pairs", 2.0),
+    "planar pose": ("planar4", "planar-pose", "base", "single", 1.0),
+}
+
+
+@pytest.fixture(scope="module")
+def make(request):
+    """``make(case)``: arm, task, failure sets and the Jacobian of the oracle."""
+
+    def of(case):
+        arm_name, task, frame, failures, length = CASES[case]
+        arm = request.getfixturevalue(arm_name)
+        given = task if isinstance(task, str) else rows_task(task, frame=frame)
+        return arm, given, failures, length, lambda q: oracles.task_jacobian(arm, q, task, frame, length)
+
+    return of
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_against_singular_values(case, make, rng):
+    arm, task, failures, length, jacobian = make(case)
+    sets = failure_sets(arm, failures)
+    q = oracles.inside(arm, rng, 120)
+    j = jacobian(q)
+    cond = oracles.condition(j)
+    for name in BY_NAME:
+        index = by_name(name, arm, task, failures, length)
+        assert index.failures == sets
+        e = index.evaluate(q)
+        truth = oracles.index(name, j, sets)
+        assert e.by_failure.shape == truth.shape == (120, len(sets))
+        if name in INVARIANT:
+            scale = 1.0 if name == "relative-manipulability" else np.linalg.svd(j, compute_uv=False).prod(-1)[:, None] ** 2
+            error = np.abs(e.by_failure**2 - truth**2) / scale
+            assert (error <= (200 * oracles.EPS * cond)[:, None]).all(), name
+        elif name == "condition-number":
+            np.testing.assert_allclose(1 / e.by_failure, 1 / truth, atol=1e-14)
+        elif name == "geometric-mean-singular-value":
+            np.testing.assert_allclose(e.by_failure**index.task.m, truth**index.task.m, atol=1e-13 * np.max(truth) ** index.task.m)
+        else:
+            np.testing.assert_allclose(e.by_failure, truth, atol=1e-14 * j.shape[2] * np.abs(j).max())
+        worst = oracles.worst(name, e.by_failure)
+        np.testing.assert_array_equal(e.value, worst)
+        np.testing.assert_array_equal(e.by_failure[np.arange(120), e.worst], worst)
+        assert (e.status == 0).all()
+        np.testing.assert_allclose(index(q), e.value, rtol=1e-15)
+
+
+def test_published_values_of_the_nominal_configuration(pa10):
+    """Section 6 of probabilistic-tolerance.md."""
+    rho = [0.61245, 0.12725, 0.67622, 0.47972, 0.66629, 0.76427, 0.79161, 0.41179, 0.31151]
+    kr = [0.481213, 0.099983, 0.531322, 0.376928, 0.523519, 0.600497, 0.621979, 0.323552, 0.244761]
+    low = [0.343474, 0.060262, 0.343474, 0.212061, 0.343474, 0.315362, 0.343474, 0.234484, 0.161155]
+    q = oracles.NOMINAL
+    for name, values, digits, worst in (
+        ("relative-manipulability", rho, 5e-6, 0.127251),
+        ("manipulability", kr, 5e-7, 0.099983),
+        ("minimum-singular-value", low, 5e-7, 0.060262),
+    ):
+        index = by_name(name, pa10)
+        np.testing.assert_allclose(index.by_joint(q), values, atol=digits)
+        assert index(q) == pytest.approx(worst, abs=5e-7)
+        assert index.worst_joint(q) == 1
+    assert indices.condition_number(pa10)(q) == pytest.approx(35.5947, abs=5e-5)
+    assert indices.condition_number(pa10).worst_joint(q) == 1
+    position = indices.relative_manipulability(pa10, "position")
+    assert position.worst_joint(q) == 1
+    assert position(q) == pytest.approx(0.2097, abs=5e-5)
+
+
+def test_nominal_indices_do_not_depend_on_the_first_and_last_joint(pa10, rng):
+    q = np.repeat(oracles.NOMINAL[None], 20, 0)
+    q[:, [0, 8]] = rng.uniform(-3, 3, (20, 2))
+    for name in BY_NAME:
+        values = by_name(name, pa10).by_joint(q)
+        np.testing.assert_allclose(values, np.broadcast_to(values[:1], values.shape), rtol=1e-12)
+
+
+@pytest.mark.skipif(not oracles.LONG, reason="long double is double here")
+@pytest.mark.parametrize("kind", ["PA10", "alternating", "straight planar"])
+def test_rho_keeps_nine_digits_up_to_a_condition_of_1e7(kind, pa10, flat4, rng):
+    arm, task = {
+        "PA10": lambda: (pa10, "pose"),
+        "alternating": lambda: (oracles.alternating_arm(rng, 8), "pose"),
+        "straight planar": lambda: (flat4, "planar"),
+    }[kind]()
+    index = indices.relative_manipulability(arm, task)
+    q = oracles.near_singular(rng, arm.n, 400, 1e-7, 1e-1)
+    if task == "planar":
+        q[:, 0] = rng.uniform(-3, 3, 400)
+    if task == "pose":
+        j = oracles.jacobian(arm, q.astype(np.longdouble))
+    else:
+        j = oracles.jacobian(arm, q.astype(np.longdouble))[:, :2]
+    cond = oracles.condition(j.astype(float))
+    assert ((cond > 1e6) & (cond < 2e7)).sum() > 5  # the draw reaches where it hurts
+    near = cond < 2e7
+    rho = np.array([oracles.rho_long(x) for x in j[near]])
+    error = np.abs(index.by_joint(q[near]) - rho).max(axis=1)
+    assert error.max() < 1e-9
+    assert (error <= 1e-15 * cond[near] + 1e-14).all()
+
+
+@pytest.mark.parametrize("case", ["PA10 pose", "PA10 pointing, long", "mixed pose, short", "mixed rows", "planar pose"])
+def test_laws_of_rho(case, make, rng):
+    arm, task, _, length, _ = make(case)
+    index = indices.relative_manipulability(arm, task, length=length)
+    m = index.task.m
+    q = oracles.inside(arm, rng, 500)
+    rho = index.by_joint(q)
+    np.testing.assert_allclose((rho**2).sum(axis=1), arm.n - m, atol=1e-10)
+    assert index.bound == pytest.approx(np.sqrt((arm.n - m) / arm.n), rel=1e-15)
+    assert (index(q) <= index.bound + 1e-12).all()
+    assert ((rho >= 0) & (rho <= 1 + 1e-14)).all()
+    with_bound = indices.relative_manipulability(arm, task, [0, 1], length)
+    assert with_bound.bound is None
+
+
+def test_the_bound_is_attained_where_all_rho_are_equal():
+    """Three unit sliding joints at 120 degrees in a plane: rho = sqrt(1/3) each."""
+    joints = [
+        hf.Joint(f"s{k}", "prismatic", np.eye(4), np.array([np.cos(a), np.sin(a), 0]))
+        for k, a in enumerate(np.radians([0, 120, 240]))
+    ]
+    index = indices.relative_manipulability(hf.Arm("star", tuple(joints)), ["vx", "vy"])
+    assert index.bound == pytest.approx(np.sqrt(1 / 3))
+    np.testing.assert_allclose(index.by_joint([0.1, 0.2, 0.3]), index.bound, rtol=1e-15)
+
+
+@pytest.mark.parametrize("arm_name", ["pa10", "mixed8"])
+def test_rho_is_blind_to_base_tool_orientation_and_row_units(arm_name, request, rng):
+    arm = request.getfixturevalue(arm_name)
+    q = oracles.inside(arm, rng, 40)
+    kr = indices.manipulability(arm).by_joint(q)
+    rho = indices.relative_manipulability(arm).by_joint(q)
+    j = oracles.jacobian(arm, q)
+    tolerance = 1e-13 * oracles.condition(j)[:, None]
+    moved = arm.with_base(oracles.random_pose(rng))
+    turned = replace(arm, tool=arm.tool @ oracles.pose(oracles.random_pose(rng)[:3, :3]))
+    shifted = replace(arm, tool=arm.tool @ oracles.random_pose(rng))
+    for other in (moved, turned, shifted):
+        assert (np.abs(indices.relative_manipulability(other).by_joint(q) - rho) <= tolerance).all()
+        np.testing.assert_allclose(indices.manipulability(other).by_joint(q), kr, rtol=1e-6, atol=1e-13)
+    for length in (0.1, 7.0):
+        assert (np.abs(indices.relative_manipulability(arm, length=length).by_joint(q) - rho) <= 100 * tolerance).all()
+        # Three linear rows divided by the length.
+        scaled = indices.manipulability(arm, length=length).by_joint(q) * length**3
+        np.testing.assert_allclose(scaled, kr, rtol=1e-6, atol=1e-12)
+        assert not np.allclose(indices.mean_singular_value(arm, length=length)(q), indices.mean_singular_value(arm)(q), rtol=1e-3)
+
+
+def test_partial_tasks_depend_on_length_as_their_rows_say(mixed8, rng):
+    q = oracles.inside(mixed8, rng, 20)
+    for task, linear in (("position", 3), ("pointing", 3), (["vx", "wy"], 1), (["wx", "wy"], 0)):
+        one, other = (indices.manipulability(mixed8, task, length=x).by_joint(q) for x in (1.0, 0.2))
+        np.testing.assert_allclose(other, one * 0.2**-linear, rtol=1e-9, atol=1e-12)
+
+
+def test_the_unit_of_a_sliding_joint_changes_rho(mixed8, rng):
+    """The law has a limit: rho depends on the unit of a single column. A joint that moves 1000 times as far is another arm."""
+    q = oracles.inside(mixed8, rng, 1)
+    j = oracles.jacobian(mixed8, q)
+    scaled = j * np.where(mixed8.prismatic, 1000.0, 1.0)
+    sets = failure_sets(mixed8)
+    assert not np.allclose(*(oracles.index("relative-manipulability", x, sets) for x in (j, scaled)), atol=1e-2)
+    np.testing.assert_allclose(
+        indices.relative_manipulability(mixed8).by_joint(q), oracles.index("relative-manipulability", j, sets), atol=1e-9
+    )
+
+
+def test_the_elbow_of_the_seven_joint_pa10_is_a_single_point_of_failure(pa10_7, rng):
+    q = oracles.inside(pa10_7, rng, 2000)
+    cond = oracles.condition(oracles.jacobian(pa10_7, q))
+    index = indices.relative_manipulability(pa10_7)
+    rho = index.by_joint(q)
+    assert (rho[:, 3] <= 1e-14 * cond).all()
+    good = cond < 1e4
+    assert good.mean() > 0.9
+    np.testing.assert_array_equal(index.worst_joint(q[good]), 3)
+    np.testing.assert_allclose(index.gradient(q[good])[:, :], 0, atol=1e-6)
+    assert np.median(rho[:, [0, 1, 2, 4, 5, 6]].min(axis=1)) > 0.05  # only the elbow
+
+
+def test_a_joint_that_does_not_move_the_task_has_rho_one(pa10, rng):
+    """The tool point lies on axis 9, so position does not feel joint 9."""
+    q = oracles.inside(pa10, rng, 50)
+    index = indices.relative_manipulability(pa10, "position")
+    np.testing.assert_allclose(index.by_joint(q)[:, 8], 1.0, atol=1e-14)
+    locked = [indices.manipulability(pa10, "position", [8]).by_joint(q)[:, 0], np.linalg.svd(pa10.jacobian(q)[:, :3])[1].prod(-1)]
+    np.testing.assert_allclose(*locked, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", BY_NAME)
+def test_locking_a_joint_is_deleting_its_column(name, mixed7, rng):
+    """An arm built with joint 2 welded at its present angle has the reduced Jacobian: the same arm by another door."""
+    task = Task("own", np.linalg.qr(rng.normal(size=(6, 6)))[0][:4])
+    index = by_name(name, mixed7, task, [(2, 5)])
+    q = oracles.inside(mixed7, rng, 1)[0]
+    joints, pending = [], np.eye(4)
+    for k, joint in enumerate(mixed7.joints):
+        origin = pending @ joint.origin
+        if k in (2, 5):
+            pending = origin @ oracles._motion(joint, q[k : k + 1])[0][0]
+        else:
+            joints.append(replace(joint, origin=origin))
+            pending = np.eye(4)
+    welded = hf.Arm("welded", tuple(joints), base=mixed7.base, tool=pending @ mixed7.tool)
+    rest = np.delete(q, [2, 5])
+    s = np.linalg.svd(task.rows @ welded.jacobian(rest), compute_uv=False)
+    whole = np.linalg.svd(task.rows @ mixed7.jacobian(q), compute_uv=False)
+    expected = {
+        "relative-manipulability": s.prod() / whole.prod(),
+        "manipulability": s.prod(),
+        "mean-singular-value": s.mean(),
+        "geometric-mean-singular-value": s.prod() ** 0.25,
+        "minimum-singular-value": s.min(),
+        "condition-number": s.max() / s.min(),
+    }
+    assert index(q) == pytest.approx(expected[name], rel=1e-10)
