@@ -18,7 +18,8 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_gallery.gen_gallery",
-    "mathml",
+    "docstrings",
+    "mathsvg",
     "live",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
@@ -29,13 +30,15 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Array|ArrayLike|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
     (r"py:.*", r"(Callable|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|Store|optional|default.*)"),
     (r"py:.*", r"holdfast\.study\..*"),
+    (r"py:.*", r"TypeAliasForwardRef"),
+    (r"py:attr", r"failures"),
 ]
 
 html_theme = "furo"
 html_title = f"holdfast {release}"
 html_static_path = ["_static"]
 html_css_files = ["holdfast.css"]
-html_math_renderer = "mathml"
+html_math_renderer = "svg"
 html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {
@@ -61,7 +64,6 @@ myst_substitutions = {
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_class_signature = "mixed"
-autodoc_default_options = {"members": True}
 autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Array": "Array"}
 autodoc_preserve_defaults = True
 python_use_unqualified_type_names = True

@@ -8,10 +8,10 @@ import tempfile
 import zlib
 
 import numpy as np
-import oracles
 import pytest
 
 import holdfast as hf
+import oracles
 from holdfast import arms
 from holdfast.kernels import set_threads
 
@@ -73,6 +73,12 @@ def pa10() -> hf.Arm:
 @pytest.fixture(scope="session")
 def pa10_7() -> hf.Arm:
     return arms.load("pa10-7dof")
+
+
+@pytest.fixture(scope="session")
+def mixed5(generator) -> hf.Arm:
+    """Five joints, one of them sliding: small enough for many compilations."""
+    return oracles.random_arm(generator("mixed5"), types="RPRRR", limits=2.0)
 
 
 @pytest.fixture(scope="session")

@@ -181,6 +181,24 @@ def jacobian(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
     return np.stack(columns[::-1], axis=2)
 
 
+def jacobian_slope(arm: hf.Arm, j: np.ndarray) -> np.ndarray:
+    """``out[b, :, a] = d J[:, a] / d q_b`` from J (6, n) alone: the table of probabilistic-tolerance.md, section 2."""
+    v, sliding = j[:3].T, arm.prismatic
+    z = np.where(sliding[:, None], j[:3].T, j[3:].T)
+    out = np.zeros((arm.n, 6, arm.n))
+    for a in range(arm.n):
+        for b in range(arm.n):
+            linear, angular = np.zeros(3), np.zeros(3)
+            if not sliding[a]:
+                linear = (np.zeros(3) if sliding[b] else np.cross(z[b], v[a])) if b < a else np.cross(z[a], v[b])
+                if b < a and not sliding[b]:
+                    angular = np.cross(z[b], z[a])
+            elif b < a and not sliding[b]:
+                linear = np.cross(z[b], z[a])
+            out[b, :, a] = np.r_[linear, angular]
+    return out
+
+
 def plane(arm: hf.Arm) -> np.ndarray:
     """Normal of a planar arm's plane: the null space of the linear velocities it can have (sign open)."""
     q = np.random.default_rng(0).uniform(-1, 1, (8, arm.n))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import combinations
 from math import comb
 
-import oracles
 import pytest
 
+import oracles
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import failure_names, failure_sets, require_redundant
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-import oracles
 import pytest
 from scipy.linalg import null_space
 
+import oracles
 from holdfast import linalg
 
 SIZES = [(1, 2), (1, 5), (2, 3), (2, 6), (3, 4), (3, 7), (5, 7), (6, 7), (6, 9)]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-import oracles
 import pytest
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
+import oracles
 from holdfast.arm import kinematics
 from holdfast.arm.task import NAMES, ROWS, Task, as_task, plane_normal, rows_task
 from holdfast.errors import TaskError

@@ -6,6 +6,7 @@ Every page has one Python session and one temporary folder, shared by its direct
 ``shell``: command lines (``$ ...``) and what they print; ``:exit:`` is the exit code expected (0), ``:head:`` the number
     of lines shown of each output.
 ``file``: text that is shown and saved under the name given.
+``module-example``: the example in a module's docstring.
 ``casadi-operations``: the operations that the heyoka backend translates, from its table.
 
 The role ``cite`` refers to an entry of the list of references.
@@ -15,6 +16,8 @@ from __future__ import annotations
 
 import ast
 import contextlib
+import importlib
+import inspect
 import io
 import os
 import subprocess
@@ -153,7 +156,19 @@ class File(_Live):
         default = {".yaml": "yaml", ".urdf": "xml", ".py": "python"}.get(Path(name).suffix, "text")
         caption = nodes.caption("", "", nodes.literal(name, name))
         box = nodes.container("", classes=["literal-block-wrapper"], literal_block=True)
-        return [box + [caption, self.block(text, self.options.get("language", default), "live-file")]]
+        box += [caption, self.block(text, self.options.get("language", default), "live-file")]
+        return [box]
+
+
+class ModuleExample(SphinxDirective):
+    """The indented example in the docstring of a module, so that a format is written down once."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        lines = inspect.getdoc(importlib.import_module(self.arguments[0])).splitlines()
+        text = inspect.cleandoc("\n".join(x for x in lines if x.startswith("    ") or not x).strip("\n"))
+        return [nodes.literal_block(text, text, language="yaml")]
 
 
 class CasadiOperations(SphinxDirective):
@@ -188,6 +203,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("run", Run)
     app.add_directive("shell", Shell)
     app.add_directive("file", File)
+    app.add_directive("module-example", ModuleExample)
     app.add_directive("casadi-operations", CasadiOperations)
     app.add_role("cite", Cite())
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -49,4 +49,4 @@ axes.spines[["top", "right"]].set_visible(False)
 # joint 6 by far the most.
 
 for name, slope in zip(arm.joint_names, index.gradient(q), strict=True):
-    print(f"{name}: {slope:+.4f} per rad")
+    print(f"{name}: {round(slope, 4) + 0.0:+.4f} per rad")

@@ -43,8 +43,8 @@ def by_hand(q):
 
 steps = 1e-6 * np.eye(arm.n)
 differences = np.array([(index(home + s) - index(home - s)) / 2e-6 for s in steps])
-print("largest difference of the values:  ", np.abs(index.by_joint(home) - by_hand(home)).max() < 1e-12)
-print("largest difference of the gradient:", np.abs(index.gradient(home) - differences).max() < 1e-7)
+print("largest difference of the values below 1e-12: ", np.abs(index.by_joint(home) - by_hand(home)).max() < 1e-12)
+print("largest difference of the gradient below 1e-7:", np.abs(index.gradient(home) - differences).max() < 1e-7)
 assert np.allclose(index.by_joint(home), by_hand(home), atol=1e-12)
 assert np.allclose(index.gradient(home), differences, atol=1e-7)
 

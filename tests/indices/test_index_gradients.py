@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-import oracles
 import pytest
 
+import oracles
 from holdfast import indices
 from holdfast.arm.task import rows_task
 from holdfast.failures import failure_sets
@@ -16,8 +16,8 @@ from holdfast.indices import BY_NAME, CustomIndex, by_name
 CASES = {
     "PA10 pose": ("pa10", "pose", "base", "single", 0.7),
     "mixed pointing": ("mixed7", "pointing", "tool", "single", 1.0),
-    "mixed position, pairs": ("mixed7", "position", "base", "pairs", 1.0),
-    "mixed rows, sets": ("mixed7", ["vx", "wy"], "tool", [(0, 2), 4, (1, 5, 6)], 0.5),
+    "mixed position, pairs": ("mixed5", "position", "base", "pairs", 1.0),
+    "mixed rows, sets": ("mixed5", ["vx", "wy"], "tool", [(0, 2), 4, (1, 3, 4)], 0.5),
     "planar, pairs": ("planar4", "planar", "base", "pairs", 2.0),
     "planar pose": ("planar4", "planar-pose", "base", "single", 1.0),
 }
@@ -61,17 +61,18 @@ def test_gradient_against_central_differences(name, case, request, rng):
         np.testing.assert_array_equal(index.gradient(row), g)
 
 
-@pytest.mark.parametrize("arm_name", ["pa10", "mixed8"])
+@pytest.mark.parametrize("arm_name", ["pa10", "mixed7"])
 def test_gradient_against_the_closed_forms(arm_name, request, rng):
     """``d(rho_k^2)/dq_j = -2 a_k' (j'_k - J' J' a_k)`` and ``d log det(J J')/dq_j = 2 tr(G J' J')``."""
     arm = request.getfixturevalue(arm_name)
     rho, kr = indices.relative_manipulability(arm), indices.manipulability(arm)
     q = oracles.inside(arm, rng, 60)
-    jacobians, derivatives = arm.jacobian(q), arm.jacobian_derivative(q)
+    jacobians = oracles.jacobian(arm, q)
     checked = 0
-    for row, j, dj in zip(q, jacobians, derivatives, strict=True):
+    for row, j in zip(q, jacobians, strict=True):
         if oracles.condition(j) > 200:
             continue
+        dj = oracles.jacobian_slope(arm, j)
         g = np.linalg.inv(j @ j.T)
         squares = 1 - np.einsum("ik,ij,jk->k", j, g, j)
         for index, values in ((rho, squares), (kr, squares)):
@@ -100,15 +101,15 @@ def test_gradient_of_a_tie_is_that_of_one_of_them(flat4):
     np.testing.assert_allclose(index.gradient(q), singles[k].gradient(q), rtol=1e-12, atol=1e-13)
 
 
-def test_a_custom_index_equals_the_built_in_one(mixed7, rng):
+def test_a_custom_index_equals_the_built_in_one(mixed5, rng):
     def formula(j):
         return ca.sqrt(ca.det(j @ j.T))
 
-    q = oracles.inside(mixed7, rng, 100)
-    q = q[oracles.condition(oracles.jacobian(mixed7, q)[:, :3]) < 20]
-    for failures in ("single", [(0, 1), 4]):
-        own = CustomIndex(formula, mixed7, "position", failures, length=0.5, name="own", unit="1")
-        built_in = indices.manipulability(mixed7, "position", failures, length=0.5)
+    q = oracles.inside(mixed5, rng, 100)
+    q = q[oracles.condition(oracles.jacobian(mixed5, q)[:, :2]) < 20]
+    for failures in ([0, 1, 2, 3, 4], [(0, 1), 4]):
+        own = CustomIndex(formula, mixed5, ["vx", "vy"], failures, length=0.5, name="own", unit="1")
+        built_in = indices.manipulability(mixed5, ["vx", "vy"], failures, length=0.5)
         np.testing.assert_allclose(own.by_joint(q), built_in.by_joint(q), rtol=1e-9, atol=1e-12)
         np.testing.assert_array_equal(own.worst_failure(q), built_in.worst_failure(q))
         np.testing.assert_allclose(own.gradient(q), built_in.gradient(q), rtol=1e-7, atol=1e-8)

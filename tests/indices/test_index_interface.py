@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import casadi as ca
 import numpy as np
-import oracles
 import pytest
 
+import oracles
 from holdfast.errors import HoldfastError, InputError, TaskError
 from holdfast.indices import BY_NAME, CustomIndex, by_name
 from holdfast.status import Status, require_ok

@@ -14,7 +14,6 @@ import yaml
 from markupsafe import Markup
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from holdfast import arms
@@ -28,8 +27,9 @@ from holdfast.errors import InputError
 from holdfast.failures import failure_sets
 from holdfast.indices import BY_NAME
 from holdfast.report import figures, page
-from holdfast.report.figures import Bin, Curve, Mark, Scale, Scene, View, percent
+from holdfast.report.figures import Bin, Curve, Mark, Scale, Scene, View
 from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
+from holdfast.report.words import article, as_given, counted, either, fixed, interval, number, percent, share
 from holdfast.solve import solver
 from holdfast.status import Status
 
@@ -86,7 +86,7 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         [s for s in sections if s.blocks],
         a.region.name,
         _warnings(facts),
-        f"Written by holdfast {facts.provenance['versions'].get('holdfast', '')}. This file needs no network and no other file.",
+        "Written by holdfast. This file needs no network and no other file.",
     )
 
 
@@ -101,19 +101,20 @@ def overview_figure(assessment: Assessment, threshold: float | None = None) -> F
         spans, _ = figures.view_spans(scene, [view], 5.0, 4.1, 4.1)
         figures.draw_view(left, scene, view, facts.scale, figures.dot_size(scene, [view], 5.0 / spans[0]), spans, 5.0)
         left.set_title(f"{figures.plain(facts.a.arm.name, 30)} and the region, {view.title.lower()}")
-        if len(scene.points):
+        if np.isfinite(scene.values).any():
             figures.bar(figure, scene, facts.scale, [left], facts.axis_label)
-        if facts.d.reached:
+        if facts.drawable:
             figures.draw_cdf(right, facts.curves, facts.marks, facts.axis_label, f"share of {facts.noun}s below", facts.log)
-            right.set_title(f"P({facts.condition}) = {_interval(facts.answer)}")
+            right.set_title(f"P({facts.condition}) = {interval(facts.answer)}" if facts.decided else "")
             figures.legend_below(figure, right, 4)
         else:
-            right.text(0.5, 0.5, "no configuration found", ha="center", va="center", color=figures.SOFT)
+            what = "the index is infinite everywhere" if facts.d.reached else "no configuration found"
+            right.text(0.5, 0.5, what, ha="center", va="center", color=figures.SOFT)
             right.set_axis_off()
         return figures.finished(figure)
 
 
-# ---- what is known ---------------------------------------------------------------------------------------------------------
+# ---- what is known -----------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -141,6 +142,7 @@ class _Facts:
         self.index = assessment.index
         self.larger = self.index.better == "larger"
         self.noun = "configuration" if assessment.region.kind == "joints" else "pose"
+        self.reached = f"{self.noun}s" if assessment.region.kind == "joints" else "reached poses"
         self.chosen = threshold is not None
         self.threshold = self._threshold() if threshold is None else float(threshold)
 
@@ -160,6 +162,16 @@ class _Facts:
             return self.d.reached > 0 and self.d.highest <= _ZERO
         return self.d.reached > 0 and self.d.infinite == self.d.reached
 
+    @property
+    def decided(self) -> bool:
+        """There is a threshold that means something."""
+        return self.chosen or self.index.bound is not None or (self.d.reached > 0 and not self.nothing)
+
+    @property
+    def drawable(self) -> bool:
+        """There are finite values."""
+        return self.d.reached > self.d.infinite
+
     @cached_property
     def answer(self) -> Interval:
         """Probability that a pose of the region meets the threshold."""
@@ -168,12 +180,11 @@ class _Facts:
 
     @property
     def condition(self) -> str:
-        return f"index {'≥' if self.larger else '≤'} {_plain_number(self.threshold)}"
+        return f"index {'≥' if self.larger else '≤'} {as_given(self.threshold)}{self.unit}"
 
     @property
     def axis_label(self) -> str:
-        unit = "" if self.index.unit == "1" else f", {self.index.unit}"
-        return figures.plain(f"worst-case {self.index.name}{unit}")
+        return figures.plain(f"worst-case {self.index.name}{self.unit and ','}{self.unit}")
 
     @property
     def failures(self) -> str:
@@ -183,7 +194,7 @@ class _Facts:
         if size and len(self.index.failures) == math.comb(self.a.arm.n, size):
             return "whichever joint locks" if size == 1 else f"whichever {size} joints lock together"
         count = len(self.index.failures)
-        return f"if {_join(self.index.failure_names)} locks" if count == 1 else f"after any of the {count} failures considered"
+        return f"if {either(self.index.failure_names)} locks" if count == 1 else f"after any of the {count} failures considered"
 
     @cached_property
     def headline(self) -> str:
@@ -193,8 +204,8 @@ class _Facts:
             return "Nothing has been computed yet."
         if not d.reached:
             return (
-                f"No configuration within the joint limits was found for any of the {d.samples:,} poses of the region: move the region, "
-                "widen the joint limits or give more restarts."
+                f"No configuration within the joint limits was found for any of the {d.samples:,} poses of the region: "
+                "move the region, widen the joint limits or give more restarts."
             )
         lost = (
             f"; for {percent(d.unreached / d.samples)} of poses no configuration within the joint limits was found"
@@ -203,13 +214,16 @@ class _Facts:
         )
         if self.nothing:
             worst = "0" if self.larger else "infinite"
-            return f"No {noun} of the region tolerates every failure: the worst-case {name} is {worst} at each {noun} reached{lost}."
-        bound = f"at {'least' if self.larger else 'most'} {_plain_number(self.threshold)}{self.unit}"
-        return f"With probability {_interval(self.answer)} a {noun} of the region keeps {_article(name)} {name} of {bound} {self.failures}{lost}."
+            verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
+            return f"No {noun} of the region tolerates every failure: {verdict}"
+        bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
+        kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
+        return f"With probability {interval(self.answer)} a {noun} of the region {kept}"
 
     @property
     def unit(self) -> str:
-        return "" if self.index.unit == "1" else f" {self.index.unit}"
+        """With a space in front, or nothing."""
+        return "" if self.index.unit == "1" else f" {self.index.unit}".replace("^2", "²").replace("^3", "³")
 
     # ---- structure -------------------------------------------------------------------------------------------------
 
@@ -269,21 +283,21 @@ class _Facts:
             some = np.flatnonzero(rows.reached)
             k = some[np.argsort(rows.value[some], kind="stable")[(len(some) - 1) // 2]]
             what = (
-                "the only one there is" if len(some) == 1 else f"the one with the median index, {_number(float(rows.value[k]))}"
+                "the only one there is" if len(some) == 1 else f"the one with the median index, {number(float(rows.value[k]))}"
             )
-            return rows.q[k], f"the configuration of {self.noun} {rows.number[k] + 1:,}, {what}"
+            return rows.q[k], f"at {self.noun} {rows.number[k] + 1:,}, {what}"
         center = np.array(a.region.center)
         if a.region.kind == "joints":
-            return center, "the middle of the joint ranges of the region"
+            return center, "in the middle of the region"
         if self.d.reached:
             reach = solver(a.arm, self.index.task).solve(
                 a.region.poses(center[None]), np.random.SeedSequence(a.seed), a.restarts, 1e-6
             )
             if reach.success[0]:
-                return reach.q[0], "a configuration for the middle of the region"
+                return reach.q[0], "at the middle of the region"
         low = np.where(np.isfinite(a.arm.lower), a.arm.lower, -np.pi / 2)
         high = np.where(np.isfinite(a.arm.upper), a.arm.upper, np.pi / 2)
-        return (low + high) / 2, "the middle of the joint limits"
+        return (low + high) / 2, "in the middle of its joint limits"
 
     @cached_property
     def scene(self) -> tuple[Scene, int]:
@@ -340,13 +354,13 @@ class _Facts:
         if self.log:
             return np.geomspace(min(d.lowest, *marks) / 1.15, max(d.highest, *marks) * 1.15, 1601)
         finite = [x for x in (d.lowest, d.highest) if np.isfinite(x)]
-        high = max([*finite, *marks])
+        high = max([0.0, *finite, *marks])
         low = min([0.0, *finite, *marks])
         return np.linspace(low, high + 0.04 * ((high - low) or 1.0), 1601)
 
     @cached_property
     def marks(self) -> list[Mark]:
-        found = [Mark(self.threshold, f"threshold {_plain_number(self.threshold)}{self.unit}")]
+        found = [Mark(self.threshold, f"threshold {as_given(self.threshold)}{self.unit}")] if self.decided else []
         if self.index.bound is not None:
             found.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
         return found
@@ -373,61 +387,11 @@ class _Facts:
         edges = (np.geomspace if self.log else np.linspace)(self.axis[0], self.axis[-1], count + 1)
         share = np.diff(self.a.cdf(edges, True))
         width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
-        per = "per decade" if self.log else "" if self.index.unit == "1" else f"per {self.index.unit}"
+        per = "per decade" if self.log else self.unit and f"per{self.unit}"
         return Bin(edges, share / width, "", f"probability density {per}".strip())
 
 
-# ---- numbers for people ------------------------------------------------------------------------------------------------------
-
-
-def _number(x: float) -> str:
-    """Three digits or so; aligned in a column of values of one kind."""
-    if np.isnan(x):
-        return "–"
-    if np.isinf(x):
-        return "∞" if x > 0 else "−∞"
-    size = abs(x)
-    if size < _ZERO:
-        return "0"
-    text = f"{x:.1e}" if size < 1e-3 or size >= 1e7 else f"{x:.3f}" if size < 10 else f"{x:,.1f}" if size < 1000 else f"{x:,.0f}"
-    return text.replace("-", "−", 1) if x < 0 else text
-
-
-def _fixed(x: float, digits: int) -> str:
-    """So many decimals, and no minus in front of zeros."""
-    return f"{round(float(x), digits) + 0.0:.{digits}f}".replace("-", "−")
-
-
-def _plain_number(x: float) -> str:
-    """A chosen number, as it was chosen."""
-    return f"{x:.6g}".replace("-", "−", 1) if x < 0 else f"{x:.6g}"
-
-
-def _interval(i: Interval) -> str:
-    """``0.49 (0.47 to 0.51, 95 %)`` with as many digits as it deserves."""
-    half = max((i.high - i.low) / 2, 1e-6)
-    digits = int(np.clip(math.ceil(0.3 - math.log10(half)), 2, 6))
-    return f"{i.value:.{digits}f} ({i.low:.{digits}f} to {i.high:.{digits}f}, {100 * i.confidence:.4g} %)"
-
-
-def _share(count: int, whole: int) -> str:
-    """A count with its share and Wilson interval."""
-    if not whole:
-        return f"{count:,}"
-    limits = stats.binomtest(count, whole).proportion_ci(confidence_level=0.95, method="wilson")
-    low, high = (f"{100 * float(x):.1f}" for x in (limits.low, limits.high))
-    return f"{count:,} ({percent(count / whole)}, 95 % interval {low} to {high} %)"
-
-
-def _article(word: str) -> str:
-    return "an" if word[:1].lower() in "aeiou" else "a"
-
-
-def _join(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
-
-
-# ---- sections ----------------------------------------------------------------------------------------------------------------
+# ---- sections ----------------------------------------------------------------------------------------------------------
 
 
 def _warnings(f: _Facts) -> list[Callout]:
@@ -458,20 +422,20 @@ def _key_numbers(f: _Facts) -> list[Block]:
         (f"{f.noun.capitalize()}s drawn", f"{d.samples:,}" + ("" if a.complete else f" of {a.poses:,} planned")),
     ]
     if a.region.kind == "box":
-        facts.append(("Reached", _share(d.reached, d.samples)))
-        facts.append(("No configuration found", _share(d.unreached, d.samples)))
+        facts.append(("Reached", share(d.reached, d.samples)))
+        facts.append(("No configuration found", share(d.unreached, d.samples)))
     facts.append(
-        ("Singular", _share(d.singular, d.samples) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else ""))
+        ("Singular", share(d.singular, d.samples) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else ""))
     )
     if d.infinite:
-        facts.append(("Infinite", _share(d.infinite, d.samples) + ", of those with a configuration"))
-    if d.samples:
-        sign = "≥" if f.larger else "≤"
-        facts.append((f"P(index {sign} {_plain_number(f.threshold)})", f"{_interval(f.answer)}; {_why(f)}"))
+        facts.append(("Infinite", share(d.infinite, d.samples) + ", of those with a configuration"))
+    if d.samples and f.decided:
+        facts.append((f"P({f.condition})", f"{interval(f.answer)}; {_why(f)}"))
         if d.unreached and d.reached:
             t = f.threshold
             only = a.interval(at_least=t, reachable_only=True) if f.larger else a.interval(at_most=t, reachable_only=True)
-            facts.append(("The same, reached poses only", _interval(only)))
+            facts.append(("The same, reached poses only", interval(only)))
+    if d.samples:
         facts.append(
             (
                 "Error of the CDF",
@@ -483,8 +447,8 @@ def _key_numbers(f: _Facts) -> list[Block]:
         facts.append(
             (
                 "Largest possible value",
-                f"{index.bound:.4f}; the median of the reached {f.noun}s is {percent(median / index.bound)} of it "
-                f"(gap {_number(index.bound - median)}), the best one found {percent(best / index.bound)}",
+                f"{index.bound:.4f}; the median of the {f.reached} is {percent(median / index.bound)} of it "
+                f"(gap {number(index.bound - median)}), the best one found {percent(best / index.bound)}",
             )
         )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
@@ -505,9 +469,7 @@ def _why(f: _Facts) -> str:
         return "the threshold was given"
     if f.index.bound is not None:
         return "the threshold is half of the largest possible value"
-    if f.nothing or not f.d.reached:
-        return "there is no value to derive a threshold from"
-    return f"the threshold is about the median of the reached {f.noun}s, because this index has no known bound"
+    return f"the threshold is about the median of the {f.reached}, because this index has no known bound"
 
 
 def _quantiles(f: _Facts) -> Table:
@@ -519,17 +481,15 @@ def _quantiles(f: _Facts) -> Table:
     rows = [
         [
             f"the {d.reached:,} reached" if d.unreached else f"all {d.samples:,}",
-            *[_number(float(x)) for x in d.quantile(steps)],
-            _number(d.mean),
-            _number(best),
+            *[number(float(x)) for x in d.quantile(steps)],
+            number(d.mean),
+            number(best),
         ]
     ]
     if d.unreached:
         mean = d.total / d.samples if f.larger else np.inf
         label = f"all {d.samples:,}, not found counts as {'0' if f.larger else 'infinite'}"
-        rows.append(
-            [label, *[_number(float(x)) for x in d.quantile(steps, reachable_only=False)], _number(mean), _number(best)]
-        )
+        rows.append([label, *[number(float(x)) for x in d.quantile(steps, reachable_only=False)], number(mean), number(best)])
     return Table(rows, head, frozenset(range(1, 8)), wide=True)
 
 
@@ -581,13 +541,15 @@ def _views(f: _Facts) -> list[Block]:
         "views",
         f"The arm and the {f.noun}s of the region, by index",
     )
-    text = f"The arm is drawn in {f.representative[1]}."
+    text = f"The arm is drawn {f.representative[1]}."
     if not drawn:
         text += f" The {f.noun}s of this run were not kept, so none are drawn."
     elif drawn < d.samples:
-        text += f" Of {d.samples:,} {f.noun}s a random {drawn:,} are drawn; colour is the index."
+        text += f" Of {d.samples:,} {f.noun}s a random {drawn:,} are drawn"
     else:
-        text += f" All {drawn:,} {f.noun}s are drawn; colour is the index."
+        text += f" All {counted(drawn, f.noun)} are drawn"
+    if drawn:
+        text += "; colour is the index." if len(scene.points) else "."
     if drawn and d.infinite:
         text += " Infinite values have the darkest colour."
     return [Picture(image, text)]
@@ -595,8 +557,8 @@ def _views(f: _Facts) -> list[Block]:
 
 def _distribution(f: _Facts) -> list[Block]:
     d = f.d
-    if not d.reached:
-        return [Text("No pose was reached, so there is no distribution to show.")]
+    if not f.drawable:
+        return [Text(f"The index is infinite at each of the {counted(d.reached, f.noun)} reached.")] if d.reached else []
     titles = (
         f"Density (PDF), {d.reached:,} {'reached ' if d.unreached else ''}{f.noun}s",
         f"Cumulative (CDF), {d.samples:,} {f.noun}s",
@@ -605,22 +567,20 @@ def _distribution(f: _Facts) -> list[Block]:
         f.histogram, f.curves, f.marks, f.axis_label, "share with a smaller value, F", titles, f.log
     )
     meets = "1 − F" if f.larger else "F"
-    text = f"The probability of meeting a threshold is {meets} there: {_interval(f.answer)} at {_plain_number(f.threshold)}{f.unit}."
+    text = f"The probability of meeting a threshold is {meets} there"
+    text += f": {interval(f.answer)} at {as_given(f.threshold)}{f.unit}." if f.decided else "."
     if d.unreached:
-        text += f" The dashed curve leaves out the {d.unreached:,} poses for which no configuration was found."
-    text += f" The density is a histogram of {len(f.histogram.heights)} bins over {'reached poses' if d.unreached else f'all {f.noun}s'}"
-    text += (
-        f" and adds up to the {percent(1 - d.infinite / d.reached)} with a finite value."
-        if d.infinite
-        else " and adds up to 1."
-    )
+        text += f" The dashed curve leaves out the {counted(d.unreached, 'pose')} for which no configuration was found."
+    over = "the reached poses" if d.unreached else f"all {f.noun}s"
+    total = f"the {percent(1 - d.infinite / d.reached)} with a finite value" if d.infinite else "1"
+    text += f" The density is a histogram of {len(f.histogram.heights)} bins over {over} and adds up to {total}."
     return [Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)]
 
 
 def _worst_failures(f: _Facts) -> list[Block]:
     names, counts = _failure_labels(f), f.a.worst_counts
     if not f.d.reached:
-        return [Text("No pose was reached, so no failure can be called the worst.")]
+        return []
     blocks: list[Block] = []
     total = int(counts.sum())
     chosen = np.arange(len(names))
@@ -632,7 +592,7 @@ def _worst_failures(f: _Facts) -> list[Block]:
         figure = figures.bar_figure(
             [names[k] for k in chosen], [int(counts[k]) for k in chosen], f"{f.noun}s at which this failure is the worst", total
         )
-        text = f"Of {total:,} {f.noun}s with a configuration that is not singular; where several failures are equally bad, the first counts."
+        text = f"Of {total:,} {f.reached} that are not singular; where several failures are equally bad, the first counts."
         blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + note))
     else:
         blocks.append(Text(f"Every {f.noun} reached is singular, so no failure is worse than another."))
@@ -661,21 +621,24 @@ def _failure_table(f: _Facts, names: list[str], counts: NDArray[np.int64]) -> Bl
     if len(chosen) > _MOST_ROWS:
         chosen = np.sort(np.argsort(-counts, kind="stable")[:_MOST_ROWS])
     cells = [
-        [names[k], _number(float(middle[k])), _number(float(low[k])), percent(counts[k] / total), f"{met[k]:.3f}"]
-        for k in chosen
+        [names[k], number(float(middle[k])), number(float(low[k])), percent(counts[k] / total), f"{met[k]:.3f}"] for k in chosen
     ]
     sign = "≥" if f.larger else "≤"
-    head = ["If this locks", "median", f"{100 * bad:.0f} % quantile", "worst of all", f"P({sign} {_plain_number(f.threshold)})"]
-    caption = f"The {f.index.name} after each failure, over the {len(values):,} {f.noun}s reached."
+    head = ["If this locks", "median", f"{100 * bad:.0f} % quantile", "worst of all", f"P({sign} {as_given(f.threshold)})"]
+    if not f.decided:
+        head, cells = head[:-1], [c[:-1] for c in cells]
+    caption = f"The {f.index.name} after each failure, over {len(values):,} {f.reached}."
     return Table(cells, head, frozenset(range(1, 5)), caption=caption, wide=True)
 
 
 def _places(f: _Facts) -> list[Block]:
     rows = f.rows
+    if rows is None and not f.d.reached:
+        return []
     if rows is None:
         return [Text(f"The {f.noun}s of this run were not kept (keep=False), so the report cannot list or map them.")]
     if not rows.reached.any():
-        return [Text("No pose was reached, so there is none to list.")]
+        return []
     if f.nothing:
         return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
     blocks: list[Block] = [_worst_table(f, rows)]
@@ -696,8 +659,8 @@ def _places(f: _Facts) -> list[Block]:
         figures.plain(f"{average.lower()} {f.index.name}"),
     )
     text = (
-        f"{average} index of the reached {f.noun}s in each cell, over the whole depth of the region, and below it how many "
-        f"{f.noun}s were reached of how many drawn; {len(rows.value):,} in all."
+        f"{average} index of the {f.reached} in each cell, over the whole depth of the region, and below it how many "
+        f"{'poses were reached of how many drawn' if f.d.unreached else f'{f.noun}s there are'}; {len(rows.value):,} in all."
     )
     if f.a.region.kind == "joints":
         text += " Positions are those of the tool."
@@ -713,12 +676,12 @@ def _worst_table(f: _Facts, rows: _Rows) -> Table:
     cells = []
     for k, rpy in zip(chosen, angles, strict=True):
         worst = labels[rows.worst[k]] if rows.worst[k] >= 0 else "singular"
-        place = [*(_fixed(x, 3) for x in rows.position[k]), *(_fixed(x, 1) for x in rpy)]
-        cells.append([f"{rows.number[k] + 1:,}", *place, _number(float(rows.value[k])), worst])
+        place = [*(fixed(x, 3) for x in rows.position[k]), *(fixed(x, 1) for x in rpy)]
+        cells.append([f"{rows.number[k] + 1:,}", *place, number(float(rows.value[k])), worst])
     head = [f.noun.capitalize(), "x, m", "y, m", "z, m", "roll, deg", "pitch, deg", "yaw, deg", "index", "worst failure"]
-    caption = f"The {len(chosen)} worst of {len(some):,} {f.noun}s with a configuration; R = Rz(roll) Ry(pitch) Rx(yaw)."
+    caption = f"The {len(chosen)} worst of {len(some):,} {f.reached}; R = Rz(roll) Ry(pitch) Rx(yaw)."
     if f.d.unreached:
-        caption += f" The {f.d.unreached:,} without one are worse still and not listed."
+        caption += f" The {counted(f.d.unreached, 'pose')} without one count as worse still and are not listed."
     return Table(cells, head, frozenset(range(8)), caption=caption, wide=True)
 
 
@@ -751,44 +714,35 @@ def _method(f: _Facts) -> list[Block]:
         definition += Markup(". Source: {}").format(index.source)
     box = a.region.kind == "box"
     facts: list[tuple[str, str | Markup]] = []
+    nothing = "0" if f.larger else "infinite"
     if box:
         solved = f"damped least squares from up to {a.restarts:,} random starts within the joint limits"
-        facts.append(
+        facts += [
             (
                 "Method",
-                f"{a.sampling} poses of the region; for each, inverse kinematics ({solved}); the configuration found is evaluated as it is",
-            )
-        )
-        facts.append(
+                f"{a.sampling} poses of the region; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
+            ),
             (
                 "Not optimised",
-                "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the non-optimised "
-                "sample of Abdi et al. 2012): using the redundancy to choose better ones raises these numbers",
-            )
-        )
-        facts.append(
+                "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
+                "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers",
+            ),
             (
                 "Not found",
-                f"none of {a.restarts:,} starts led to a configuration within the joint limits; this does not prove that there is none. Such a "
-                f"pose counts as {'0' if f.larger else 'infinite'} unless 'reached only' is said",
-            )
-        )
+                f"none of {a.restarts:,} starts led to a configuration within the joint limits; this does not prove that there "
+                f"is none. Such a pose counts as {nothing} unless 'reached only' is said",
+            ),
+        ]
         if index.task.m < 6:
-            facts.append(
-                (
-                    "Free directions",
-                    f"task '{index.task.name}' fixes {index.task.m} of 6 directions; what it leaves free is not solved for",
-                )
+            free = (
+                f"task '{index.task.name}' fixes {index.task.m} of 6 directions; the others of a drawn pose are not asked for"
             )
+            facts.append(("Free directions", free))
     else:
         facts.append(("Method", f"{a.sampling} configurations of the region, evaluated directly, without inverse kinematics"))
     if a.sampling == "sobol":
-        facts.append(
-            (
-                "Error bars",
-                "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice",
-            )
-        )
+        bars = "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"
+        facts.append(("Error bars", bars))
     facts += [
         ("Index", definition),
         (
@@ -798,7 +752,7 @@ def _method(f: _Facts) -> list[Block]:
         ),
         ("Failures", "a locked joint stands still where it failed"),
         ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
-        ("Region", f"{a.region.name}: {a.region.describe()}"),
+        ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
         ("Arm", a.arm.source or "no source given"),
         ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),
         (
@@ -817,13 +771,24 @@ def _method(f: _Facts) -> list[Block]:
     return blocks
 
 
+def _ranges(a: Assessment) -> str:
+    """Of a region of joints, in degrees and metres."""
+    if a.region.kind != "joints":
+        return ""
+    parts = []
+    for joint, c, s in zip(a.arm.joints, a.region.center, a.region.size, strict=True):
+        unit, scale = ("m", 1.0) if joint.prismatic else ("deg", 180 / np.pi)
+        parts.append(f"{joint.name} {as_given(scale * (c - s / 2))} to {as_given(scale * (c + s / 2))} {unit}")
+    return ": " + ", ".join(parts)
+
+
 def _versions(provenance: dict[str, object]) -> str:
     found = provenance.get("versions")
     parts = [f"{name} {v}" for name, v in found.items()] if isinstance(found, dict) else []
     return ", ".join([*parts, f"Python {provenance.get('python', '')}", str(provenance.get("machine", ""))])
 
 
-# ---- the same run again --------------------------------------------------------------------------------------------------------
+# ---- the same run again ------------------------------------------------------------------------------------------------
 
 
 def command_line(a: Assessment) -> tuple[str | None, str]:
@@ -874,7 +839,7 @@ def region_file(region: Region) -> str:
     return text.rstrip()
 
 
-# ---- the arm in space ------------------------------------------------------------------------------------------------------------
+# ---- the arm in space --------------------------------------------------------------------------------------------------
 
 
 def joint_positions(arm: Arm, q: Array) -> tuple[Array, Array]:

@@ -18,7 +18,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-_SCHEMA = "1"
+_TRANSLATION = ("heyoka_backend.py", "trigonometry.py")  # a kernel made by other code is another kernel
 
 
 def folder() -> Path | None:
@@ -44,7 +44,8 @@ def _machine() -> str:
         cpu = next((x for x in lines if x.startswith("model name")), "") + next((x for x in lines if x.startswith("flags")), "")
     except OSError:
         cpu = platform.processor() + platform.machine()
-    return "|".join([_SCHEMA, version("heyoka"), sys.version, platform.platform(), cpu])
+    code = hashlib.sha256(b"".join(Path(__file__).with_name(name).read_bytes() for name in _TRANSLATION)).hexdigest()
+    return "|".join([code, version("heyoka"), sys.version, platform.platform(), cpu])
 
 
 def key(digest: str, lanes: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.errors import KernelError
 from holdfast.kernels.program import OP_NAMES, Program
+from holdfast.kernels.trigonometry import sincos
 
 
 def available() -> bool:
@@ -49,9 +51,6 @@ def _table() -> dict[int, Callable[..., Any]]:
         ca.OP_SQRT: hy.sqrt,
         ca.OP_SQ: lambda a: a * a,
         ca.OP_TWICE: lambda a: a + a,
-        ca.OP_SIN: hy.sin,
-        ca.OP_COS: hy.cos,
-        ca.OP_TAN: hy.tan,
         ca.OP_ASIN: hy.asin,
         ca.OP_ACOS: hy.acos,
         ca.OP_ATAN: hy.atan,
@@ -101,33 +100,66 @@ def compile_program(program: Program) -> Any:
     choices: dict[int, tuple[Any, Any]] = {}  # id of "condition ? value : 0" -> condition, value
     negations: dict[int, Any] = {}  # id of "not condition" -> condition
     alive: list[Any] = []  # ids stay unique while their objects live
+    angles: dict[int, tuple[Any, Any]] = {}  # id of x -> sin x, cos x
+    divisors = _shared_divisors(program)
+    reciprocals: dict[int, Any] = {}
+    one = hy.expression(1.0)
     for k, row in enumerate(program.instructions):
         if row.op == ca.OP_CONST:
             work[row.output] = hy.expression(row.constant)
-        elif row.op == ca.OP_INPUT:
+            continue
+        if row.op == ca.OP_INPUT:
             work[row.output] = x[row.inputs[0]]
-        elif row.op == ca.OP_OUTPUT:
+            continue
+        if row.op == ca.OP_OUTPUT:
             outputs[row.output] = work[row.inputs[0]] + guard
-        else:
+            continue
+        arguments = [work[i] for i in row.inputs]
+        result = None
+        if k in divisors:
+            # CasADi writes x (1/y) as x / y. One division serves all; "+ guard" keeps heyoka from undoing this.
+            if divisors[k] not in reciprocals:
+                reciprocals[divisors[k]] = one / arguments[-1] + guard
+            shared = reciprocals[divisors[k]]
+            result = shared if row.op == ca.OP_INV else arguments[0] * shared
+        elif row.op in (ca.OP_SIN, ca.OP_COS, ca.OP_TAN):
+            if id(arguments[0]) not in angles:
+                angles[id(arguments[0])] = sincos(arguments[0], guard)
+                alive.append(arguments[0])
+            sine, cosine = angles[id(arguments[0])]
+            result = {ca.OP_SIN: sine, ca.OP_COS: cosine}.get(row.op)
+            if result is None:
+                result = sine / cosine
+        elif row.op == ca.OP_ADD:
+            result = _choice(choices, negations, *arguments)
+        if result is None:
             function = table.get(row.op)
             if function is None:
                 raise KernelError(
                     f"kernel '{program.name}': instruction {k} is CasADi operation {OP_NAMES[row.op]}, which the heyoka "
                     "backend does not have; write the expression with operations listed in docs/extending"
                 )
-            arguments = [work[i] for i in row.inputs]
-            result = None
-            if row.op == ca.OP_ADD:
-                result = _choice(choices, negations, *arguments)
-            if result is None:
-                result = function(*arguments)
-            if row.op == ca.OP_IF_ELSE_ZERO:
-                choices[id(result)] = arguments[0], arguments[1]
-            elif row.op == ca.OP_NOT:
-                negations[id(result)] = arguments[0]
-            alive.append(result)
-            work[row.output] = result
+            result = function(*arguments)
+        if row.op == ca.OP_IF_ELSE_ZERO:
+            choices[id(result)] = arguments[0], arguments[1]
+        elif row.op == ca.OP_NOT:
+            negations[id(result)] = arguments[0]
+        alive.append(result)
+        work[row.output] = result
     return hy.cfunc(outputs, vars=x, batch_size=simd_lanes())
+
+
+def _shared_divisors(program: Program) -> dict[int, int]:
+    """Instructions that divide by something that others divide by too -> the instruction that made it."""
+    made: dict[int, int] = {}  # work slot -> instruction that wrote it last
+    divisor: dict[int, int] = {}
+    for k, row in enumerate(program.instructions):
+        if row.op in (ca.OP_DIV, ca.OP_INV):
+            divisor[k] = made[row.inputs[-1]]
+        if row.op != ca.OP_OUTPUT:
+            made[row.output] = k
+    uses = Counter(divisor.values())
+    return {k: d for k, d in divisor.items() if uses[d] > 1}
 
 
 def _choice(choices: dict[int, tuple[Any, Any]], negations: dict[int, Any], x: Any, y: Any) -> Any | None:

@@ -17,7 +17,7 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 
 Array = NDArray[np.float64]
 
-_SCRATCH_BYTES = 1 << 21  # inputs and outputs of one chunk stay in the second-level cache
+_SCRATCH_BYTES = 1 << 19  # inputs and outputs of one chunk stay in the second-level cache
 BACKENDS = ("heyoka", "casadi")
 
 
@@ -106,12 +106,16 @@ class Kernel:
     def _evaluate(self, arrays: list[Array], rows: int | None) -> Array:
         count = 1 if rows is None else rows
         out = np.empty((count, self.program.n_out))
-        if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
-            for start in range(0, count, self._chunk):
+        starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
+
+        def work(_: int) -> None:
+            for start in starts:
                 self._run(arrays, out, start, min(start + self._chunk, count))
+
+        if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
+            work(0)
         else:
-            starts = range(0, count, self._chunk)
-            list(pool().map(lambda s: self._run(arrays, out, s, min(s + self._chunk, count)), starts))
+            list(pool().map(work, range(thread_count())))
         return out
 
     def _read(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:

@@ -33,6 +33,7 @@ from matplotlib.ticker import LogFormatter, MaxNLocator, NullFormatter, StrMetho
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
+from holdfast.report.words import percent
 
 Array = NDArray[np.float64]
 
@@ -103,7 +104,7 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     out = io.StringIO()
     with style():
         empty = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-        FigureCanvasSVG(figure).print_svg(out, metadata=empty)
+        FigureCanvasSVG(figure).print_svg(out, metadata=empty)  # type: ignore[no-untyped-call]
     text = out.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<style type=\"text/css\">.*?</style>", "", text, flags=re.DOTALL)
@@ -288,16 +289,6 @@ def bar_figure(names: Sequence[str], counts: Sequence[int], xlabel: str, total: 
         return finished(figure)
 
 
-def percent(share: float) -> str:
-    """A share for people: one decimal, and never 0.0 % or 100.0 % unless it is."""
-    value = 100 * share
-    if 0 < value < 0.05:
-        return "<0.1 %"
-    if 99.95 <= value < 100:
-        return ">99.9 %"
-    return f"{value:.1f} %" if value not in (0, 100) else f"{value:.0f} %"
-
-
 # ---- views and maps --------------------------------------------------------------------------------------------------------
 
 
@@ -382,7 +373,9 @@ class Scene:
 _AXES = "xyz"
 
 
-def draw_view(axes: Axes, scene: Scene, view: View, scale: Scale, size: float, spans: tuple[float, float], width: float) -> None:
+def draw_view(
+    axes: Axes, scene: Scene, view: View, scale: Scale, size: float, spans: tuple[float, float], width: float
+) -> None:
     """A scene in projection, axes equal.
 
     Args:
@@ -523,11 +516,11 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, label: str, l
     with style():
         panel = 4.1 if len(views) > 1 else 5.0
         spans, height = view_spans(scene, views, panel, 2.0, 4.6 if len(views) > 1 else 5.0)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel + 2.2, height + 1.2))
+        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel + 2.2, height + 1.5))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view in zip(panels, views, strict=True):
             draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
-        if len(scene.points):
+        if np.isfinite(scene.values).any():
             bar(figure, scene, scale, list(panels), label)
         figure.legend(
             handles=[_key(k, t) for k, t in legend], loc="outside lower center", ncols=min(len(legend), 4), columnspacing=2.0
@@ -543,7 +536,7 @@ def bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str
 
 def _finish_bar(b: Colorbar, label: str, scale: Scale) -> None:
     b.set_label(label)
-    b.outline.set_visible(False)  # type: ignore[operator]
+    b.outline.set_visible(False)
     if scale.log:
         b.ax.yaxis.set_major_formatter(LogFormatter())
         b.ax.yaxis.set_minor_formatter(NullFormatter())
@@ -570,8 +563,8 @@ def view_spans(
 ) -> tuple[tuple[float, float], float]:
     """Lengths of the axes, m, that hold the scene in every view, and the height of a panel, inches."""
     size = np.diff(scene.extent, axis=0)[0]
-    across = max(float(size[v.right]) for v in views) * 1.14
-    upward = max(float(size[v.up]) for v in views) * 1.14
+    across = max(float(size[v.right]) for v in views) * 1.2
+    upward = max(float(size[v.up]) for v in views) * 1.2
     across, upward = max(across, 0.1 * upward, 1e-6), max(upward, 0.1 * across, 1e-6)
     height = float(np.clip(width * upward / across, least, most))
     if height / width < upward / across:
@@ -642,7 +635,7 @@ def map_figure(
         figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         for axes, view, (x, y, mean, reached, drawn) in zip(panels, views, grids, strict=True):
-            _draw_cells(axes, x, y, mean, reached, drawn, scale)
+            _draw_cells(axes, x, y, mean, reached, drawn, scale, len(missing) > 0)
             axes.set(xlabel=f"{_AXES[view.right]}, m", ylabel=f"{_AXES[view.up]}, m", title=view.title)
         b = figure.colorbar(scale.mappable, ax=list(panels), shrink=0.85, aspect=26, pad=0.015, extend=scale.extend(cells))
         _finish_bar(b, label, scale)
@@ -657,15 +650,14 @@ def _grid(
     count = np.maximum(np.round(bins * size / size.max()), 1).astype(int)
     x, y = (np.linspace(low[a], high[a], n + 1) for a, n in zip(pick, count, strict=True))
 
-    def place(p: Array) -> Array:
-        share = (p[:, pick] - low[pick]) / size
-        at: Array = np.minimum((share * count).astype(int), count - 1)
-        return at[:, 1] * count[0] + at[:, 0]
+    def place(p: Array) -> NDArray[np.int64]:
+        at = np.minimum(((p[:, pick] - low[pick]) / size * count).astype(np.int64), count - 1)
+        return np.asarray(at[:, 1] * count[0] + at[:, 0])
 
     cell, lost = place(points), place(missing)
     total = int(count.prod())
-    reached = np.bincount(cell.astype(int), minlength=total)
-    drawn = reached + np.bincount(lost.astype(int), minlength=total)
+    reached = np.bincount(cell, minlength=total)
+    drawn = reached + np.bincount(lost, minlength=total)
     order = np.argsort(cell, kind="stable")
     groups = np.split(values[order], np.cumsum(reached)[:-1])
     average = np.array([np.nan if not len(g) else float(np.median(g) if median else np.mean(g)) for g in groups])
@@ -673,7 +665,7 @@ def _grid(
     return x, y, average.reshape(shape), reached.reshape(shape), drawn.reshape(shape)
 
 
-def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, drawn: Array, scale: Scale) -> None:
+def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, drawn: Array, scale: Scale, lost: bool) -> None:
     colors = scale.colors(np.nan_to_num(mean, nan=scale.low, posinf=scale.high))
     colors[np.isnan(mean)] = (0.93, 0.94, 0.95, 1)
     axes.pcolormesh(x, y, colors, edgecolors="white", linewidth=1.2)  # type: ignore[arg-type]
@@ -692,7 +684,7 @@ def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, dra
             text = "∞" if np.isinf(mean[i, j]) else _short(float(mean[i, j]))
             axes.annotate(text, middle, (0, 5), textcoords="offset points", ha="center", va="center", fontsize=9, color=color)
         if drawn[i, j]:
-            text = f"{reached[i, j]}/{drawn[i, j]}"
+            text = f"{reached[i, j]}/{drawn[i, j]}" if lost else f"{drawn[i, j]}"
             axes.annotate(text, middle, (0, -6), textcoords="offset points", ha="center", va="center", fontsize=7, color=color)
 
 

@@ -144,7 +144,7 @@ def write(page: Page, path: str | Path) -> Path:
                 out.write(text)
                 out.flush()
                 os.fsync(out.fileno())
-            os.replace(temporary, file)
+            temporary.replace(file)
         finally:
             temporary.unlink(missing_ok=True)
     except OSError as error:

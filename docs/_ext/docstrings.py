@@ -1,0 +1,62 @@
+"""Small repairs to docstrings on their way to Sphinx, so that they can be written for people."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from sphinx.application import Sphinx
+from sphinx.ext.napoleon import GoogleDocstring
+
+_NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
+
+
+def separate_names(lines: list[str]) -> list[str]:
+    """``lower, upper: limits`` becomes two entries with the same text; Sphinx would take the first name for a type."""
+    out: list[str] = []
+    k = 0
+    while k < len(lines):
+        match = _NAMES.match(lines[k])
+        if match is None:
+            out.append(lines[k])
+            k += 1
+            continue
+        indent, names, text = match.groups()
+        more = k + 1
+        while more < len(lines) and lines[more].startswith(indent + " "):
+            more += 1
+        for name in names.split(", "):
+            out += [f"{indent}{name}: {text}", *lines[k + 1 : more]]
+        k = more
+    return out
+
+
+def escape_bars(line: str) -> str:
+    """A bare ``|S|`` is a size, not a substitution; what stands between double backquotes stays."""
+    parts = line.split("``")
+    return "``".join(part.replace("|S|", r"\|S\|") if k % 2 == 0 else part for k, part in enumerate(parts))
+
+
+def repair(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    lines[:] = [escape_bars(line) for line in separate_names(lines)]
+
+
+def plain_names(
+    app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
+) -> tuple[str | None, str | None]:
+    """Sphinx 9 shows an alias of a type as ``TypeAliasForwardRef('ArrayLike')``."""
+    shown = [x and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", x) for x in (signature, returns)]
+    return shown[0], shown[1]
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.connect("autodoc-process-docstring", repair, priority=400)
+    app.connect("autodoc-process-signature", plain_names)
+    plain = GoogleDocstring.__init__
+
+    # Napoleon takes the words before a colon in the docstring of a property for its type; ours are sentences.
+    def init(self: Any, docstring: Any, config: Any = None, app: Any = None, what: str = "", *rest: Any, **named: Any) -> None:
+        plain(self, docstring, config, app, "method" if what == "property" else what, *rest, **named)
+
+    GoogleDocstring.__init__ = init  # type: ignore[method-assign]
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
