@@ -78,6 +78,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"[\\/]\d\d_",
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
+    "capture_repr": (),
     "download_all_examples": False,
     "remove_config_comments": True,
     "min_reported_time": 1e9,

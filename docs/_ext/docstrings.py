@@ -8,6 +8,8 @@ from typing import Any
 from sphinx.application import Sphinx
 from sphinx.ext.napoleon import GoogleDocstring
 
+_ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
+_QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
 
 
@@ -44,8 +46,10 @@ def repair(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: lis
 def plain_names(
     app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
 ) -> tuple[str | None, str | None]:
-    """Sphinx 9 shows an alias of a type as ``TypeAliasForwardRef('ArrayLike')``."""
-    shown = [x and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", x) for x in (signature, returns)]
+    """Sphinx 9 shows an alias as ``TypeAliasForwardRef('ArrayLike')``, and a full name where it cannot parse a default."""
+    shown = [x and _ALIAS.sub(r"\1", x) for x in (signature, returns)]
+    if shown[0] and "<factory>" in shown[0]:
+        shown[0] = _QUALIFIED.sub(r"\1", shown[0])
     return shown[0], shown[1]
 
 

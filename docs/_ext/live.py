@@ -7,7 +7,7 @@ Every page has one Python session and one temporary folder, shared by its direct
     of lines shown of each output.
 ``file``: text that is shown and saved under the name given.
 ``module-example``: the example in a module's docstring.
-``casadi-operations``: the operations that the heyoka backend translates, from its table.
+``casadi-operations``: the CasADi operations that the heyoka backend translates, found by trying.
 
 The role ``cite`` refers to an entry of the list of references.
 """
@@ -35,48 +35,16 @@ from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 WIDTH = 92
 
-SPELLING = {
-    "OP_ADD": "a + b",
-    "OP_SUB": "a - b",
-    "OP_MUL": "a * b",
-    "OP_DIV": "a / b",
-    "OP_NEG": "-a",
-    "OP_EXP": "ca.exp(a)",
-    "OP_LOG": "ca.log(a)",
-    "OP_POW": "a ** b",
-    "OP_CONSTPOW": "a ** 3.5",
-    "OP_SQRT": "ca.sqrt(a)",
-    "OP_SQ": "a ** 2",
-    "OP_TWICE": "2 * a",
-    "OP_SIN": "ca.sin(a)",
-    "OP_COS": "ca.cos(a)",
-    "OP_TAN": "ca.tan(a)",
-    "OP_ASIN": "ca.asin(a)",
-    "OP_ACOS": "ca.acos(a)",
-    "OP_ATAN": "ca.atan(a)",
-    "OP_ATAN2": "ca.atan2(a, b)",
-    "OP_INV": "1 / a",
-    "OP_LT": "a < b",
-    "OP_LE": "a <= b",
-    "OP_EQ": "a == b",
-    "OP_NE": "a != b",
-    "OP_NOT": "ca.logic_not(a)",
-    "OP_AND": "ca.logic_and(a, b)",
-    "OP_OR": "ca.logic_or(a, b)",
-    "OP_IF_ELSE_ZERO": "ca.if_else(c, a, 0)",
-    "OP_FABS": "ca.fabs(a)",
-    "OP_SIGN": "ca.sign(a)",
-    "OP_FMIN": "ca.fmin(a, b)",
-    "OP_FMAX": "ca.fmax(a, b)",
-    "OP_SINH": "ca.sinh(a)",
-    "OP_COSH": "ca.cosh(a)",
-    "OP_TANH": "ca.tanh(a)",
-    "OP_ERF": "ca.erf(a)",
-    "OP_LOG1P": "ca.log1p(a)",
-    "OP_EXPM1": "ca.expm1(a)",
-    "OP_HYPOT": "ca.hypot(a, b)",
-    "OP_ASSIGN": "a",
-}
+# What a person writes in CasADi; tried one by one when the pages are built.
+SPELLINGS = """
+a + b | a - b | -a | a * b | a / b | 1 / a | 2 * a | a**2 | a**3.5 | a**b
+ca.sqrt(a) | ca.hypot(a, b) | ca.exp(a) | ca.expm1(a) | ca.log(a) | ca.log1p(a) | ca.erf(a)
+ca.sin(a) | ca.cos(a) | ca.tan(a) | ca.asin(a) | ca.acos(a) | ca.atan(a) | ca.atan2(a, b)
+ca.sinh(a) | ca.cosh(a) | ca.tanh(a) | ca.asinh(a) | ca.acosh(a) | ca.atanh(a)
+a < b | a <= b | a == b | a != b | ca.logic_not(a) | ca.logic_and(a, b) | ca.logic_or(a, b) | ca.if_else(a < b, a, b)
+ca.fabs(a) | ca.sign(a) | ca.fmin(a, b) | ca.fmax(a, b)
+ca.floor(a) | ca.ceil(a) | ca.fmod(a, b) | ca.remainder(a, b) | ca.copysign(a, b) | ca.erfinv(a)
+"""
 
 
 class _Live(SphinxDirective):
@@ -173,20 +141,33 @@ class ModuleExample(SphinxDirective):
 
 class CasadiOperations(SphinxDirective):
     def run(self) -> list[nodes.Node]:
-        from holdfast.kernels import heyoka_backend
-        from holdfast.kernels.program import OP_NAMES
+        import casadi as ca
+
+        from holdfast.errors import KernelError
+        from holdfast.kernels import Program, heyoka_backend
 
         if not heyoka_backend.available():
             text = "This copy of the documentation was built without heyoka, so the list is missing."
             return [nodes.note("", nodes.paragraph("", text))]
-        table = heyoka_backend._table()
-        names = sorted(OP_NAMES[op] for op in table)
-        items = nodes.bullet_list(classes=["operations"])
-        for name in names:
-            spelling = SPELLING.get(name)
-            line = nodes.paragraph("", "", nodes.literal(spelling or name, spelling or name))
-            items += nodes.list_item("", line)
-        return [items]
+        names = {"a": ca.SX.sym("a"), "b": ca.SX.sym("b"), "ca": ca}
+        have, lack = [], []
+        for spelling in SPELLINGS.replace("\n", "|").split("|"):
+            if not spelling.strip():
+                continue
+            program = Program("operation", [names["a"], names["b"]], [eval(spelling.strip(), names)])
+            try:
+                heyoka_backend.compile_program(program)
+                have.append(spelling.strip())
+            except KernelError:
+                lack.append(spelling.strip())
+        return [_codes(have), nodes.paragraph("", "Not available:"), _codes(lack)]
+
+
+def _codes(texts: list[str]) -> nodes.Node:
+    items = nodes.bullet_list(classes=["operations"])
+    for text in texts:
+        items += nodes.list_item("", nodes.paragraph("", "", nodes.literal(text, text)))
+    return items
 
 
 class Cite(SphinxRole):

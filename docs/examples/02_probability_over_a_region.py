@@ -17,7 +17,7 @@ region = hf.Region.box(
     center=[0.968, 0.0, 0.041],
     size=0.5,
     rpy_center=np.deg2rad([0.0, 174.0, 0.0]),
-    rpy_size=[np.pi / 2] * 3,
+    rpy_size=np.pi / 2,
     name="in front of the arm",
 )
 run = hf.assess(arm, region, poses=2000, seed=1)

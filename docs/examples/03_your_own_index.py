@@ -24,7 +24,13 @@ def lifting_speed(jacobian):
 
 
 arm = hf.arms.load("panda")
-index = hf.indices.CustomIndex(lifting_speed, arm, task="position", name="lifting speed", unit="m/rad")
+index = hf.indices.CustomIndex(
+    lifting_speed,
+    arm,
+    task="position",
+    name="lifting speed",
+    unit="m/rad",
+)
 
 # %%
 # Trust it only after a check by another route: the same number from NumPy, at the arm's home, and the gradient from
@@ -43,10 +49,12 @@ def by_hand(q):
 
 steps = 1e-6 * np.eye(arm.n)
 differences = np.array([(index(home + s) - index(home - s)) / 2e-6 for s in steps])
-print("largest difference of the values below 1e-12: ", np.abs(index.by_joint(home) - by_hand(home)).max() < 1e-12)
-print("largest difference of the gradient below 1e-7:", np.abs(index.gradient(home) - differences).max() < 1e-7)
-assert np.allclose(index.by_joint(home), by_hand(home), atol=1e-12)
-assert np.allclose(index.gradient(home), differences, atol=1e-7)
+off = np.abs(index.by_joint(home) - by_hand(home)).max()
+slope_off = np.abs(index.gradient(home) - differences).max()
+print("values agree to 1e-12:", off < 1e-12)
+print("gradient agrees with finite differences to 1e-7:", slope_off < 1e-7)
+assert off < 1e-12
+assert slope_off < 1e-7
 
 # %%
 # Now bend the elbow (joint 4) through its range and look at every failure. All configurations go into one call.
@@ -59,17 +67,19 @@ result = index.evaluate(q)
 blue, grey, orange = "#0072B2", "0.65", "#D55E00"
 figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
 for k in range(arm.n):
-    axes.plot(np.rad2deg(elbow), result.by_failure[:, k], color=grey, linewidth=1, label="one joint locked" if k == 0 else None)
+    label = "one joint locked" if k == 0 else None
+    axes.plot(np.rad2deg(elbow), result.by_failure[:, k], color=grey, linewidth=1, label=label)
 axes.plot(np.rad2deg(elbow), result.value, color=blue, linewidth=2.5, label="worst case")
-for name in dict.fromkeys(index.failure_names[k] for k in result.worst):
-    where = np.flatnonzero([index.failure_names[k] == name for k in result.worst])
-    middle = where[where.size // 2]
+starts = np.flatnonzero(np.diff(result.worst, prepend=-1))  # where another joint becomes the worst
+for start, stop in zip(starts, [*starts[1:], elbow.size], strict=True):
+    middle = (start + stop) // 2
+    rising = result.value[middle + 1] > result.value[middle]
     axes.annotate(
-        name.removeprefix("panda_"),
+        index.failure_names[result.worst[middle]].removeprefix("panda_"),
         (np.rad2deg(elbow[middle]), result.value[middle]),
-        xytext=(0, -14),
+        xytext=(10, -10) if rising else (-8, -20),
+        ha="left" if rising else "right",
         textcoords="offset points",
-        ha="center",
         color=blue,
         fontsize=9,
     )

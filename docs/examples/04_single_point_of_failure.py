@@ -33,12 +33,20 @@ for axes, name in zip(both, ("pa10-7dof", "panda"), strict=True):
     low, middle, high = np.quantile(rho, [0.05, 0.5, 0.95], axis=0)
     for k in range(arm.n):
         colour = orange if k in fatal else blue
-        axes.plot([k + 1, k + 1], [low[k], high[k]], color=colour, linewidth=5, alpha=0.45, solid_capstyle="butt")
+        axes.vlines(k + 1, low[k], high[k], color=colour, linewidth=5, alpha=0.45)
         axes.plot(k + 1, middle[k], "D" if k in fatal else "o", color=colour, markersize=7)
         if k in fatal:
-            axes.annotate("0 in every\nconfiguration", (k + 1, 0.02), (k + 1, 0.2), ha="center", color=colour, fontsize=9,
-                          arrowprops={"arrowstyle": "-", "color": colour})  # fmt: skip
-    axes.set(xlabel="joint that locks", title=f"{name}, pose task", xticks=range(1, arm.n + 1), ylim=(-0.03, 1.03))
+            axes.annotate(
+                "0 in every\nconfiguration",
+                (k + 1, 0.02),
+                (k + 1, 0.2),
+                ha="center",
+                color=colour,
+                fontsize=9,
+                arrowprops={"arrowstyle": "-", "color": colour},
+            )
+    axes.set(xlabel="joint that locks", xticks=range(1, arm.n + 1), ylim=(-0.03, 1.03))
+    axes.set_title(f"{name}, pose task", fontsize=11)
     axes.grid(axis="y", color="0.9")
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)

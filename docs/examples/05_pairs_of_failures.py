@@ -12,12 +12,15 @@ import numpy as np
 import holdfast as hf
 
 arm = hf.arms.load("pa10-9dof")
-region = hf.Region.box([0.968, 0.0, 0.041], 0.5, np.deg2rad([0.0, 174.0, 0.0]), [np.pi / 2] * 3)
-single = hf.assess(arm, region, hf.indices.relative_manipulability(arm), poses=1000, seed=2)
-pairs = hf.assess(arm, region, hf.indices.relative_manipulability(arm, failures="pairs"), poses=1000, seed=2)
+region = hf.Region.box([0.968, 0.0, 0.041], 0.5, np.deg2rad([0.0, 174.0, 0.0]), np.pi / 2)
+one = hf.indices.relative_manipulability(arm)
+two = hf.indices.relative_manipulability(arm, failures="pairs")
+single = hf.assess(arm, region, one, poses=1000, seed=2)
+pairs = hf.assess(arm, region, two, poses=1000, seed=2)
 print(f"poses reached: {single.distribution.reached} of {single.distribution.samples}")
 for name, run in (("any one joint", single), ("any two joints", pairs)):
-    print(f"{name}: median worst case over the reached poses {float(run.distribution.quantile(0.5)):.4f}")
+    middle = float(run.distribution.quantile(0.5))
+    print(f"{name}: median worst case over the reached poses {middle:.4f}")
 
 # %%
 # The same seed draws the same poses and finds the same configurations, so the two runs can be put side by side. The
@@ -35,15 +38,16 @@ image = axes.imshow(table, cmap="cividis", vmin=0, vmax=1)
 for row in range(arm.n):
     for column in range(row + 1):
         value = table[row, column]
-        axes.text(column, row, f"{value:.2f}", ha="center", va="center", fontsize=9, color="white" if value < 0.5 else "black")
+        colour = "white" if value < 0.5 else "black"
+        axes.text(column, row, f"{value:.2f}", ha="center", va="center", fontsize=9, color=colour)
 joints = range(1, arm.n + 1)
 axes.set(
     xticks=range(arm.n),
     yticks=range(arm.n),
     xticklabels=joints,
     yticklabels=joints,
-    xlabel="first joint that locks (diagonal: the only one)",
-    ylabel="second joint that locks",
+    xlabel="joint that locks (on the diagonal: the only one)",
+    ylabel="other joint that locks",
     title=f"PA10, 9 joints, pose task: median over {pairs.distribution.reached} reached poses",
 )
 axes.title.set_size(11)

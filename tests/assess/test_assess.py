@@ -7,12 +7,12 @@ import json
 
 import casadi as ca
 import numpy as np
-import oracles
 import pytest
 import xarray as xr
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
+import oracles
 from holdfast import Region, arms, assess, load
 from holdfast.assess.region import builtin_region
 from holdfast.errors import HoldfastError, InputError, StoreError, TaskError
@@ -132,8 +132,10 @@ def test_the_distribution_is_that_of_the_rows(paper):
 def test_statistics_of_the_paper_region(paper):
     """Specification, section 6. What inverse kinematics picks is ours, so of the index only the range is compared."""
     d = paper.distribution
-    assert 0.074 - 0.011 - 2.6 * np.sqrt(0.074 * 0.926 / 3000) < d.unreached / d.samples < 0.074 + 0.011 + 2.6 * np.sqrt(
-        0.074 * 0.926 / 3000
+    assert (
+        0.074 - 0.011 - 2.6 * np.sqrt(0.074 * 0.926 / 3000)
+        < d.unreached / d.samples
+        < 0.074 + 0.011 + 2.6 * np.sqrt(0.074 * 0.926 / 3000)
     )
     low, middle, high = d.quantile([0.05, 0.5, 0.95])
     assert 0.02 < low < 0.1
@@ -186,7 +188,7 @@ def test_a_folder_holds_the_same_rows(paper, pa10, tmp_path):
 @pytest.mark.parametrize("sampling", ["random", "sobol"])
 def test_an_interrupted_run_goes_on_to_the_same_rows(sampling, pa10, tmp_path, threads):
     """9000 poses are two chunks; the second is computed by another call, with another number of threads."""
-    call = dict(poses=9000, seed=1, sampling=sampling, restarts=3)
+    call = {"poses": 9000, "seed": 1, "sampling": sampling, "restarts": 3}
     stop = Stop(1)
     with pytest.raises(KeyboardInterrupt):
         assess(pa10, PAPER, store=tmp_path / "run", progress=stop, **call)
@@ -390,21 +392,21 @@ def test_save_and_load_of_mixed_arms_with_tasks_of_their_own(mixed8, tmp_path):
 @pytest.mark.parametrize(
     ("change", "word"),
     [
-        (dict(seed=1), "its seed is 0, asked for is 1"),
-        (dict(restarts=7), "its restarts is 100, asked for is 7"),
-        (dict(sampling="sobol"), 'its sampling is "random", asked for is "sobol"'),
-        (dict(poses=1001), "it has 1000 rows .* 1001"),
-        (dict(index="manipulability"), "its index is"),
-        (dict(region=Region.joints([0, 0, 0], [1, 1, 1])), "its region is"),
-        (dict(task="planar-pose", arm="planar4"), "its arm is"),
+        ({"seed": 1}, "its seed is 0, asked for is 1"),
+        ({"restarts": 7}, "its restarts is 100, asked for is 7"),
+        ({"sampling": "sobol"}, 'its sampling is "random", asked for is "sobol"'),
+        ({"poses": 1001}, "it has 1000 rows .* 1001"),
+        ({"index": "manipulability"}, "its index is"),
+        ({"region": Region.joints([0, 0, 0], [1, 1, 1])}, "its region is"),
+        ({"task": "planar-pose", "arm": "planar4"}, "its arm is"),
     ],
 )
 def test_a_folder_of_another_run_is_refused_and_left_alone(change, word, three, planar4, tmp_path):
-    call = dict(arm=three, region=THREE, task="planar", poses=1000, store=tmp_path / "run")
+    call = {"arm": three, "region": THREE, "task": "planar", "poses": 1000, "store": tmp_path / "run"}
     assess(**call)
     before = {p: p.read_bytes() for p in (tmp_path / "run").rglob("*") if p.is_file()}
     if "arm" in change:
-        change = dict(arm=planar4, region=Region.joints([-1] * 4, [1] * 4))
+        change = {"arm": planar4, "region": Region.joints([-1] * 4, [1] * 4)}
     with pytest.raises(StoreError, match=f"holds another run: {word}") as caught:
         assess(**{**call, **change})
     assert "\n" not in str(caught.value)
@@ -497,28 +499,30 @@ def test_a_plan_with_nonsense_gives_a_sentence(change, three, tmp_path):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (dict(poses=0), "poses is 0; it must be 1 or more"),
-        (dict(poses=-5), "poses is -5"),
-        (dict(poses=10.5), "poses is 10.5"),
-        (dict(restarts=0), "restarts is 0"),
-        (dict(seed=-1), "seed is -1"),
-        (dict(seed=1.5), "seed is 1.5"),
-        (dict(seed=None), "seed is None"),
-        (dict(sampling="grid"), "sampling 'grid' is not known; use 'random' or 'sobol'"),
-        (dict(index="charm"), "index 'charm' is not known"),
-        (dict(task="dance"), "task 'dance' is not known"),
-        (dict(region=Region.joints([0], [1])), "the region has 1 joints, 'planar-3r' has 3"),
+        ({"poses": 0}, "poses is 0; it must be 1 or more"),
+        ({"poses": -5}, "poses is -5"),
+        ({"poses": 10.5}, "poses is 10.5"),
+        ({"restarts": 0}, "restarts is 0"),
+        ({"seed": -1}, "seed is -1"),
+        ({"seed": 1.5}, "seed is 1.5"),
+        ({"seed": None}, "seed is None"),
+        ({"sampling": "grid"}, "sampling 'grid' is not known; use 'random' or 'sobol'"),
+        ({"index": "charm"}, "index 'charm' is not known"),
+        ({"task": "dance"}, "task 'dance' is not known"),
+        ({"region": Region.joints([0], [1])}, "the region has 1 joints, 'planar-3r' has 3"),
     ],
 )
 def test_bad_options_are_refused_before_anything_is_written(options, sentence, three, tmp_path):
-    call = {**dict(region=THREE, task="planar", poses=10, store=tmp_path / "run"), **options}
+    call = {"region": THREE, "task": "planar", "poses": 10, "store": tmp_path / "run", **options}
     with pytest.raises(HoldfastError, match=sentence):
         assess(three, **call)
     assert not (tmp_path / "run").exists()
 
 
 def test_numpy_integers_are_integers(three, tmp_path):
-    run = assess(three, THREE, task="planar", poses=np.int64(10), seed=np.int64(2), restarts=np.int32(3), store=tmp_path / "run")
+    run = assess(
+        three, THREE, task="planar", poses=np.int64(10), seed=np.int64(2), restarts=np.int32(3), store=tmp_path / "run"
+    )
     identical(columns(run), columns(assess(three, THREE, task="planar", poses=10, seed=2, restarts=3)))
     assert load(tmp_path / "run").seed == 2
 

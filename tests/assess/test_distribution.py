@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -118,7 +120,9 @@ def test_cdf_is_monotone_and_complements_the_probability(case, thresholds):
 
 
 @settings(max_examples=150, deadline=None)
-@given(cases, st.one_of(st.floats(0, 1), st.tuples(st.integers(0, 52), st.integers(1, 52)).map(lambda t: min(t[0] / t[1], 1.0))))
+@given(
+    cases, st.one_of(st.floats(0, 1), st.tuples(st.integers(0, 52), st.integers(1, 52)).map(lambda t: min(t[0] / t[1], 1.0)))
+)
 def test_quantile_inverts_the_cdf(case, p):
     values, unreached, better, only = case
     d, oracle = Distribution.of(values, better, unreached), Counting(values, better, unreached, only)
@@ -132,7 +136,9 @@ def test_quantile_inverts_the_cdf(case, p):
 # ---- error bars ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("hits", "n", "confidence", "z"), [(12, 40, 0.95, 1.959964), (0, 25, 0.99, 2.575829), (25, 25, 0.9, 1.644854)])
+@pytest.mark.parametrize(
+    ("hits", "n", "confidence", "z"), [(12, 40, 0.95, 1.959964), (0, 25, 0.99, 2.575829), (25, 25, 0.9, 1.644854)]
+)
 def test_wilson_interval_is_the_textbook_one(hits, n, confidence, z):
     """Wilson 1927: (p + z^2/2n +- z sqrt(p (1-p)/n + z^2/4n^2)) / (1 + z^2/n)."""
     d = Distribution.of(np.r_[np.ones(hits), np.zeros(n - hits)], "larger")
@@ -192,7 +198,7 @@ def test_density_integrates_to_the_finite_share(better, rng):
     finite = values[np.isfinite(values)]
     assert (density * np.diff(edges)).sum() == pytest.approx(finite.size / values.size)
     assert (edges[0], edges[-1]) == (finite.min(), finite.max())
-    counts = [((finite >= a) & (finite < b)).sum() for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    counts = [((finite >= a) & (finite < b)).sum() for a, b in itertools.pairwise(edges)]
     counts[-1] += (finite == edges[-1]).sum()
     np.testing.assert_allclose(density * np.diff(edges) * values.size, counts, atol=1e-9)
 
@@ -222,7 +228,7 @@ def test_density_when_all_is_infinite():
 def test_no_sample_at_all_is_said():
     d = Distribution.of([], "larger")
     for ask in (lambda: d.cdf(0.1), lambda: d.probability(at_least=0.1), lambda: d.quantile(0.5), d.band, d.density):
-        with pytest.raises(InputError, match="no samples"):
+        with pytest.raises(InputError, match=r"no samples"):
             ask()
     assert np.isnan(d.mean)
 
@@ -268,7 +274,7 @@ def test_wrong_questions_are_refused():
 
 @pytest.mark.parametrize("which", ["at_least", "at_most"])
 def test_a_threshold_of_nan_is_refused(which):
-    with pytest.raises(InputError, match="(?i)nan|number"):
+    with pytest.raises(InputError, match=r"(?i)nan|number"):
         Distribution.of([0.1, 0.2], "larger").probability(**{which: np.nan})
 
 

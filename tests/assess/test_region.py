@@ -6,11 +6,11 @@ import itertools
 import json
 
 import numpy as np
-import oracles
 import pytest
 from scipy import stats
 
 import holdfast as hf
+import oracles
 from holdfast import Region, arms
 from holdfast.assess import rotation_from_rpy, rpy_from_rotation
 from holdfast.assess.region import builtin_region
@@ -198,16 +198,16 @@ def test_around_refuses_a_wrong_configuration(pa10):
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
-        (dict(center=[0, 0], size=1), "center"),
-        (dict(center=[0, 0, np.nan], size=1), "center"),
-        (dict(center=[0, 0, 0], size=-1), "size"),
-        (dict(center=[0, 0, 0], size=[1, -1, 1]), "size"),
-        (dict(center=[0, 0, 0], size=np.inf), "size"),
-        (dict(center=[0, 0, 0], size=1, rpy_center=1.0), "rpy_center"),
-        (dict(center=[0, 0, 0], size=1, rpy_size=[1, 2]), "rpy_size"),
-        (dict(center=[0, 0, 0], size=1, rpy_size=-0.1), "rpy_size"),
-        (dict(center="abc", size=1), "center"),
-        (dict(center=[[1], [1, 2], 3], size=1), "center"),
+        ({"center": [0, 0], "size": 1}, "center"),
+        ({"center": [0, 0, np.nan], "size": 1}, "center"),
+        ({"center": [0, 0, 0], "size": -1}, "size"),
+        ({"center": [0, 0, 0], "size": [1, -1, 1]}, "size"),
+        ({"center": [0, 0, 0], "size": np.inf}, "size"),
+        ({"center": [0, 0, 0], "size": 1, "rpy_center": 1.0}, "rpy_center"),
+        ({"center": [0, 0, 0], "size": 1, "rpy_size": [1, 2]}, "rpy_size"),
+        ({"center": [0, 0, 0], "size": 1, "rpy_size": -0.1}, "rpy_size"),
+        ({"center": "abc", "size": 1}, "center"),
+        ({"center": [[1], [1, 2], 3], "size": 1}, "center"),
     ],
 )
 def test_a_bad_box_is_refused_by_name(arguments, word):
@@ -240,6 +240,12 @@ def test_round_trip_through_json(region):
 
 def test_description_is_in_metres_and_degrees():
     text = PAPER.describe()
-    for part in ("0.5 x 0.5 x 0.5 m", "(0.968, 0, 0.041) m", "90 x 90 x 90 deg", "(0, 174, 0) deg", "Rz(roll) Ry(pitch) Rx(yaw)"):
+    for part in (
+        "0.5 x 0.5 x 0.5 m",
+        "(0.968, 0, 0.041) m",
+        "90 x 90 x 90 deg",
+        "(0, 174, 0) deg",
+        "Rz(roll) Ry(pitch) Rx(yaw)",
+    ):
         assert part in text
     assert "3 joints" in JOINTS.describe()

@@ -117,7 +117,7 @@ def test_a_bad_file_is_answered_with_one_sentence_that_names_it(case, file):
 
 
 def test_a_file_that_cannot_be_read(tmp_path):
-    with pytest.raises(InputError, match="cannot read region file '.*missing.yaml': No such file"):
+    with pytest.raises(InputError, match=r"cannot read region file '.*missing.yaml': No such file"):
         Region.load(tmp_path / "missing.yaml")
-    with pytest.raises(InputError, match="cannot read region file '.*': Is a directory"):
+    with pytest.raises(InputError, match=r"cannot read region file '.*': Is a directory"):
         Region.load(tmp_path)

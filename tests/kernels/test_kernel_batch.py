@@ -98,7 +98,8 @@ def test_inputs_without_rows_serve_every_row(kernels, backend, rng):
         np.testing.assert_array_equal(got, expected)
 
 
-@pytest.mark.parametrize(("backend", "bad"), [("heyoka", np.nan), ("heyoka", np.inf), ("heyoka", -np.inf), ("casadi", np.nan)])
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_nan_and_infinity_reach_every_output_of_their_row_and_no_other(kernels, backend, bad, rng):
     for rows in (1, 16, 17, 40):
         clean = draw(rng, rows)
@@ -114,10 +115,11 @@ def test_nan_and_infinity_reach_every_output_of_their_row_and_no_other(kernels, 
                 np.testing.assert_array_equal(np.delete(got, row, 0), np.delete(expected, row, 0))
 
 
-def test_opposite_infinities_do_not_cancel(kernels, rng):
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_opposite_infinities_do_not_cancel(kernels, backend, rng):
     s, v, a = draw(rng, 3)
     v[1, :2] = np.inf, -np.inf
-    for got in kernels["heyoka"](s, v, a):
+    for got in kernels[backend](s, v, a):
         np.testing.assert_array_equal(np.isnan(got.reshape(3, -1)).all(1), [False, True, False])
         assert np.isfinite(got[[0, 2]]).all()
 

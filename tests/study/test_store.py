@@ -34,7 +34,7 @@ def rows(start, stop):
 
 
 def make(folder, **changes) -> Store:
-    return Store.create(folder, **{**dict(plan=PLAN, columns=COLUMNS, rows=ROWS, chunk=CHUNK), **changes})
+    return Store.create(folder, **{"plan": PLAN, "columns": COLUMNS, "rows": ROWS, "chunk": CHUNK, **changes})
 
 
 def fill(folder, chunks=None) -> Store:
@@ -202,13 +202,13 @@ def test_an_interrupt_during_the_commit_leaves_no_rubbish(folder, monkeypatch):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (dict(plan={**PLAN, "seed": 4}), ["its seed is 3, asked for is 4"]),
-        (dict(plan={k: v for k, v in PLAN.items() if k != "seed"}), ["its seed is 3, asked for is null"]),
-        (dict(plan={**PLAN, "more": True}), ["its more is null, asked for is true"]),
-        (dict(plan={**PLAN, "nested": {"a": [1, 3]}}), ["its nested is"]),
-        (dict(plan={**PLAN, "nested": "x" * 500}), ["...", "its nested is"]),
-        (dict(rows=24), ["23 rows in chunks of 5", "24 in chunks of 5"]),
-        (dict(chunk=6), ["23 in chunks of 6"]),
+        ({"plan": {**PLAN, "seed": 4}}, ["its seed is 3, asked for is 4"]),
+        ({"plan": {k: v for k, v in PLAN.items() if k != "seed"}}, ["its seed is 3, asked for is null"]),
+        ({"plan": {**PLAN, "more": True}}, ["its more is null, asked for is true"]),
+        ({"plan": {**PLAN, "nested": {"a": [1, 3]}}}, ["its nested is"]),
+        ({"plan": {**PLAN, "nested": "x" * 500}}, ["...", "its nested is"]),
+        ({"rows": 24}, ["23 rows in chunks of 5", "24 in chunks of 5"]),
+        ({"chunk": 6}, ["23 in chunks of 6"]),
     ],
 )
 def test_another_plan_is_refused_with_the_difference(change, words, folder):
@@ -277,7 +277,7 @@ def test_a_run_file_without_a_key_is_damaged(key, folder):
 
 @pytest.mark.parametrize(
     "change",
-    [dict(done=[0, 99]), dict(done="all"), dict(rows="many"), dict(rows=-1), dict(chunk=0), dict(plan=[]), dict(notes=None)],
+    [{"done": [0, 99]}, {"done": "all"}, {"rows": "many"}, {"rows": -1}, {"chunk": 0}, {"plan": []}, {"notes": None}],
 )
 def test_a_run_file_with_nonsense_is_damaged(change, folder):
     fill(folder, [0])
@@ -363,7 +363,7 @@ def test_a_full_disk_while_committing(folder, monkeypatch):
     files = set(snapshot(folder))
     with monkeypatch.context() as patch, s.writing():
         patch.setattr(store.os, "replace", full)
-        with pytest.raises(StoreError, match="chunk 2 .*No space left on device.*make room") as caught:
+        with pytest.raises(StoreError, match=r"chunk 2 .*No space left on device.*make room") as caught:
             s.write(1, rows(5, 10))
         sentence(caught)
     assert {f for f in snapshot(folder) if "samples" not in f} == {f for f in files if "samples" not in f}
@@ -376,7 +376,7 @@ def test_a_full_disk_while_writing_rows(folder, monkeypatch):
     s = fill(folder, [0])
     with monkeypatch.context() as patch, s.writing():
         patch.setattr(zarr.Array, "__setitem__", full)
-        with pytest.raises(StoreError, match="chunk 2 .*No space left"):
+        with pytest.raises(StoreError, match=r"chunk 2 .*No space left"):
             s.write(1, rows(5, 10))
     assert Store.open(folder).done == [0]
     assert fill(folder).complete
@@ -408,7 +408,7 @@ def test_a_writer_in_another_program_is_noticed_and_its_lock_dies_with_it(folder
     command = [sys.executable, "-c", SLOW, str(folder), str(Path(__file__).parent), "hold"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "0\n"
-        with pytest.raises(StoreError, match="another program is writing"):
+        with pytest.raises(StoreError, match=r"another program is writing"):
             fill(folder)
         process.kill()
         process.wait(20)

@@ -18,17 +18,18 @@ from scipy.spatial.transform import Rotation
 
 from holdfast import arms
 from holdfast.arm.model import Arm
-from holdfast.arm.task import NAMES, as_task
+from holdfast.arm.task import NAMES, ROWS, Task, as_task
 from holdfast.assess.assess import Assessment, _provenance
 from holdfast.assess.distribution import Interval
 from holdfast.assess.region import Region, rpy_from_rotation
 from holdfast.assess.structure import Structure, explain, structure, structures
 from holdfast.errors import InputError
-from holdfast.failures import failure_sets
+from holdfast.failures import FailureSets, failure_sets
 from holdfast.indices import BY_NAME
-from holdfast.report import figures, page
-from holdfast.report.figures import Bin, Curve, Mark, Scale, Scene, View
+from holdfast.report import figures, page, scenes
+from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
+from holdfast.report.scenes import Scale, Scene, View
 from holdfast.report.words import article, as_given, counted, either, fixed, interval, number, percent, share
 from holdfast.solve import solver
 from holdfast.status import Status
@@ -98,11 +99,11 @@ def overview_figure(assessment: Assessment, threshold: float | None = None) -> F
         figure = Figure(figsize=(12, 5.2))
         left, right = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
-        spans, _ = figures.view_spans(scene, [view], 5.0, 4.1, 4.1)
-        figures.draw_view(left, scene, view, facts.scale, figures.dot_size(scene, [view], 5.0 / spans[0]), spans, 5.0)
+        spans, _ = scenes.view_spans(scene, [view], 5.0, 4.1, 4.1)
+        scenes.draw_view(left, scene, view, facts.scale, scenes.dot_size(scene, [view], 5.0 / spans[0]), spans, 5.0)
         left.set_title(f"{figures.plain(facts.a.arm.name, 30)} and the region, {view.title.lower()}")
         if np.isfinite(scene.values).any():
-            figures.bar(figure, scene, facts.scale, [left], facts.axis_label)
+            scenes.color_bar(figure, scene, facts.scale, [left], facts.axis_label)
         if facts.drawable:
             figures.draw_cdf(right, facts.curves, facts.marks, facts.axis_label, f"share of {facts.noun}s below", facts.log)
             right.set_title(f"P({facts.condition}) = {interval(facts.answer)}" if facts.decided else "")
@@ -243,7 +244,7 @@ class _Facts:
 
     @cached_property
     def rows(self) -> _Rows | None:
-        if self.a._rows is None and self.a.store is None:
+        if not self.d.samples or (self.a._rows is None and self.a.store is None):
             return None
         data = self.a.dataset
         status = data["status"].values
@@ -537,16 +538,16 @@ def _views(f: _Facts) -> list[Block]:
     if scene.box is not None:
         legend.append(("box", "positions of the region"))
     image = figures.svg(
-        figures.view_figure(scene, f.views, f.scale, f.axis_label, legend),
+        scenes.view_figure(scene, f.views, f.scale, f.axis_label, legend),
         "views",
         f"The arm and the {f.noun}s of the region, by index",
     )
     text = f"The arm is drawn {f.representative[1]}."
-    if not drawn:
+    if not drawn and d.samples:
         text += f" The {f.noun}s of this run were not kept, so none are drawn."
     elif drawn < d.samples:
         text += f" Of {d.samples:,} {f.noun}s a random {drawn:,} are drawn"
-    else:
+    elif drawn:
         text += f" All {counted(drawn, f.noun)} are drawn"
     if drawn:
         text += "; colour is the index." if len(scene.points) else "."
@@ -649,7 +650,7 @@ def _places(f: _Facts) -> list[Block]:
         return blocks
     average = "Mean" if f.larger else "Median"
     ok = rows.reached
-    figure = figures.map_figure(
+    figure = scenes.map_figure(
         rows.position[ok],
         rows.value[ok],
         rows.position[~ok],
@@ -796,8 +797,8 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     index, task = a.index, a.index.task
     if index.slug not in BY_NAME:
         return None, "The index is a function of your own, so no command line makes this run again; keep the script."
-    standard = as_task(a.arm, task.name, task.length) if task.name in NAMES else None
-    if standard is None or standard.frame != task.frame or not np.array_equal(standard.rows, task.rows):
+    asked = _task_option(a.arm, task)
+    if asked is None:
         return None, "The task is of your own making, so no command line makes this run again; keep the script."
     remark = ""
     if a.arm.name in arms.names() and arms.load(a.arm.name).fingerprint == a.arm.fingerprint:
@@ -807,11 +808,11 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         spec = a.arm.source if known else "ARM"
         what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
         remark = f"{what}; for a URDF file also its --base and --tip, if any"
-    options = {"region": "region.yaml", "index": index.slug, "task": task.name}
+    options = {"region": "region.yaml", "index": index.slug, "task": asked}
     if task.length != 1.0:
         options["length"] = repr(task.length)
     if index.failures != failure_sets(a.arm, "single"):
-        options["failures"] = ",".join(index.failure_names)
+        options["failures"] = _failures_option(a.arm, index.failures)
     options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
     if a.region.kind == "box":
         options["restarts"] = str(a.restarts)
@@ -824,6 +825,25 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         else:
             lines[-1] += " " + word
     return "\n".join(lines), remark
+
+
+def _task_option(arm: Arm, task: Task) -> str | None:
+    """What ``--task`` says for a task, if it can."""
+    if task.name in NAMES:
+        standard = as_task(arm, task.name, task.length)
+        return task.name if standard.frame == task.frame and np.array_equal(standard.rows, task.rows) else None
+    picked = task.rows.argmax(axis=1)
+    return f"{task.frame}:{','.join(ROWS[k] for k in picked)}" if np.array_equal(np.eye(6)[picked], task.rows) else None
+
+
+def _failures_option(arm: Arm, failures: FailureSets) -> str:
+    """What ``--failures`` says: how many joints fail together, or the sets."""
+    size = len(failures[0])
+    if size < arm.n and failures == failure_sets(arm, size):
+        return str(size)
+    plain = not any(c in name for name in arm.joint_names for c in "+;")
+    text = "; ".join("+".join(arm.joint_names[k] if plain else str(k + 1) for k in f) for f in failures)
+    return text + ";" if text.isdigit() else text  # a lone number would be how many
 
 
 def region_file(region: Region) -> str:

@@ -1,19 +1,8 @@
 """Figures and one-file HTML reports; knows no robots."""
 
-from holdfast.report.figures import (
-    Bin,
-    Curve,
-    Mark,
-    Scale,
-    View,
-    bar_figure,
-    cdf_figure,
-    distribution_figure,
-    save_png,
-    style,
-    svg,
-)
+from holdfast.report.figures import Bin, Curve, Mark, bar_figure, cdf_figure, distribution_figure, save_png, style, svg
 from holdfast.report.page import Callout, Code, Page, Picture, Section, Table, Text, render, write
+from holdfast.report.scenes import Scale, Scene, View, map_figure, view_figure
 
 __all__ = [
     "Bin",
@@ -24,6 +13,7 @@ __all__ = [
     "Page",
     "Picture",
     "Scale",
+    "Scene",
     "Section",
     "Table",
     "Text",
@@ -31,9 +21,11 @@ __all__ = [
     "bar_figure",
     "cdf_figure",
     "distribution_figure",
+    "map_figure",
     "render",
     "save_png",
     "style",
     "svg",
+    "view_figure",
     "write",
 ]

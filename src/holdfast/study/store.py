@@ -273,6 +273,7 @@ class Store:
                 json.dump(self._run, file, indent=1)
                 file.flush()
                 os.fsync(file.fileno())
+            Path(temporary).chmod(0o644)  # mkstemp makes private files; results are for sharing
             Path(temporary).replace(self.path / _RUN)
         except OSError:
             Path(temporary).unlink(missing_ok=True)

@@ -1,0 +1,127 @@
+"""Pages are well-formed, self-contained and escape what they are given; figures leave the caller's settings alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from wellformed import check
+
+from holdfast.errors import StoreError
+from holdfast.report import (
+    Bin,
+    Callout,
+    Code,
+    Curve,
+    Mark,
+    Page,
+    Picture,
+    Scale,
+    Scene,
+    Section,
+    Table,
+    Text,
+    View,
+    bar_figure,
+    cdf_figure,
+    distribution_figure,
+    map_figure,
+    render,
+    save_png,
+    svg,
+    view_figure,
+    write,
+)
+from holdfast.report.figures import plain
+from holdfast.report.words import article, as_given, counted, either, fixed, number, percent, share
+
+NASTY = '<script>alert("x")</script> & $\\frac$'
+
+
+def some_figures() -> list[Figure]:
+    rng = np.random.default_rng(0)
+    x = np.linspace(0, 1, 50)
+    curves = [Curve(x, x, "all", band=0.1), Curve(x, x**2, "some", second=True)]
+    marks = [Mark(0.3, "asked for"), Mark(0.9, "most", "bound")]
+    points, values = rng.random((300, 3)), rng.random(300)
+    views = [View(0, 2, "Side"), View(0, 1, "Top")]
+    chain = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 1.0], [1, 0, 1]])
+    scene = Scene(
+        points, values, points[:5] + 1, chain, chain[1:], np.array([True, False, False]), np.array([[0, 0, 0], [1, 1, 1.0]])
+    )
+    return [
+        cdf_figure(curves, marks, "value", "share", "title"),
+        distribution_figure(Bin(x[::7], np.ones(7), "", "density"), curves, marks, "value", "share", ("a", "b")),
+        bar_figure([NASTY, "two"], [3, 0], "times"),
+        bar_figure(["none"], [0], "times"),
+        view_figure(scene, views, Scale.of(values), "value", [("dot", "point"), ("slide", "slider"), ("cross", "none")]),
+        view_figure(Scene(points[:0], values[:0], points[:0]), views[:1], Scale.of(values[:0]), "value", [("box", "box")]),
+        map_figure(points, values, points[:5], views, False, False, "mean"),
+        map_figure(points, 10 ** (6 * values), points[:0], views[:1], True, True, "median"),
+        map_figure(points, np.full(300, np.inf), points[:0], views[:1], True, True, "median"),
+    ]
+
+
+def test_a_page_of_everything() -> None:
+    pictures = [Picture(svg(f, f"f{k}", NASTY), NASTY) for k, f in enumerate(some_figures())]
+    table = Table([[NASTY, "1"], ["b", "2"]], ["name", "number"], frozenset({1}), caption=NASTY)
+    keys = Table([["key", NASTY]])
+    blocks = [Text(NASTY), Callout(NASTY, "bad", NASTY), table, keys, Code(NASTY, NASTY), *pictures]
+    html = render(Page(NASTY, NASTY, [Section(NASTY, blocks)], NASTY, [Callout(NASTY)], NASTY))
+    assert {"svg", "table", "pre"} <= check(html).tags
+    assert "&lt;script&gt;" in html
+    assert 'class="number">2<' in html
+
+
+def test_figures_are_the_same_every_time_and_leave_settings_alone() -> None:
+    with mpl.rc_context({"axes.facecolor": "black", "lines.linewidth": 9, "font.size": 30}):
+        before = dict(mpl.rcParams)
+        odd = [svg(f, "a", "b") for f in some_figures()[1:5]]
+        assert dict(mpl.rcParams) == before
+    assert odd == [svg(f, "a", "b") for f in some_figures()[1:5]]
+
+
+def test_png(tmp_path: Path) -> None:
+    path = save_png(bar_figure(["a"], [1], "b"), tmp_path / "a.png")
+    assert path.read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(StoreError, match=r"cannot write picture .*No such file"):
+        save_png(bar_figure(["a"], [1], "b"), tmp_path / "no" / "a.png")
+
+
+def test_writing_is_all_or_nothing(tmp_path: Path) -> None:
+    page = Page("title", "\ud800 headline", [])
+    path = write(page, tmp_path / "a.html")
+    assert [p.name for p in tmp_path.iterdir()] == ["a.html"]
+    assert path.stat().st_mode & 0o444 == 0o444
+    check(path.read_text(encoding="utf-8"))
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for bad in (folder, tmp_path / "no" / "a.html", path / "a.html"):
+        with pytest.raises(StoreError, match=r"^cannot write report '[^\n]*; choose another path$"):
+            write(page, bad)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.html", "folder"]
+
+
+def test_words() -> None:
+    assert [number(x) for x in (0.0, 1e-16, 0.20511, -0.5, 8.1e-4, 62.56, 1784.2, 2e8, np.inf, np.nan)] == [
+        *("0", "0", "0.205", "−0.500", "8.1e−4", "62.6", "1,784", "2.0e8", "∞", "–")
+    ]
+    assert [percent(x) for x in (0, 1e-5, 0.0725, 0.99999, 1)] == ["0 %", "<0.1 %", "7.2 %", ">99.9 %", "100 %"]
+    assert (fixed(-0.0001, 3), as_given(0.29), counted(1, "pose"), counted(2000, "pose")) == (
+        "0.000",
+        "0.29",
+        "1 pose",
+        "2,000 poses",
+    )
+    assert (article("index"), article("manipulability"), either(["a"]), either(["a", "b", "c"])) == (
+        "an",
+        "a",
+        "a",
+        "a, b or c",
+    )
+    # Wilson, 145 of 2000 by hand: (0.0725 + 0.00096 -+ 1.96 sqrt(0.0725 0.9275 / 2000 + 2.4e-7)) / 1.00192
+    assert share(145, 2000) == "145 (7.2 %, 95 % interval 6.2 to 8.5 %)"
+    assert plain("a$b$\n" + "x" * 80, 10) == "a\\$b\\$ xxxx…"

@@ -1,0 +1,46 @@
+"""Is an HTML text well-formed, and does it load nothing?"""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+
+VOID = {"meta", "br", "img", "link", "input", "hr"}
+
+
+class Checker(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.tags: set[str] = set()
+        self.ids: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_startendtag(tag, attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.add(tag)
+        self.ids += [v or "" for k, v in attrs if k == "id"]
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open, tag
+        assert self.open.pop() == tag
+
+
+def check(html: str) -> Checker:
+    """Well-formed, loads nothing, runs nothing, no id twice, every reference there."""
+    checker = Checker()
+    checker.feed(html)
+    checker.close()
+    assert checker.open == []
+    assert "script" not in checker.tags
+    assert len(checker.ids) == len(set(checker.ids))
+    for target in re.findall(r"(?:src|href|srcset|action)\s*=\s*[\"']([^\"']*)", html):
+        assert target.startswith(("#", "data:image/png")), target
+        assert not target.startswith("#") or target[1:] in checker.ids
+    for target in re.findall(r"url\(([^)]*)\)", html):
+        assert target[1:] in checker.ids
+    assert "@import" not in html
+    return checker

@@ -1,0 +1,41 @@
+"""The one table of statuses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from holdfast import Status
+from holdfast.errors import HoldfastError
+from holdfast.status import require_ok
+
+CODES = {"OK": 0, "NOT_FOUND": 1, "BAD_INPUT": 2, "SINGULAR": 3, "INFEASIBLE": 4, "NO_INERTIA": 5, "NOT_COMPUTED": 255}
+
+
+def test_codes_do_not_change():
+    """They are in results folders; every one fits a byte."""
+    assert {s.name: int(s) for s in Status} == CODES
+    assert all(np.array(s, dtype=np.uint8) == s for s in Status)
+
+
+@pytest.mark.parametrize("status", Status)
+def test_every_status_has_a_sentence_of_advice(status):
+    assert Status(int(status)).advice
+    assert "\n" not in status.advice
+    if status is not Status.OK:
+        assert ":" in status.advice  # what it is: what to try
+
+
+def test_no_two_statuses_give_the_same_advice():
+    assert len({s.advice for s in Status}) == len(Status)
+
+
+def test_require_ok_names_the_first_row_and_counts():
+    require_ok(np.zeros(5, np.uint8), "solve")
+    require_ok(np.zeros(0, np.uint8), "solve")
+    require_ok(np.uint8(0), "solve")
+    with pytest.raises(HoldfastError, match=r"^solve: 2 of 4 rows failed; first: row 1, singular: .*move off") as caught:
+        require_ok(np.array([0, 3, 0, 1], np.uint8), "solve")
+    assert "\n" not in str(caught.value)
+    with pytest.raises(HoldfastError, match="1 of 1 rows failed; first: row 0, not_found"):
+        require_ok(np.uint8(1), "solve")
