@@ -8,6 +8,7 @@ from typing import Any
 from sphinx.application import Sphinx
 from sphinx.ext.napoleon import GoogleDocstring
 
+_VALUES = ("property", "attribute", "data")
 _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 _QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
@@ -58,9 +59,9 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-signature", plain_names)
     plain = GoogleDocstring.__init__
 
-    # Napoleon takes the words before a colon in the docstring of a property for its type; ours are sentences.
+    # Napoleon takes the words before a colon in the docstring of a property or constant for its type; ours are sentences.
     def init(self: Any, docstring: Any, config: Any = None, app: Any = None, what: str = "", *rest: Any, **named: Any) -> None:
-        plain(self, docstring, config, app, "method" if what == "property" else what, *rest, **named)
+        plain(self, docstring, config, app, "method" if what in _VALUES else what, *rest, **named)
 
     GoogleDocstring.__init__ = init  # type: ignore[method-assign]
     return {"parallel_read_safe": True, "parallel_write_safe": True}

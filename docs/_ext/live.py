@@ -136,7 +136,7 @@ class ModuleExample(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         lines = inspect.getdoc(importlib.import_module(self.arguments[0])).splitlines()
         text = inspect.cleandoc("\n".join(x for x in lines if x.startswith("    ") or not x).strip("\n"))
-        return [nodes.literal_block(text, text, language="yaml")]
+        return [nodes.literal_block(text, text, language="yaml", classes=["module-example"])]
 
 
 class CasadiOperations(SphinxDirective):

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
+import numpy as np
+
 from holdfast.arm.model import Arm, joint_list
 from holdfast.errors import TaskError
 
@@ -36,12 +38,12 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         failures = 2
     if isinstance(failures, str):
         raise TaskError(f"failures '{failures}' is not known; use 'single', 'pairs', a number of joints, or a list of sets")
-    if isinstance(failures, int):
+    if isinstance(failures, (int, np.integer)):
         if not 1 <= failures < arm.n:
             raise TaskError(f"{failures} of the {arm.n} joints of '{arm.name}' cannot fail together; use 1 to {arm.n - 1}")
         sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
     else:
-        sets = [joint_list(arm, [f] if isinstance(f, (str, int)) else f) for f in failures]
+        sets = [joint_list(arm, [f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
     if not sets or any(not s or len(set(s)) != len(s) for s in sets):
         raise TaskError("each failure must name at least one joint, and each of its joints once")
     if len(set(sets)) != len(sets):

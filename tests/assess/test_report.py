@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 from holdfast.arm.task import as_task, rows_task
-from holdfast.assess import report
+from holdfast.assess import facts, report, rerun, sections
 from holdfast.assess.region import rotation_from_rpy
 from holdfast.cli.options import read_failures, read_task
 from holdfast.failures import failure_sets
@@ -76,7 +76,7 @@ def test_every_case_renders(name: str) -> None:
     check(html)
     assert "nan" not in re.sub(r"<svg.*?</svg>", "", html, flags=re.DOTALL).lower()
     assert f"{a.distribution.samples:,}" in html
-    assert headline(html) == report._Facts(a, None).headline
+    assert headline(html) == facts.Facts(a, None).headline
     if name != "nasty":
         assert f"holdfast assess {a.arm.name} " in html
 
@@ -99,7 +99,7 @@ def headline(html: str) -> str:
 )
 def test_headline_has_the_numbers_of_the_distribution(name: str, threshold: float | None, shown: float) -> None:
     a = case(name)
-    line = report._Facts(a, threshold).headline
+    line = facts.Facts(a, threshold).headline
     # Counted here, from the rows.
     values = a.dataset["index"].values
     with np.errstate(invalid="ignore"):
@@ -196,7 +196,7 @@ def test_unwritable_path(tmp_path: Path) -> None:
 def test_the_region_file_is_the_region(name: str, tmp_path: Path) -> None:
     a = case(name)
     file = tmp_path / "region.yaml"
-    file.write_text(report.region_file(a.region))
+    file.write_text(rerun.region_file(a.region))
     again = hf.Region.load(file)
     assert again.name == a.region.name
     np.testing.assert_allclose(again.center, a.region.center, rtol=0, atol=1e-15)
@@ -204,7 +204,7 @@ def test_the_region_file_is_the_region(name: str, tmp_path: Path) -> None:
 
 
 def test_command_line() -> None:
-    command, note = report.command_line(case("one failure"))
+    command, note = rerun.command_line(case("one failure"))
     assert command is not None
     assert note == ""
     words = command.replace("\\\n", "").split()
@@ -214,16 +214,16 @@ def test_command_line() -> None:
     assert options["--failures"] == "joint2"
     assert (options["--poses"], options["--seed"], options["--task"]) == ("50", "0", "position")
     own = hf.indices.CustomIndex(lambda j: j[0, 0], NINE)
-    assert report.command_line(hf.assess(NINE, JOINTS, own, poses=10))[0] is None
+    assert rerun.command_line(hf.assess(NINE, JOINTS, own, poses=10))[0] is None
     odd = hf.Task("odd", np.array([[0.6, 0.8, 0, 0, 0, 0]]))
-    assert report.command_line(hf.assess(NINE, JOINTS, hf.indices.relative_manipulability(NINE, odd), poses=10))[0] is None
-    assert "ARM is the file" in report.command_line(case("nasty"))[1]
+    assert rerun.command_line(hf.assess(NINE, JOINTS, hf.indices.relative_manipulability(NINE, odd), poses=10))[0] is None
+    assert "ARM is the file" in rerun.command_line(case("nasty"))[1]
 
 
 def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
     for task in (*("pose", "pointing", "position"), rows_task(["vz", "vx", "wy"], "tool"), rows_task(["vx"])):
         t = as_task(NINE, task)
-        option = report._task_option(NINE, t)
+        option = rerun._task_option(NINE, t)
         again = as_task(NINE, read_task(option, "pa10-9dof", NINE))
         assert (again.name, again.frame, again.rows.tolist()) == (t.name, t.frame, t.rows.tolist())
     # Names that the option's own signs are in, and a name that is a number.
@@ -232,14 +232,14 @@ def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
         arm = replace(NINE, joints=joints, links=())
         for failures in ("single", "pairs", 3, [[0]], [[1], [0, 2]]):
             sets = failure_sets(arm, failures)
-            assert failure_sets(arm, read_failures(arm, report._failures_option(arm, sets))) == sets
+            assert failure_sets(arm, read_failures(arm, rerun._failures_option(arm, sets))) == sets
 
 
 @pytest.mark.parametrize("name", hf.arms.names())
 def test_the_drawn_arm_ends_at_the_tool(name: str) -> None:
     arm = hf.arms.load(name).with_base(hf.arms.load("ur5").joints[0].origin)
     q = np.random.default_rng(3).uniform(-1, 1, arm.n)
-    origins, tool = report.joint_positions(arm, q)
+    origins, tool = facts.joint_positions(arm, q)
     np.testing.assert_allclose(tool, arm.forward_kinematics(q)[:3, 3], atol=1e-12)
     # The column of a revolute joint is z x (tool - origin): the origin lies on the axis that the Jacobian says.
     jacobian = arm.jacobian(q)
@@ -251,7 +251,7 @@ def test_listed_angles_are_those_of_the_pose_and_inside_the_region() -> None:
     rng = np.random.default_rng(5)
     low, size = np.array(PAPER.center[3:]) - np.array(PAPER.size[3:]) / 2, np.array(PAPER.size[3:])
     drawn = low + size * rng.random((200, 3))
-    shown = report._angles(rotation_from_rpy(drawn), PAPER)
+    shown = sections._angles(rotation_from_rpy(drawn), PAPER)
     np.testing.assert_allclose(shown, drawn, atol=1e-9)
     anything = Rotation.random(50, rng=rng).as_matrix()
-    np.testing.assert_allclose(rotation_from_rpy(report._angles(anything, JOINTS)), anything, atol=1e-9)
+    np.testing.assert_allclose(rotation_from_rpy(sections._angles(anything, JOINTS)), anything, atol=1e-9)

@@ -155,4 +155,4 @@ class SpectralIndex(Index):
             seed = np.einsum("rmi,ri,ric->rmc", u, self._slope(sigma), v) * kept  # d sigma_i = u_i' dJ v_i
         kink = singular | (sigma.min(axis=1) <= SINGULAR_RATIO * sigma.max(axis=1))
         seed[kink & np.isfinite(q).all(axis=1)] = 0.0
-        return self._pull_back.rows(q, seed[:, 0] if self.task.m == 1 else seed)
+        return self._pull_back.rows(q, seed)

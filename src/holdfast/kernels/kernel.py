@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from collections.abc import Sequence
@@ -135,7 +136,7 @@ class Kernel:
             if rows is not None and rows != a.shape[0]:
                 raise InputError(f"kernel '{self.name}': input {k} has {a.shape[0]} rows, another has {rows}")
             rows = a.shape[0]
-            arrays.append(a.reshape(a.shape[0], -1))
+            arrays.append(a.reshape(a.shape[0], math.prod(dims)))
         return arrays, rows
 
     def evaluate_columns(self, inputs: Array, outputs: Array) -> None:

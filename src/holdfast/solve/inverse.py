@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Literal
 
 import casadi as ca
 import numpy as np
@@ -62,7 +63,7 @@ def check_poses(poses: ArrayLike) -> Array:
     t = np.asarray(poses, dtype=np.float64)
     if t.ndim not in (2, 3) or t.shape[-2:] != (4, 4):
         raise InputError(f"poses have shape {t.shape}; they must be (4, 4) or (N, 4, 4) arrays")
-    t = t.reshape(-1, 4, 4)
+    t = t[None] if t.ndim == 2 else t
     rotation = t[:, :3, :3]
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(t).all(axis=(1, 2)))
     off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2), initial=0.0)
@@ -79,7 +80,13 @@ def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> S
     sine, cosine = ca.sqrt(ca.sumsqr(skew)), 0.5 * (r[0, 0] + r[1, 1] + r[2, 2] - 1)
     angle = ca.atan2(sine, cosine)
     factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
-    return ca.vertcat(target - position, skew * factor)
+    # Half a turn about a: R = 2 a a' - I has no skew part either; the longest column of R + R' + 2 I = 4 a a' is along a.
+    half = [r[:, i] + r.T[:, i] + 2 * ca.SX.eye(3)[:, i] for i in range(3)]
+    first = ca.if_else(r[0, 0] >= r[2, 2], half[0], half[2])
+    axis = ca.if_else(ca.logic_and(r[1, 1] >= r[0, 0], r[1, 1] >= r[2, 2]), half[1], first)
+    opposite = ca.logic_and(cosine < 0, sine <= 1e-9)
+    turn = ca.if_else(opposite, np.pi * axis / ca.if_else(opposite, ca.norm_2(axis), 1.0), skew * factor)
+    return ca.vertcat(target - position, turn)
 
 
 def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
@@ -89,7 +96,8 @@ def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) 
     sine, cosine = ca.sqrt(ca.sumsqr(turn)), ca.dot(z, zd)
     angle = ca.atan2(sine, cosine)
     factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
-    return ca.vertcat(target - position, turn * factor)
+    opposite = ca.logic_and(cosine < 0, sine <= 1e-9)  # any axis across z will do
+    return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
 
 
 class InverseKinematics:
@@ -196,13 +204,14 @@ def _damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
 
 
 @lru_cache(maxsize=16)
-def _solver(arm: Arm, task: Task) -> InverseKinematics:
-    return InverseKinematics(arm, task)
+def _solver(arm: Arm, rows: tuple[tuple[float, ...], ...], frame: Literal["base", "tool"]) -> InverseKinematics:
+    # Keyed by what matters: every call makes a new Task, and the characteristic length plays no part here.
+    return InverseKinematics(arm, Task("task", np.array(rows), frame))
 
 
 def solver(arm: Arm, task: Task) -> InverseKinematics:
     """The solver of an arm and task, compiled once."""
-    return _solver(arm, task)
+    return _solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
 def solve_ik(
@@ -239,7 +248,10 @@ def solve_ik(
     engine = solver(arm, as_task(arm, task))
     first = None
     if start is not None:
-        first = np.broadcast_to(arm.check_configurations(start), (len(targets), arm.n))
+        given = arm.check_configurations(start)
+        if given.ndim == 2 and len(given) not in (1, len(targets)):
+            raise InputError(f"start has {len(given)} configurations for {len(targets)} poses; give one, or one per pose")
+        first = np.broadcast_to(given, (len(targets), arm.n))
         if not np.isfinite(first).all():
             raise InputError("start holds NaN or infinity; give finite joint values")
         first = np.clip(first, arm.lower, arm.upper)

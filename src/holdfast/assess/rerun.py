@@ -1,0 +1,83 @@
+"""The command and the region file that make a run again."""
+
+from __future__ import annotations
+
+import shlex
+
+import numpy as np
+import yaml
+
+from holdfast import arms
+from holdfast.arm.model import Arm
+from holdfast.arm.task import NAMES, ROWS, Task, as_task
+from holdfast.assess.assess import Assessment
+from holdfast.assess.region import Region
+from holdfast.failures import FailureSets, failure_sets
+from holdfast.indices import BY_NAME
+
+
+def command_line(a: Assessment) -> tuple[str | None, str]:
+    """The command that makes the run again from ``region.yaml``, or None, and a remark."""
+    index, task = a.index, a.index.task
+    if index.slug not in BY_NAME:
+        return None, "The index is a function of your own, so no command line makes this run again; keep the script."
+    asked = _task_option(a.arm, task)
+    if asked is None:
+        return None, "The task is of your own making, so no command line makes this run again; keep the script."
+    remark = ""
+    if a.arm.name in arms.names() and arms.load(a.arm.name).fingerprint == a.arm.fingerprint:
+        spec = a.arm.name
+    else:
+        known = a.arm.source.lower().endswith((*arms.URDF_ENDINGS, *arms.TABLE_ENDINGS)) and "\n" not in a.arm.source
+        spec = a.arm.source if known else "ARM"
+        what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
+        remark = f"{what}; for a URDF file also its --base and --tip, if any"
+    options = {"region": "region.yaml", "index": index.slug, "task": asked}
+    if task.length != 1.0:
+        options["length"] = repr(task.length)
+    if index.failures != failure_sets(a.arm, "single"):
+        options["failures"] = _failures_option(a.arm, index.failures)
+    options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
+    if a.region.kind == "box":
+        options["restarts"] = str(a.restarts)
+    lines = [f"holdfast assess {shlex.quote(spec)}"]
+    for name, value in options.items():
+        word = f"--{name} {shlex.quote(value)}"
+        if len(lines[-1]) + len(word) > 90:
+            lines[-1] += " \\"
+            lines.append("    " + word)
+        else:
+            lines[-1] += " " + word
+    return "\n".join(lines), remark
+
+
+def _task_option(arm: Arm, task: Task) -> str | None:
+    """What ``--task`` says for a task, if it can."""
+    if task.name in NAMES:
+        standard = as_task(arm, task.name, task.length)
+        return task.name if standard.frame == task.frame and np.array_equal(standard.rows, task.rows) else None
+    picked = task.rows.argmax(axis=1)
+    return f"{task.frame}:{','.join(ROWS[k] for k in picked)}" if np.array_equal(np.eye(6)[picked], task.rows) else None
+
+
+def _failures_option(arm: Arm, failures: FailureSets) -> str:
+    """What ``--failures`` says: how many joints fail together, or the sets."""
+    size = len(failures[0])
+    if size < arm.n and failures == failure_sets(arm, size):
+        return str(size)
+    plain = not any(c in name for name in arm.joint_names for c in "+;")
+    text = "; ".join("+".join(arm.joint_names[k] if plain else str(k + 1) for k in f) for f in failures)
+    return text + ";" if text.isdigit() else text  # a lone number would be how many
+
+
+def region_file(region: Region) -> str:
+    """The region as the YAML text that :meth:`Region.load` reads, with every digit."""
+    center, size = list(region.center), list(region.size)
+    data: dict[str, object] = {"name": region.name, "angles": "rad"}
+    if region.kind == "box":
+        data["box"] = {"center": center[:3], "size": size[:3], "rpy_center": center[3:], "rpy_size": size[3:]}
+    else:
+        low = [c - s / 2 for c, s in zip(center, size, strict=True)]
+        data["joints"] = {"lower": low, "upper": [c + s / 2 for c, s in zip(center, size, strict=True)]}
+    text: str = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
+    return text.rstrip()

@@ -1,0 +1,439 @@
+"""The sections of a report, one function each."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from holdfast.assess.assess import Assessment
+from holdfast.assess.facts import Facts, Rows
+from holdfast.assess.region import Region, rpy_from_rotation
+from holdfast.assess.rerun import command_line, region_file
+from holdfast.assess.structure import explain
+from holdfast.failures import failure_sets
+from holdfast.report import figures, scenes
+from holdfast.report.page import Block, Callout, Code, Picture, Table, Text
+from holdfast.report.scenes import View
+from holdfast.report.words import as_given, counted, fixed, interval, number, percent, share
+
+Array = NDArray[np.float64]
+
+_ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
+_MOST_DOTS = 20_000
+_MOST_ROWS = 40
+_LEAST_FOR_MAP = 200
+
+_FORMULAS = {
+    "relative-manipulability": "ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )",
+    "manipulability": "<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)",
+    "mean-singular-value": "(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m",
+    "geometric-mean-singular-value": "(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>",
+    "minimum-singular-value": "<sup>S</sup>σ<sub>m</sub>",
+    "condition-number": "<sup>S</sup>σ<sub>1</sub> / <sup>S</sup>σ<sub>m</sub>",
+}
+
+
+def alerts(f: Facts) -> list[Callout]:
+    """What the reader must know before anything else."""
+    if f.a.complete:
+        return []
+    text = f"{f.d.samples:,} of {f.a.poses:,} {f.noun}s are computed; everything below is about these."
+    return [Callout(text + " Run the same command again to go on.", "bad", "This run is not complete.")]
+
+
+def structure_callout(f: Facts) -> list[Block]:
+    """Single points of failure by structure, said at once."""
+    own, everything = f.structures
+    text = explain(f.a.arm, own, everything)
+    fatal = not own.survives
+    title = "A single locked joint ends this task everywhere" if fatal else ""
+    if own.never:
+        title = "The task is impossible for this arm"
+    return [Callout(text, "bad" if fatal else "good", title)]
+
+
+def key_numbers(f: Facts) -> list[Block]:
+    """The table of key numbers."""
+    a, d, index = f.a, f.d, f.index
+    facts: list[tuple[str, str | Markup]] = [
+        ("Arm", f"{a.arm.name}, {a.arm.n} joints"),
+        ("Task", index.task.describe()),
+        ("Index", f"worst-case {index.name}{f.unit and f', unit{f.unit}'}; {'larger' if f.larger else 'smaller'} is better"),
+        ("Failures", f"{len(index.failures)} considered: {_failure_kinds(f)}"),
+        ("Region", f"{a.region.name}: {a.region.describe()}"),
+        (f"{f.noun.capitalize()}s drawn", f"{d.samples:,}" + ("" if a.complete else f" of {a.poses:,} planned")),
+    ]
+    if a.region.kind == "box":
+        facts.append(("Reached", share(d.reached, d.samples)))
+        facts.append(("No configuration found", share(d.unreached, d.samples)))
+    facts.append(
+        ("Singular", share(d.singular, d.samples) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else ""))
+    )
+    if d.infinite:
+        facts.append(("Infinite", share(d.infinite, d.samples) + ", of those with a configuration"))
+    if d.samples and f.decided:
+        facts.append((f"P({f.condition})", f"{interval(f.answer)}; {_why(f)}"))
+        if d.unreached and d.reached:
+            t = f.threshold
+            only = a.interval(at_least=t, reachable_only=True) if f.larger else a.interval(at_most=t, reachable_only=True)
+            facts.append(("The same, reached poses only", interval(only)))
+    if d.samples:
+        facts.append(
+            (
+                "Error of the CDF",
+                f"at most ±{d.band():.3f} everywhere at once, with 95 % confidence (Dvoretzky-Kiefer-Wolfowitz)",
+            )
+        )
+    if index.bound is not None and d.reached:
+        median, best = (0.0 if f.nothing else x for x in (float(d.quantile(0.5)), d.highest))
+        facts.append(
+            (
+                "Largest possible value",
+                f"{index.bound:.4f}; the median of the {f.reached} is {percent(median / index.bound)} of it "
+                f"(gap {number(index.bound - median)}), the best one found {percent(best / index.bound)}",
+            )
+        )
+    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
+    if d.reached:
+        blocks.append(_quantiles(f))
+    return blocks
+
+
+def _failure_kinds(f: Facts) -> str:
+    if f.index.failures == failure_sets(f.a.arm, "single"):
+        return "each joint locked alone"
+    names = f.index.failure_names
+    return ", ".join(names) if len(names) <= 12 else f"{', '.join(names[:12])} and {len(names) - 12} more"
+
+
+def _why(f: Facts) -> str:
+    if f.chosen:
+        return "the threshold was given"
+    if f.index.bound is not None:
+        return "the threshold is half of the largest possible value"
+    return f"the threshold is about the median of the {f.reached}, because this index has no known bound"
+
+
+def _quantiles(f: Facts) -> Table:
+    d = f.d
+    steps = (0.05, 0.25, 0.5, 0.75, 0.95)
+    finite = " of finite values" if d.infinite else ""
+    head = [f"Index over … {f.noun}s", "5 %", "25 %", "median", "75 %", "95 %", f"mean{finite}", "best"]
+    best = d.highest if f.larger else d.lowest
+    rows = [
+        [
+            f"the {d.reached:,} reached" if d.unreached else f"all {d.samples:,}",
+            *[number(float(x)) for x in d.quantile(steps)],
+            number(d.mean),
+            number(best),
+        ]
+    ]
+    if d.unreached:
+        mean = d.total / d.samples if f.larger else np.inf
+        label = f"all {d.samples:,}, not found counts as {'0' if f.larger else 'infinite'}"
+        rows.append([label, *[number(float(x)) for x in d.quantile(steps, reachable_only=False)], number(mean), number(best)])
+    return Table(rows, head, frozenset(range(1, 8)), wide=True)
+
+
+def structure_table(f: Facts) -> list[Block]:
+    """Every task and the joints it cannot lose."""
+    own, everything = f.structures
+    names = f.a.arm.joint_names
+    rows: list[list[str | Markup]] = []
+    for s in everything:
+        cells: list[str | Markup] = [Markup("{} {}").format(s.task, "(this run)") if s is own else s.task, str(s.redundancy)]
+        for k in range(len(names)):
+            bad = k in s.fatal or s.never
+            cells.append(Markup('<span class="fatal">fatal</span>') if bad else Markup('<span class="ok">–</span>'))
+        verdict = (
+            "never possible"
+            if s.never
+            else "not redundant"
+            if s.redundancy <= 0
+            else "single point of failure"
+            if s.fatal
+            else "none"
+        )
+        rows.append([*cells, verdict])
+    head = ["Task", "Redundancy", *[str(k + 1) for k in range(len(names))], "Single point of failure"]
+    joints = "; ".join(f"{k + 1} {n}" for k, n in enumerate(names))
+    return [
+        Text(
+            "A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps."
+        ),
+        Table(rows, head, frozenset({1}), frozenset(range(2, len(names) + 2)), wide=True),
+        Text(f"Joints: {joints}. Redundancy: joints minus rows of the task.", quiet=True),
+    ]
+
+
+def views(f: Facts) -> list[Block]:
+    """The arm and the region, from the side and from above."""
+    scene, drawn = f.scene
+    d = f.d
+    dots = f"{f.noun} drawn" if f.a.region.kind == "box" else "tool position of a configuration drawn"
+    legend = [("base", "base"), ("joint", "joints, numbered from the base"), ("tool", "tool")]
+    if f.a.arm.prismatic.any():
+        legend.insert(2, ("slide", "sliding joint"))
+    if len(scene.points):
+        legend.append(("dot", dots))
+    if len(scene.missing):
+        legend.append(("cross", "no configuration found"))
+    if scene.box is not None:
+        legend.append(("box", "positions of the region"))
+    image = figures.svg(
+        scenes.view_figure(scene, f.views, f.scale, f.axis_label, legend),
+        "views",
+        f"The arm and the {f.noun}s of the region, by index",
+    )
+    text = f"The arm is drawn {f.representative[1]}."
+    if not drawn and d.samples:
+        text += f" The {f.noun}s of this run were not kept, so none are drawn."
+    elif drawn < d.samples:
+        text += f" Of {d.samples:,} {f.noun}s a random {drawn:,} are drawn"
+    elif drawn:
+        text += f" All {counted(drawn, f.noun)} are drawn"
+    if drawn:
+        text += "; colour is the index." if len(scene.points) else "."
+    if drawn and d.infinite:
+        text += " Infinite values have the darkest colour."
+    return [Picture(image, text)]
+
+
+def distribution(f: Facts) -> list[Block]:
+    """Density and cumulative distribution."""
+    d = f.d
+    if not f.drawable:
+        return [Text(f"The index is infinite at each of the {counted(d.reached, f.noun)} reached.")] if d.reached else []
+    titles = (
+        f"Density (PDF), {d.reached:,} {'reached ' if d.unreached else ''}{f.noun}s",
+        f"Cumulative (CDF), {d.samples:,} {f.noun}s",
+    )
+    figure = figures.distribution_figure(
+        f.histogram, f.curves, f.marks, f.axis_label, "share with a smaller value, F", titles, f.log
+    )
+    meets = "1 − F" if f.larger else "F"
+    text = f"The probability of meeting a threshold is {meets} there"
+    text += f": {interval(f.answer)} at {as_given(f.threshold)}{f.unit}." if f.decided else "."
+    if d.unreached:
+        text += f" The dashed curve leaves out the {counted(d.unreached, 'pose')} for which no configuration was found."
+    over = "the reached poses" if d.unreached else f"all {f.noun}s"
+    total = f"the {percent(1 - d.infinite / d.reached)} with a finite value" if d.infinite else "1"
+    text += f" The density is a histogram of {len(f.histogram.heights)} bins over {over} and adds up to {total}."
+    return [Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)]
+
+
+def worst_failures(f: Facts) -> list[Block]:
+    """Which failure is the worst, how often."""
+    names, counts = _failure_labels(f), f.a.worst_counts
+    if not f.d.reached:
+        return []
+    blocks: list[Block] = []
+    total = int(counts.sum())
+    chosen = np.arange(len(names))
+    note = ""
+    if len(names) > _MOST_ROWS // 2:
+        chosen = np.argsort(-counts, kind="stable")[: _MOST_ROWS // 2]
+        note = f" The {len(chosen)} most frequent of {len(names)} failures are shown."
+    if total:
+        figure = figures.bar_figure(
+            [names[k] for k in chosen], [int(counts[k]) for k in chosen], f"{f.noun}s at which this failure is the worst", total
+        )
+        text = f"Of {total:,} {f.reached} that are not singular; where several failures are equally bad, the first counts."
+        blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + note))
+    else:
+        blocks.append(Text(f"Every {f.noun} reached is singular, so no failure is worse than another."))
+    blocks.append(_failure_table(f, names, counts))
+    return blocks
+
+
+def _failure_labels(f: Facts) -> list[str]:
+    """Numbers from 1 and names: ``4 elbow``, ``2+4 shoulder+elbow``."""
+    pairs = zip(f.index.failures, f.index.failure_names, strict=True)
+    return [f"{'+'.join(str(k + 1) for k in s)}  {name}" for s, name in pairs]
+
+
+def _failure_table(f: Facts, names: list[str], counts: NDArray[np.int64]) -> Block:
+    rows = f.rows
+    total = max(int(counts.sum()), 1)
+    if rows is None:
+        return Text(
+            "The values after each failure were not kept; assess again with a store or with keep=True for them.", quiet=True
+        )
+    values = rows.by_failure[rows.reached]
+    bad = 0.05 if f.larger else 0.95
+    middle, low = np.quantile(values, [0.5, bad], axis=0, method="inverted_cdf")
+    met = (values >= f.threshold if f.larger else values <= f.threshold).mean(axis=0)
+    chosen = np.arange(len(names))
+    if len(chosen) > _MOST_ROWS:
+        chosen = np.sort(np.argsort(-counts, kind="stable")[:_MOST_ROWS])
+    cells = [
+        [names[k], number(float(middle[k])), number(float(low[k])), percent(counts[k] / total), f"{met[k]:.3f}"] for k in chosen
+    ]
+    sign = "≥" if f.larger else "≤"
+    head = ["If this locks", "median", f"{100 * bad:.0f} % quantile", "worst of all", f"P({sign} {as_given(f.threshold)})"]
+    if not f.decided:
+        head, cells = head[:-1], [c[:-1] for c in cells]
+    caption = f"The {f.index.name} after each failure, over {len(values):,} {f.reached}."
+    return Table(cells, head, frozenset(range(1, 5)), caption=caption, wide=True)
+
+
+def places(f: Facts) -> list[Block]:
+    """The worst poses, and where in the region tolerance is low."""
+    rows = f.rows
+    if rows is None and not f.d.reached:
+        return []
+    if rows is None:
+        return [Text(f"The {f.noun}s of this run were not kept (keep=False), so the report cannot list or map them.")]
+    if not rows.reached.any():
+        return []
+    if f.nothing:
+        return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
+    blocks: list[Block] = [_worst_table(f, rows)]
+    low, high = rows.position.min(axis=0), rows.position.max(axis=0)
+    flat = (high - low) < 1e-6 * max(float((high - low).max()), 1e-6)
+    views = [v for v in (View(0, 2, "Seen from the side"), View(0, 1, "Seen from above")) if not (flat[v.right] or flat[v.up])]
+    if int(rows.reached.sum()) < _LEAST_FOR_MAP or not views:
+        return blocks
+    average = "Mean" if f.larger else "Median"
+    ok = rows.reached
+    figure = scenes.map_figure(
+        rows.position[ok],
+        rows.value[ok],
+        rows.position[~ok],
+        views,
+        f.log,
+        not f.larger,
+        figures.plain(f"{average.lower()} {f.index.name}"),
+    )
+    text = (
+        f"{average} index of the {f.reached} in each cell, over the whole depth of the region, and below it how many "
+        f"{'poses were reached of how many drawn' if f.d.unreached else f'{f.noun}s there are'}; {len(rows.value):,} in all."
+    )
+    if f.a.region.kind == "joints":
+        text += " Positions are those of the tool."
+    return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
+
+
+def _worst_table(f: Facts, rows: Rows) -> Table:
+    some = np.flatnonzero(rows.reached)
+    order = np.argsort(rows.value[some] if f.larger else -rows.value[some], kind="stable")
+    labels = _failure_labels(f)
+    chosen = some[order[:10]]
+    angles = np.rad2deg(_angles(rows.rotation[chosen], f.a.region))
+    cells = []
+    for k, rpy in zip(chosen, angles, strict=True):
+        worst = labels[rows.worst[k]] if rows.worst[k] >= 0 else "singular"
+        place = [*(fixed(x, 3) for x in rows.position[k]), *(fixed(x, 1) for x in rpy)]
+        cells.append([f"{rows.number[k] + 1:,}", *place, number(float(rows.value[k])), worst])
+    head = [f.noun.capitalize(), "x, m", "y, m", "z, m", "roll, deg", "pitch, deg", "yaw, deg", "index", "worst failure"]
+    caption = f"The {len(chosen)} worst of {len(some):,} {f.reached}; R = Rz(roll) Ry(pitch) Rx(yaw)."
+    if f.d.unreached:
+        caption += f" The {counted(f.d.unreached, 'pose')} without one count as worse still and are not listed."
+    return Table(cells, head, frozenset(range(8)), caption=caption, wide=True)
+
+
+def _angles(rotations: Array, region: Region) -> Array:
+    """Roll, pitch, yaw: of the two triples of a rotation, and their turns, the one next to the middle of the region."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # at pitch +-90 degrees one of many triples is as good as another
+        first = rpy_from_rotation(rotations)
+    center = np.array(region.center[3:]) if region.kind == "box" else np.zeros(3)
+    second = np.stack([first[:, 0] + np.pi, np.pi - first[:, 1], first[:, 2] + np.pi], axis=1)
+    both = np.stack([first, second])
+    both = center + (both - center + np.pi) % (2 * np.pi) - np.pi
+    nearest = np.linalg.norm(both - center, axis=2).argmin(axis=0)
+    return np.asarray(both[nearest, np.arange(len(nearest))])
+
+
+def method(f: Facts) -> list[Block]:
+    """How it was computed, and the command that does it again."""
+    a, index = f.a, f.index
+    p = f.provenance
+    formula = _FORMULAS.get(index.slug)
+    worst = "smallest" if f.larger else "largest"
+    definition = Markup("the {} value over the failures S").format(worst)
+    if formula is not None:
+        definition = Markup(
+            "the {} over the failures S of {}, where <sup>S</sup>J is the task Jacobian J without the columns of S"
+        ).format(worst, Markup(formula))
+        if "σ" in formula:
+            definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
+    if index.source:
+        definition += Markup(". Source: {}").format(index.source)
+    box = a.region.kind == "box"
+    facts: list[tuple[str, str | Markup]] = []
+    nothing = "0" if f.larger else "infinite"
+    if box:
+        solved = f"damped least squares from up to {a.restarts:,} random starts within the joint limits"
+        facts += [
+            (
+                "Method",
+                f"{a.sampling} poses of the region; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
+            ),
+            (
+                "Not optimised",
+                "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
+                "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers",
+            ),
+            (
+                "Not found",
+                f"none of {a.restarts:,} starts led to a configuration within the joint limits; this does not prove that there "
+                f"is none. Such a pose counts as {nothing} unless 'reached only' is said",
+            ),
+        ]
+        if index.task.m < 6:
+            free = (
+                f"task '{index.task.name}' fixes {index.task.m} of 6 directions; the others of a drawn pose are not asked for"
+            )
+            facts.append(("Free directions", free))
+    else:
+        facts.append(("Method", f"{a.sampling} configurations of the region, evaluated directly, without inverse kinematics"))
+    if a.sampling == "sobol":
+        bars = "intervals and the band assume independent samples; for scrambled Sobol points they are conservative in practice"
+        facts.append(("Error bars", bars))
+    facts += [
+        ("Index", definition),
+        (
+            "Singular",
+            "smallest singular value of J at most 1e-12 times the largest; the index is then "
+            f"{'0' if f.larger else 'infinite'} by convention",
+        ),
+        ("Failures", "a locked joint stands still where it failed"),
+        ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
+        ("Arm", a.arm.source or "no source given"),
+        ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),
+        (
+            "Seed, samples",
+            f"seed {a.seed}, {a.poses:,} {f.noun}s, {a.sampling} sampling" + (f", {a.restarts:,} restarts" if box else ""),
+        ),
+        ("Time", f"{p['seconds']:.1f} s" if isinstance(p.get("seconds"), (int, float)) else "not noted"),
+        ("Versions", _versions(p)),
+    ]
+    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
+    command, note = command_line(a)
+    if command is None:
+        return [*blocks, Text(note)]
+    blocks.append(Code(command, "The same run again" + (f" ({note}):" if note else ":")))
+    blocks.append(Code(region_file(a.region), Markup("with <code>region.yaml</code>:")))
+    return blocks
+
+
+def _ranges(a: Assessment) -> str:
+    """Of a region of joints, in degrees and metres."""
+    if a.region.kind != "joints":
+        return ""
+    parts = []
+    for joint, c, s in zip(a.arm.joints, a.region.center, a.region.size, strict=True):
+        unit, scale = ("m", 1.0) if joint.prismatic else ("deg", 180 / np.pi)
+        parts.append(f"{joint.name} {as_given(scale * (c - s / 2))} to {as_given(scale * (c + s / 2))} {unit}")
+    return ": " + ", ".join(parts)
+
+
+def _versions(provenance: dict[str, object]) -> str:
+    found = provenance.get("versions")
+    parts = [f"{name} {v}" for name, v in found.items()] if isinstance(found, dict) else []
+    return ", ".join([*parts, f"Python {provenance.get('python', '')}", str(provenance.get("machine", ""))])
