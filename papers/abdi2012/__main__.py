@@ -151,7 +151,7 @@ def main() -> None:
     lines = [
         "# Abdi, Maciejewski, Nahavandi 2012: the paper's numbers and ours",
         "",
-        f"Written by `python -m papers.abdi2012`, holdfast {hf.__version__}, seed {SEED}. Ours are measured, the paper's are cited.",
+        f"Written by `python -m papers.abdi2012`, seed {SEED}. Ours are measured, the paper's are cited.",
         "",
         "| where | paper | ours | difference and why |",
         "|---|---|---|---|",

@@ -150,7 +150,7 @@ def test_an_arm_does_not_change_and_its_copies_do() -> None:
     np.testing.assert_allclose(moved.forward_kinematics(q), base @ bare @ tool, atol=1e-12)
     # The last row's frame is 1 m along the last link, and the box was given in it.
     assert moved.payload is not None
-    np.testing.assert_allclose(moved.payload.com, box.com + [1, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(moved.payload.com, box.com + np.array([1.0, 0.0, 0.0]), atol=1e-12)
     assert len({arm.fingerprint, moved.fingerprint, arm.with_payload(box).fingerprint}) == 3
     assert replace(arm, name="x", source="y").fingerprint == arm.fingerprint
     assert repr(arm) == "Arm('planar-3r', 3 joints)"

@@ -59,7 +59,8 @@ class Joint:
         length = float(np.linalg.norm(axis)) if axis.shape == (3,) else 0.0
         if not (np.isfinite(length) and length > 1e-9):
             raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers, not all 0")
-        object.__setattr__(self, "axis", _frozen(snapped(axis / length)))
+        # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.
+        object.__setattr__(self, "axis", _frozen(snapped(axis if abs(length - 1) < 4e-15 else axis / length)))
         for field_name in ("lower", "upper", "velocity", "effort", "friction", "armature"):
             value = float(getattr(self, field_name))
             sign = "" if field_name in ("lower", "upper") else " of 0 or more"

@@ -58,7 +58,9 @@ def from_dict(data: dict[str, Any]) -> Arm:
             source=data["source"],
             flange=np.array(data["flange"]),
         )
-    except (KeyError, TypeError, AttributeError) as error:
+    except ArmError:
+        raise
+    except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise ArmError(f"this is not an arm description written by holdfast: {error!r} is missing or malformed") from error
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import operator
 import platform
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future
+from contextlib import closing
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -108,7 +111,7 @@ class Assessment:
             for name, values in self._rows.items()
         }
         return xr.Dataset(
-            data, attrs={"plan": str(_plan(self.arm, self.region, self.index, self.seed, self.sampling, self.restarts))}
+            data, attrs={"plan": json.dumps(_plan(self.arm, self.region, self.index, self.seed, self.sampling, self.restarts))}
         )
 
     def save(self, path: str | Path) -> Path:
@@ -181,6 +184,7 @@ def assess(
     """
     if isinstance(index, str):
         index = by_name(index, arm, task)
+    poses, seed, restarts = _whole("poses", poses, 1), _whole("seed", seed, 0), _whole("restarts", restarts, 1)
     _check(arm, region, index, poses, sampling, restarts)
     begin = time.monotonic()
     keep = (store is None and poses <= _KEEP) if keep is None else keep
@@ -201,8 +205,11 @@ def assess(
                 progress(start + len(rows["status"]), poses)
     else:
         with folder.writing():
+            was_complete = folder.complete
             _fill(folder, arm, region, index, poses, seed, sampling, restarts, progress)
-            folder.note(**_provenance(time.monotonic() - begin))
+            if not was_complete:
+                spent = folder.notes.get("seconds") or 0.0
+                folder.note(**_provenance(spent + time.monotonic() - begin))
         for rows in _stored(folder, index, region):
             take(rows)
     merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
@@ -239,6 +246,7 @@ def load(path: str | Path) -> Assessment:
         t = plan["task"]
         task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
         index = by_name(plan["index"], arm, task, [list(f) for f in plan["failures"]])
+        seed, sampling, restarts = plan["seed"], plan["sampling"], plan["restarts"]
     except (KeyError, TypeError) as error:
         raise StoreError(f"'{path}' is damaged: its plan lacks {error}; start the run again in a new folder") from error
     tally = _Tally(index)
@@ -251,9 +259,9 @@ def load(path: str | Path) -> Assessment:
         tally.finish(),
         tally.worst,
         store.rows,
-        plan["seed"],
-        plan["sampling"],
-        plan["restarts"],
+        seed,
+        sampling,
+        restarts,
         store,
         store.notes.get("seconds"),
         store.complete,
@@ -329,7 +337,7 @@ def _columns(index: Index, region: Region) -> list[Column]:
 
 def _blocks(
     arm: Arm, region: Region, index: Index, poses: int, seed: int, sampling: Sampling, restarts: int, first: int
-) -> Iterator[tuple[int, Rows]]:
+) -> Generator[tuple[int, Rows], None, None]:
     """Blocks in order, a few ahead of the consumer at work in the pool."""
     size = region.block
     source = region.blocks(first, seed, sampling)
@@ -367,29 +375,48 @@ def _fill(
     restarts: int,
     progress: Progress | None,
 ) -> None:
-    missing = set(store.missing)
+    missing, chunks = store.missing, store.chunks
+    done = poses - sum(chunks[k][1] - chunks[k][0] for k in missing)
     if progress is not None:
-        progress(sum(b - a for k, (a, b) in enumerate(store.chunks) if k not in missing), poses)
-    for k in sorted(missing):
-        start, stop = store.chunks[k]
-        parts = [rows for _, rows in _blocks(arm, region, index, stop, seed, sampling, restarts, start // region.block)]
-        store.write(k, {name: np.concatenate([p[name] for p in parts]) for name in parts[0]})
-        if progress is not None:
-            progress(sum(b - a for j, (a, b) in enumerate(store.chunks) if j in set(store.done)), poses)
+        progress(done, poses)
+    while missing:
+        # Chunks that follow one another share one stream of blocks, so that the workers never wait for a chunk's end.
+        length = next((i for i, k in enumerate(missing) if k != missing[0] + i), len(missing))
+        span, missing = missing[:length], missing[length:]
+        stream = _blocks(arm, region, index, chunks[span[-1]][1], seed, sampling, restarts, chunks[span[0]][0] // region.block)
+        with closing(stream):
+            for k in span:
+                start, stop = chunks[k]
+                parts = [next(stream)[1] for _ in range(-(-(stop - start) // region.block))]
+                store.write(k, {name: np.concatenate([p[name] for p in parts]) for name in parts[0]})
+                done += stop - start
+                if progress is not None:
+                    progress(done, poses)
 
 
 def _stored(store: Store, index: Index, region: Region) -> Iterator[Rows]:
-    data = store.dataset()
     names = [c.name for c in _columns(index, region)]
-    missing = [name for name in names if name not in data]
-    if missing:
-        raise StoreError(f"'{store.path}' is damaged: it has no variable '{missing[0]}'; start the run again in a new folder")
     for k in store.done:
-        start, stop = store.chunks[k]
-        rows = {name: data[name].values[start:stop] for name in names}
-        if (rows["status"] == Status.NOT_COMPUTED).any():
-            raise StoreError(f"'{store.path}' is damaged: chunk {k + 1} is marked done but has rows that were never written")
+        rows = store.read(k, names)
+        lost = _lost(rows)
+        if lost is not None:
+            raise StoreError(
+                f"'{store.path}' is damaged: chunk {k + 1} is marked done but its '{lost}' is lost; "
+                "start the run again in a new folder"
+            )
         yield rows
+
+
+def _lost(rows: Rows) -> str | None:
+    """A column whose values are the fill value where there must be one: its file is gone."""
+    status = rows["status"]
+    if (status == Status.NOT_COMPUTED).any():
+        return "status"
+    reached = (status == Status.OK) | (status == Status.SINGULAR)
+    for name, values in rows.items():
+        if values.dtype.kind == "f" and np.isnan(values if name in ("position", "quaternion") else values[reached]).any():
+            return name
+    return "worst" if (rows["worst"][status == Status.OK] < 0).any() else None
 
 
 class _Tally:
@@ -455,6 +482,16 @@ def _provenance(seconds: float | None) -> dict[str, Any]:
         "machine": platform.machine(),
         "threads": thread_count(),
     }
+
+
+def _whole(what: str, value: Any, least: int) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if number < least:
+        raise InputError(f"{what} is {value}; it must be {least} or more, and whole")
+    return number
 
 
 def _check(arm: Arm, region: Region, index: Index, poses: int, sampling: str, restarts: int) -> None:

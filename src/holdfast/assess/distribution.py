@@ -92,6 +92,8 @@ class Distribution:
 
     def _size(self, reachable_only: bool) -> int:
         size = self.reached if reachable_only else self.samples
+        if not self.samples:
+            raise InputError("this distribution has no samples: nothing is computed yet")
         if not size:
             raise InputError(
                 "this distribution has no samples; no pose was reached: use reachable_only=False or another region"
@@ -107,6 +109,7 @@ class Distribution:
             assert self.counts is not None
             cumulative = np.r_[0, np.cumsum(self.counts)]
             count = np.interp(h, self.edges, cumulative[: len(self.edges)])
+            count = np.where(np.isposinf(h), self.reached - self.infinite, count)
         if not reachable_only and self.better == "larger":
             count = count + np.where(h > 0, self.unreached, 0)
         return np.asarray(count)
@@ -142,12 +145,15 @@ class Distribution:
         if (at_least is None) == (at_most is None):
             raise InputError("give exactly one of at_least and at_most")
         _check_confidence(confidence)
+        if np.isnan(at_least if at_least is not None else at_most):
+            raise InputError("a threshold is NaN; give a number")
         size = self._size(reachable_only)
         if at_least is not None:
             hits = size - float(self._below(np.asarray(at_least), reachable_only))
         else:
             assert at_most is not None
-            hits = float(self._below(np.nextafter(np.asarray(float(at_most)), np.inf), reachable_only))
+            up = np.nextafter(float(at_most), np.inf)
+            hits = size if np.isposinf(at_most) else float(self._below(np.asarray(up), reachable_only))
         from scipy import stats
 
         test = stats.binomtest(round(hits), size)
@@ -166,11 +172,12 @@ class Distribution:
     def quantile(self, p: ArrayLike, reachable_only: bool = True) -> Array:
         """Smallest value v with ``share(value <= v) >= p``."""
         p_ = np.asarray(p, dtype=np.float64)
-        if ((p_ < 0) | (p_ > 1)).any():
+        if not ((p_ >= 0) & (p_ <= 1)).all():
             raise InputError("a quantile is asked for a share outside 0 to 1")
         size = self._size(reachable_only)
         lost = 0 if reachable_only else self.unreached
         rank = np.maximum(np.ceil(p_ * size) - 1, 0)  # from 0
+        rank -= (rank >= 1) & (rank / size >= p_)  # p * size may round up past a whole number
         worst_first = self.better == "larger"
         offset = lost if worst_first else 0
         if self.values is not None:
@@ -193,9 +200,10 @@ class Distribution:
         """
         size = self._size(True)
         low, high = self.lowest, self.highest
-        if not np.isfinite(low) or low == high:
-            middle = low if np.isfinite(low) else 0.0
-            low, high = middle - 0.5, middle + 0.5
+        middle = low if np.isfinite(low) else 0.0
+        if not high - low > 1e-12 * abs(middle):
+            half = max(0.5, 0.5e-3 * abs(middle))
+            low, high = middle - half, middle + half
         edges = np.linspace(low, high, bins + 1)
         if self.values is not None:
             counts = np.histogram(self.values[np.isfinite(self.values)], edges)[0].astype(np.float64)
@@ -239,22 +247,29 @@ class Collector:
     def _start_bins(self) -> None:
         seen = np.concatenate(self._parts)
         finite = seen[np.isfinite(seen)]
-        # Values beyond what millions of samples have shown get a margin and then the two outermost bins.
-        high = self._bound if self._bound is not None else (float(finite.max()) * 2 if finite.size else 1.0)
-        low = 0.0 if not finite.size or finite.min() >= 0 else float(finite.min()) * 2
-        self._edges = np.r_[low, np.linspace(low, high, BINS)[1:], np.inf]
-        self._counts = np.zeros(BINS, dtype=np.int64)
+        if self._bound is not None:
+            edges = np.linspace(0.0, self._bound, BINS)
+        else:
+            # Half the edges evenly spaced, half at quantiles: a heavy tail must not blur the rest.
+            low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+            top = high + max(abs(high), high - low, 1e-300)
+            even = np.linspace(0.0 if low >= 0 else 2 * low, top, BINS // 2)
+            dense = np.quantile(finite, np.linspace(0, 1, BINS // 2)) if finite.size else np.zeros(0)
+            edges = np.unique(np.r_[even, dense, np.finfo(np.float64).max])
+        self._edges = np.r_[edges, np.inf]
+        self._counts = np.zeros(len(self._edges) - 1, dtype=np.int64)
         self._parts = []
         self._count(seen)
 
     def _count(self, values: Array) -> None:
         assert self._edges is not None
         assert self._counts is not None
-        low, high = self._edges[0], self._edges[-2]
-        finite = values[np.isfinite(values)]
-        place = ((finite - low) * ((BINS - 1) / (high - low))).astype(np.int64)
-        self._counts += np.bincount(place.clip(0, BINS - 1), minlength=BINS)
-        self._counts[-1] += len(values) - len(finite)
+        last = len(self._counts) - 1
+        if self._bound is not None:  # even bins need no search
+            place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
+        else:
+            place = np.searchsorted(self._edges, values, side="right") - 1
+        self._counts += np.bincount(place.clip(0, last), minlength=last + 1)
 
     def finish(self) -> Distribution:
         """The distribution of everything added."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,7 +38,9 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
     """One (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
     from scipy.spatial.transform import Rotation
 
-    return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # at pitch +-90 degrees any one of the triples is fine
+        return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
 
 
 @dataclass(frozen=True)
@@ -87,7 +90,10 @@ class Region:
             ("rpy_center", rpy_center, False),
             ("rpy_size", rpy_size, True),
         ):
-            a = np.asarray(value, dtype=np.float64)
+            try:
+                a = np.asarray(value, dtype=np.float64)
+            except (TypeError, ValueError):
+                a = np.zeros(0)
             if scalar and a.ndim == 0:
                 a = np.full(3, float(a))
             if a.shape != (3,) or not np.isfinite(a).all():
@@ -105,7 +111,10 @@ class Region:
         Raises:
             InputError: Limits that are infinite, upside down or of different length.
         """
-        low, high = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
+        try:
+            low, high = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError("region of joints: lower and upper must be lists of numbers") from error
         if low.ndim != 1 or low.shape != high.shape:
             raise InputError(f"region of joints: lower has shape {low.shape} and upper {high.shape}; both must be (n,)")
         if not (np.isfinite(low).all() and np.isfinite(high).all()):
@@ -127,6 +136,8 @@ class Region:
         low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
         high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
         middle = (low + high) / 2 if q is None else arm.check_configurations(q)
+        if middle.ndim != 1 or not np.isfinite(middle).all():
+            raise InputError(f"q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
         pose = arm.forward_kinematics(middle)
         reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
         edge = share * max(reach, 1e-3)
@@ -189,6 +200,8 @@ class Region:
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Region:
         """The region :meth:`to_dict` wrote."""
+        if data["kind"] not in ("box", "joints"):
+            raise InputError(f"region: kind '{data['kind']}' is not known; use box or joints")
         return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"])
 
     @classmethod

@@ -86,7 +86,9 @@ class _RegionFile(_Strict):
 
 def _first(error: ValidationError) -> str:
     entry = error.errors()[0]
-    place = _place(entry["loc"])
+    place = _place([x for x in entry["loc"] if x not in ("float", "tuple[float, float, float]")])
+    if entry["loc"][-1:] == ("float",) and isinstance(entry.get("input"), (list, tuple)):
+        return f"{place}: must be one number or 3, got {entry['input']!r}"
     if entry["type"] == "extra_forbidden":
         known = _known_keys(entry["loc"][:-1])
         return f"key '{place}' is not known; keys there are {', '.join(known)}"

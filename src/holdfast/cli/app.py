@@ -54,13 +54,19 @@ def main() -> None:
     except TyperException as error:  # an unknown command or option, a missing argument
         context = getattr(error, "ctx", None)
         hint = f" (see '{context.command_path} --help')" if context is not None else ""
-        _fail(getattr(error, "format_message", error.__str__)().rstrip(".") + hint)
+        message = getattr(error, "format_message", error.__str__)().rstrip(".")
+        if not message:  # no arguments: the help was shown
+            sys.exit(2)
+        _fail(message + hint)
     except (KeyboardInterrupt, typer.Abort):
         typer.echo("holdfast: stopped", err=True)
         sys.exit(130)
-    except BrokenPipeError:  # the reader, for example head, has seen enough
-        sys.stderr.close()
+    except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
         sys.exit(0)
+    except OSError as error:
+        _fail(f"cannot write the output: {error.strerror or error}")
+    if code == 130:
+        typer.echo("holdfast: stopped", err=True)
     sys.exit(code if isinstance(code, int) else 0)
 
 

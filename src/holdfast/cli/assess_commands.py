@@ -67,6 +67,8 @@ def assess(
     from holdfast.indices import by_name
     from holdfast.kernels import set_threads
 
+    if any(x != x for x in at_least or []):
+        raise InputError("--at-least is nan; give a number")
     if threads is not None:
         set_threads(threads)
     model = read_arm(arm, base, tip)
@@ -187,8 +189,8 @@ def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]
         "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True))
         if reached
         else None,
-        "band_95": d.band(),
-        "probability": [_probability(result, h) for h in _thresholds(result, at_least)],
+        "band_95": d.band() if d.samples else None,
+        "probability": [_probability(result, h) for h in _thresholds(result, at_least)] if d.samples else [],
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
         "seconds": result.seconds,
     }

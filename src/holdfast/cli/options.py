@@ -88,7 +88,7 @@ def read_joint(arm: Arm, text: str) -> int:
     text = text.strip()
     if text in arm.joint_names:
         return arm.joint_index(text)
-    if text.isdigit():
+    if text.isdecimal():
         if 1 <= int(text) <= arm.n:
             return int(text) - 1
         raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
@@ -101,7 +101,7 @@ def read_failures(arm: Arm, text: str) -> FailureSpec:
     if text in ("single", "pairs"):
         return text
     # A lone number could be a joint or how many: it is how many, as --help says.
-    if text.isdigit():
+    if text.isdecimal():
         return int(text)
     return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]
 

@@ -11,7 +11,7 @@ import json
 import os
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -92,7 +92,14 @@ class Store:
                     f"'{folder}' holds another run: {_difference(old, plan, store._run, rows, chunk)}; "
                     "give another folder, or the same options to go on with it"
                 )
+            if not store.done:  # perhaps stopped while it was being made
+                try:
+                    store._make_arrays(columns)
+                except OSError as error:
+                    raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
             return store
+        if folder.exists() and not folder.is_dir():
+            raise StoreError(f"'{folder}' is a file; give a folder")
         if folder.exists() and any(folder.iterdir()):
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast run; give a new or empty folder")
         run = {
@@ -108,8 +115,8 @@ class Store:
         store = cls(folder, run)
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            store._commit()  # first, so that a stop before the arrays are there does not make the folder foreign
             store._make_arrays(columns)
-            store._commit()
         except OSError as error:
             raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
         return store
@@ -127,7 +134,7 @@ class Store:
             raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN}; give the folder that --out named")
         try:
             run = json.loads(file.read_text())
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise StoreError(
                 f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder"
             ) from error
@@ -135,6 +142,9 @@ class Store:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a holdfast run")
         if run.get("version") != _VERSION:
             raise StoreError(f"'{folder}' was written in format {run.get('version')}; this holdfast reads format {_VERSION}")
+        wrong = _wrong(run)
+        if wrong:
+            raise StoreError(f"'{file}' is damaged: its {wrong} is missing or wrong; start the run again in a new folder")
         return cls(folder, run)
 
     @contextmanager
@@ -214,8 +224,12 @@ class Store:
         start, stop = self.chunks[chunk]
         try:
             group = zarr.open_group(self.path / _SAMPLES, mode="r+")
+            arrays = {name: group[name] for name in columns}
+        except (OSError, KeyError, ValueError) as error:
+            raise self._damaged(error) from error
+        try:
             for name, values in columns.items():
-                group[name][start:stop] = values
+                arrays[name][start:stop] = values
             self._run["done"] = sorted({*self.done, chunk})
             self._commit()
         except OSError as error:
@@ -227,10 +241,31 @@ class Store:
     def note(self, **facts: Any) -> None:
         """Add facts about how the run went."""
         self._run["notes"].update(facts)
-        self._commit()
+        try:
+            self._commit()
+        except OSError as error:
+            raise StoreError(
+                f"cannot write to '{self.path}': {error.strerror or error}; "
+                "the rows are safe: make room and run the same command again"
+            ) from error
+
+    def read(self, chunk: int, names: Sequence[str]) -> dict[str, NDArray[Any]]:
+        """Columns of one chunk, and nothing else in memory.
+
+        Raises:
+            StoreError: An array is missing or damaged.
+        """
+        import zarr
+
+        start, stop = self.chunks[chunk]
+        try:
+            group = zarr.open_group(self.path / _SAMPLES, mode="r")
+            return {name: np.asarray(group[name][start:stop]) for name in names}
+        except Exception as error:  # zarr raises many kinds for damaged files
+            raise self._damaged(error) from error
 
     def dataset(self) -> xr.Dataset:
-        """All rows with names, units and attributes; rows not computed yet hold fill values.
+        """All rows with names, units and attributes, read when they are used; rows not computed yet hold fill values.
 
         Raises:
             StoreError: The arrays are missing or damaged.
@@ -240,12 +275,14 @@ class Store:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", category=UserWarning)
-                data = xr.open_zarr(self.path / _SAMPLES, consolidated=False, mask_and_scale=False, chunks=None)
-                data = data.load()
+                data: xr.Dataset = xr.open_zarr(self.path / _SAMPLES, consolidated=False, mask_and_scale=False, chunks=None)
         except Exception as error:  # zarr and xarray raise many kinds for damaged files
-            raise StoreError(f"'{self.path / _SAMPLES}' is damaged ({error}); start the run again in a new folder") from error
-        dataset: xr.Dataset = data
-        return dataset
+            raise self._damaged(error) from error
+        return data
+
+    def _damaged(self, error: Exception) -> StoreError:
+        reason = str(error) or type(error).__name__
+        return StoreError(f"'{self.path / _SAMPLES}' is damaged ({reason}); start the run again in a new folder")
 
     # ---- files -----------------------------------------------------------------------------------------------------
 
@@ -262,6 +299,7 @@ class Store:
                 chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
                 dtype=c.dtype,
                 fill_value=c.fill,
+                compressors=zarr.codecs.ZstdCodec(checksum=True),
                 dimension_names=["row", *[d for d, _ in c.dims]],
             )
             array.attrs.update({"units": c.units, "long_name": c.about})
@@ -275,9 +313,20 @@ class Store:
                 os.fsync(file.fileno())
             Path(temporary).chmod(0o644)  # mkstemp makes private files; results are for sharing
             Path(temporary).replace(self.path / _RUN)
-        except OSError:
+        except BaseException:
             Path(temporary).unlink(missing_ok=True)
             raise
+
+
+def _wrong(run: Mapping[str, Any]) -> str | None:
+    """The first entry of run.json that is missing or cannot be."""
+    for key, kind in (("plan", dict), ("notes", dict), ("rows", int), ("chunk", int), ("done", list)):
+        if not isinstance(run.get(key), kind):
+            return key
+    if run["rows"] < 0 or run["chunk"] < 1:
+        return "rows" if run["rows"] < 0 else "chunk"
+    count = -(-run["rows"] // run["chunk"])
+    return None if all(isinstance(k, int) and 0 <= k < count for k in run["done"]) else "done"
 
 
 def _difference(old: Mapping[str, Any], new: Mapping[str, Any], run: Mapping[str, Any], rows: int, chunk: int) -> str:
