@@ -67,7 +67,7 @@ def test_forward_kinematics_is_the_textbook_product(
         "rows": [{**row, "alpha": row["alpha"] * unit, "theta": row["theta"] * unit} for row in rows],
         "convention": convention,
         "angles": angles,
-        "base": {"xyz": xyz.tolist(), "rpy": (rpy * unit).tolist()},
+        "base": {"xyz": xyz.tolist(), "urdf_rpy": (rpy * unit).tolist()},
         "tool": tool.tolist(),
     }
     arm = table.load(write(tmp_path_factory.mktemp("table"), content))
@@ -179,7 +179,7 @@ REFUSED = [
     ("rows: [{a: 1, alpha: 0, a: 2}]", "line 1: the key 'a' is given twice; give it once"),
     (
         f"rows: [{ROW}]\nbase: {{pos: [0, 0, 0]}}",
-        "base.pos: the key 'pos' is not known; the keys here are xyz, rpy",
+        "base.pos: the key 'pos' is not known; the keys here are xyz, urdf_rpy",
     ),
     (f"rows: [{ROW}]\nbase: {{xyz: [0, 0]}}", "base.xyz: it has 2 entries; it must have 3"),
     (f"rows: [{ROW}]\ntool: [[1, 0, 0, 0]]", "tool: it has 1 entries; it must have 4"),

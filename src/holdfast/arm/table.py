@@ -4,12 +4,12 @@ An example with every key; only ``rows``, and ``a`` and ``alpha`` in each row, m
 
     name: my arm              # default: the file's name
     convention: standard      # or modified; see holdfast.arm.dh.DH
-    angles: deg               # unit of alpha, theta, rpy and of revolute limits and velocities; default rad
+    angles: deg               # unit of alpha, theta, urdf_rpy and of revolute limits and velocities; default rad
     rows:
       - {a: 0, alpha: -90, d: 0.3, lower: -170, upper: 170, name: shoulder, velocity: 90, effort: 120}
       - {a: 0.5, alpha: 0, theta: 90, friction: 0.1, armature: 0.02}     # no lower and upper: no limits
       - {a: 0, alpha: 0, type: prismatic, lower: 0, upper: 0.4}          # metres, whatever the angles are in
-    base: {xyz: [0, 0, 0.8], rpy: [0, 0, 180]}   # pose of the arm's base in the world; R = Rz(yaw) Ry(pitch) Rx(roll)
+    base: {xyz: [0, 0, 0.8], urdf_rpy: [0, 0, 180]}   # in the world; roll, pitch, yaw as URDF: Rz(yaw) Ry(pitch) Rx(roll)
     tool:                                        # pose of the tool in the last row's frame; either form serves for both
       - [1, 0, 0, 0]
       - [0, 1, 0, 0]
@@ -115,10 +115,10 @@ class _Body(_Strict):
 
 class _Placement(_Strict):
     xyz: Three = [0.0, 0.0, 0.0]
-    rpy: Three = [0.0, 0.0, 0.0]
+    urdf_rpy: Three = [0.0, 0.0, 0.0]
 
 
-TAGS = ("as rows", "as xyz and rpy")
+TAGS = ("as rows", "as xyz and urdf_rpy")
 _Pose = Annotated[
     Annotated[list[Four], Field(min_length=4, max_length=4), Tag(TAGS[0])] | Annotated[_Placement, Tag(TAGS[1])],
     Discriminator(lambda value: TAGS[0] if isinstance(value, list) else TAGS[1]),
@@ -231,5 +231,5 @@ def _pose(pose: list[list[float]] | _Placement | None, unit: float) -> Array | N
     if not isinstance(pose, _Placement):
         return None if pose is None else np.array(pose)
     out = np.eye(4)
-    out[:3, :3], out[:3, 3] = rpy_rotation([angle * unit for angle in pose.rpy]), pose.xyz
+    out[:3, :3], out[:3, 3] = rpy_rotation([angle * unit for angle in pose.urdf_rpy]), pose.xyz
     return out

@@ -134,22 +134,26 @@ class Assessment:
             store.note(**_provenance(self.seconds))
         return target
 
-    def report(self, path: str | Path) -> Path:
+    def report(self, path: str | Path, threshold: float | None = None) -> Path:
         """Write a self-contained HTML report.
+
+        Args:
+            path: The file, replaced in one step.
+            threshold: Value of the index that the task needs; half of the bound, or the median, if not given.
 
         Raises:
             StoreError: The file cannot be written.
         """
         from holdfast.assess.report import write
 
-        return write(self, Path(path))
+        return write(self, Path(path), threshold)
 
 
 def assess(
     arm: Arm,
     region: Region,
     index: Index | str = "relative-manipulability",
-    poses: int = 1000,
+    poses: int = 2000,
     seed: int = 0,
     sampling: Sampling = "random",
     restarts: int = 100,

@@ -145,7 +145,7 @@ class Distribution:
         if (at_least is None) == (at_most is None):
             raise InputError("give exactly one of at_least and at_most")
         _check_confidence(confidence)
-        if np.isnan(at_least if at_least is not None else at_most):
+        if any(h is not None and np.isnan(h) for h in (at_least, at_most)):
             raise InputError("a threshold is NaN; give a number")
         size = self._size(reachable_only)
         if at_least is not None:

@@ -219,7 +219,7 @@ class Region:
         """One sentence for people, degrees and metres."""
         if self.kind == "joints":
             return f"configurations uniform in a box of {len(self.center)} joints"
-        c, s = np.array(self.center), np.array(self.size)
+        c, s = np.round(self.center, 12), np.round(self.size, 12)
         return (
             f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
             "roll, pitch, yaw in "

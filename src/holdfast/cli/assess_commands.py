@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -67,8 +68,7 @@ def assess(
     from holdfast.indices import by_name
     from holdfast.kernels import set_threads
 
-    if any(x != x for x in at_least or []):
-        raise InputError("--at-least is nan; give a number")
+    check_thresholds(at_least)
     if threads is not None:
         set_threads(threads)
     model = read_arm(arm, base, tip)
@@ -92,7 +92,7 @@ def assess(
             store=out,
             progress=progress,
         )
-    page = None if out is None else result.report(out / "report.html")
+    page = None if out is None else result.report(out / "report.html", at_least[0] if at_least else None)
     if json_:
         print_json({**_summary(result, at_least), "report": None if page is None else str(page)})
     else:
@@ -106,6 +106,7 @@ def report(
         Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)
     ],
     to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.")] = None,
     json_: JsonOption = False,
 ) -> None:
     """Write the report of a results folder again, also of a run that was stopped.
@@ -114,13 +115,20 @@ def report(
     """
     from holdfast.assess import load
 
+    check_thresholds(at_least)
     result = load(folder)
-    page = result.report(to or folder / "report.html")
+    page = result.report(to or folder / "report.html", at_least[0] if at_least else None)
     if json_:
-        print_json({**_summary(result, None), "report": str(page)})
+        print_json({**_summary(result, at_least), "report": str(page)})
     else:
-        _print(result, None)
+        _print(result, at_least)
         typer.echo(f"report: {page}")
+
+
+def check_thresholds(at_least: list[float] | None) -> None:
+    """Refuse --at-least nan before any work is done."""
+    if any(math.isnan(x) for x in at_least or []):
+        raise InputError("--at-least is nan; give a number")
 
 
 def read_region(path: Path | None, spec: str, arm: Arm) -> Region:

@@ -26,9 +26,13 @@ class CustomIndex(Index):
     """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
 
     Args:
-        formula: Takes the reduced task Jacobian, CasADi ``SX`` (m, n - |S|), returns a scalar ``SX``.
-        arm, task, failures, length: As for every index.
-        name, unit: For people and files.
+        formula: Takes the reduced task Jacobian, CasADi ``SX`` ``(m, n - |S|)``, returns a scalar ``SX``.
+        arm: The arm.
+        task: As for every index.
+        failures: As for every index.
+        length: As for every index.
+        name: For people and files.
+        unit: Of the value.
         better: ``"larger"`` or ``"smaller"``.
         bound: The best value possible, if known.
 

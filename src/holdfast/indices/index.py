@@ -124,7 +124,7 @@ class Index(ABC):
         return self.evaluate(q).by_failure
 
     def worst_failure(self, q: ArrayLike) -> NDArray[np.int64]:
-        """Position in :attr:`failures` of the worst one, (N,) or a scalar."""
+        """Position in ``failures`` of the worst one, (N,) or a scalar."""
         return self.evaluate(q).worst
 
     def worst_joint(self, q: ArrayLike) -> NDArray[np.int64]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from math import comb
 
 import casadi as ca
 import numpy as np
@@ -46,10 +47,11 @@ class RelativeManipulability(Index):
         length: float | None = None,
     ) -> None:
         super().__init__("relative manipulability", arm, task, failures, length)
-        sizes = {len(s) for s in self.failures}
-        if len(self.failures) == arm.n and sizes == {1}:
-            # The squares sum to n - m, so the smallest is at most their mean.
-            self.bound = float(np.sqrt((arm.n - self.task.m) / arm.n))
+        size = len(self.failures[0])
+        every = comb(arm.n, size)
+        if len(self.failures) == every and all(len(s) == size for s in self.failures):
+            # The squares over all sets of s joints sum to C(n - m, s) (Cauchy-Binet), so the smallest is at most their mean.
+            self.bound = float(np.sqrt(comb(arm.n - self.task.m, size) / every))
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
@@ -214,7 +216,9 @@ class Manipulability(RelativeManipulability):
         self.bound = None
         # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
         self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
-        self.unit = "1" if self.task.length != 1.0 else ("m^3" if self.task.invariant else "m, rad mixed")
+        linear = int(np.linalg.matrix_rank(self.task.rows[:, :3]))
+        # For an arm of revolute joints: each linear row brings one length.
+        self.unit = "1" if linear == 0 or self.task.length != 1.0 else ("m" if linear == 1 else f"m^{linear}")
 
     def _scale(self, qr: HouseholderQR) -> SX:
         return qr.volume() * self._rows_scale

@@ -74,7 +74,9 @@ class SpectralIndex(Index):
         self.formula, self.source = formula, source
         self.better = "smaller" if formula == "condition number" else "larger"
         if formula != "condition number":
-            self.unit = "m/rad, rad/rad mixed" if self.task.length == 1.0 and self.task.angular else "1"
+            linear = bool(np.abs(self.task.rows[:, :3]).max() > 0)
+            if linear and self.task.length == 1.0:
+                self.unit = "m/rad, rad/rad mixed" if self.task.angular else "m/rad"
         self._kept = np.array([[float(k not in s) for k in range(arm.n)] for s in self.failures])  # (F, n)
 
     @cached_property
