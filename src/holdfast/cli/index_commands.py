@@ -24,6 +24,7 @@ from holdfast.cli.options import (
     read_failures,
     read_task,
 )
+from holdfast.status import Status
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -66,7 +67,7 @@ def index(
 
 def _evaluate(measure: Index, q: NDArray[np.float64]) -> dict[str, Any]:
     result = measure.evaluate(q)
-    singular = bool(measure.singular(q))
+    singular = bool(result.status == Status.SINGULAR)
     names = measure.failure_names
     return {
         "arm": measure.arm.name,

@@ -164,34 +164,35 @@ class RelativeManipulability(Index):
     def __call__(self, q: ArrayLike) -> Array:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
         rows, single = self._rows(q)
-        value = self._worst_kernel.rows(rows)[:, 0]
-        if np.isnan(np.add.reduce(value)):
+        values, marked = self._worst_kernel.marked_rows(rows)
+        value = values[:, 0]
+        if marked:
             again = np.flatnonzero(np.isnan(value))
             value[again] = super().evaluate(rows[again]).value
         return value[0] if single else value
 
     def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
-        values = self._values_kernel.rows(q)
-        again, singular = self._second_look(q, values)
+        values, marked = self._values_kernel.marked_rows(q)
+        again, singular = self._second_look(q, values, marked)
         if again.size:
             values[again] = self._plain_values_kernel.rows(q[again])
             values[singular] = 0.0
         return values, singular
 
     def _gradient(self, q: Array) -> Array:
-        g = self._gradient_kernel.rows(q)
-        again, singular = self._second_look(q, g)
+        g, marked = self._gradient_kernel.marked_rows(q)
+        again, singular = self._second_look(q, g, marked)
         if again.size:
             g[again] = self._plain_gradient_kernel.rows(q[again])
             g[singular] = 0.0
         return g
 
-    def _second_look(self, q: Array, marked: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def _second_look(self, q: Array, out: Array, marked: bool) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """Rows that a kernel marked with NaN although q is finite, and which rows are singular."""
         singular = np.zeros(len(q), dtype=bool)
         again = np.zeros(0, dtype=np.int64)
-        if np.isnan(np.add.reduce(marked[:, 0])):
-            again = np.flatnonzero(np.isnan(marked[:, 0]) & np.isfinite(q).all(axis=1))
+        if marked:
+            again = np.flatnonzero(np.isnan(out[:, 0]) & np.isfinite(q).all(axis=1))
             singular[again] = self._is_singular(q[again])
         return again, singular
 

@@ -18,7 +18,7 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 
 Array = NDArray[np.float64]
 
-_SCRATCH_BYTES = 1 << 19  # inputs and outputs of one chunk stay in the second-level cache
+_SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
 BACKENDS = ("heyoka", "casadi")
 
 
@@ -88,7 +88,7 @@ class Kernel:
         """
         arrays, rows = self._read(inputs)
         single = rows is None
-        out = self._evaluate(arrays, rows)
+        out, _ = self._evaluate(arrays, rows)
         count = len(out)
         results, at = [], 0
         for dims, shape in zip(self._out_dims, self.program.output_shapes, strict=True):
@@ -102,22 +102,27 @@ class Kernel:
 
     def rows(self, *inputs: ArrayLike) -> Array:
         """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row."""
+        return self._evaluate(*self._read(inputs))[0]
+
+    def marked_rows(self, *inputs: ArrayLike) -> tuple[Array, bool]:
+        """As :meth:`rows`, and whether any row has NaN in its first output: looked up while the chunk is in the cache."""
         return self._evaluate(*self._read(inputs))
 
-    def _evaluate(self, arrays: list[Array], rows: int | None) -> Array:
+    def _evaluate(self, arrays: list[Array], rows: int | None) -> tuple[Array, bool]:
         count = 1 if rows is None else rows
         out = np.empty((count, self.program.n_out))
+        marks: list[bool] = []
         starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
 
         def work(_: int) -> None:
             for start in starts:
-                self._run(arrays, out, start, min(start + self._chunk, count))
+                marks.append(self._run(arrays, out, start, min(start + self._chunk, count)))
 
         if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
             work(0)
         else:
             list(pool().map(work, range(thread_count())))
-        return out
+        return out, any(marks)
 
     def _read(self, inputs: Sequence[ArrayLike]) -> tuple[list[Array], int | None]:
         if len(inputs) != len(self._in_dims):
@@ -159,7 +164,7 @@ class Kernel:
             made[width] = (np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width)))
         return made[width]
 
-    def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> None:
+    def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> bool:
         used = stop - start
         # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
         width = self.lanes
@@ -174,6 +179,7 @@ class Kernel:
         scratch_in[:, used:] = scratch_in[:, used - 1 : used]
         self.evaluate_columns(scratch_in, scratch_out)
         out[start:stop] = scratch_out[:, :used].T
+        return bool(np.isnan(np.add.reduce(scratch_out[0, :used])))
 
     def __repr__(self) -> str:
         p = self.program
