@@ -179,7 +179,7 @@ class Kernel:
         scratch_in[:, used:] = scratch_in[:, used - 1 : used]
         self.evaluate_columns(scratch_in, scratch_out)
         out[start:stop] = scratch_out[:, :used].T
-        return bool(np.isnan(np.add.reduce(scratch_out[0, :used])))
+        return bool(np.isnan(scratch_out[0, :used]).any())
 
     def __repr__(self) -> str:
         p = self.program
