@@ -6,7 +6,7 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Region, assess, load
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.kernels import set_threads
-from holdfast.solve import Reach, solve_ik
+from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
 __version__ = "0.1.0"
@@ -21,6 +21,7 @@ __all__ = [
     "Joint",
     "KernelError",
     "Link",
+    "Optimum",
     "Reach",
     "Region",
     "Status",
@@ -32,6 +33,7 @@ __all__ = [
     "assess",
     "indices",
     "load",
+    "optimise",
     "set_threads",
     "solve_ik",
 ]

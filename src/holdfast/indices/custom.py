@@ -17,6 +17,7 @@ from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
 from holdfast.kernels import SX, Kernel
+from holdfast.linalg import HouseholderQR
 
 Array = NDArray[np.float64]
 Formula = Callable[[SX], SX]
@@ -81,6 +82,14 @@ class CustomIndex(Index):
         for value in values[1:]:
             worst = ca.if_else(value < worst if self.better == "larger" else value > worst, value, worst)
         return Kernel(f"{self.name} gradient", [q], [ca.gradient(worst, q)])
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """The formula for every failure, negated if smaller is better, and its derivatives; see :meth:`Index.scores`."""
+        symbols, formulas = self._symbols()
+        sign = 1.0 if self.better == "larger" else -1.0
+        values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * x for x in formulas]), symbols, q))
+        slopes = [ca.vertsplit(ca.densify(ca.jtimes(ca.vertcat(*values), q, v))) for v in directions]
+        return values, [list(row) for row in zip(*slopes, strict=True)]
 
     def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
         values = self._values_kernel.rows(q)

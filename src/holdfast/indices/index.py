@@ -16,7 +16,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
-from holdfast.kernels import Kernel
+from holdfast.kernels import SX, Kernel
+from holdfast.linalg import HouseholderQR
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -153,6 +154,23 @@ class Index(ABC):
         finite: NDArray[np.bool_] = np.asarray(np.isfinite(rows).all(axis=1))
         result = self._is_singular(np.where(finite[:, None], rows, 0.0)) & finite
         return result[0] if single else result
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """Smooth functions of q whose smallest is largest where the index is best, one per failure: for optimisation.
+
+        Args:
+            q: (n,) symbols.
+            j: The Jacobian that was factored.
+            qr: Its factorisation.
+            directions: (n,) each, a basis of the null space of J.
+
+        Returns:
+            F scores, and their derivatives along each direction, F lists.
+
+        Raises:
+            TaskError: The index is not one symbolic program.
+        """
+        raise TaskError(f"{self.name} cannot be optimised yet; use relative manipulability, manipulability or a CustomIndex")
 
     # ---- shared machinery --------------------------------------------------------------------------------------
 

@@ -139,6 +139,35 @@ class RelativeManipulability(Index):
         slope = ca.if_else(rho > _FLAT, 1 / rho, 0.0)
         return -ca.vertcat(*a) @ (ca.horzcat(*p) * slope)
 
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """``rho^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
+        if any(len(s) != 1 for s in self.failures):
+            values = self._squares(qr)
+            slopes = [ca.vertsplit(ca.densify(ca.jtimes(ca.vertcat(*values), q, v))) for v in directions]
+            return values, [list(row) for row in zip(*slopes, strict=True)]
+        values, slopes_by_joint, _ = self._squares_and_slopes(q, j, qr, directions)
+        return values, slopes_by_joint
+
+    def _squares_and_slopes(
+        self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]
+    ) -> tuple[list[SX], list[list[SX]], list[SX]]:
+        """``rho_k^2`` and ``d rho_k^2 = -2 a_k' dJ P e_k`` along each direction, and ``tr(J^+ dJ)`` for each direction."""
+        n, m = self.arm.n, self.task.m
+        rows = qr.null_rows()
+        projector = [[dot(rows[max(i, k)], rows[min(i, k)]) for k in range(n)] for i in range(n)]
+        a = [qr.pinv_transposed(qr.q_transposed([ca.SX(float(i == k)) for i in range(n)])) for k in range(n)]
+        failed = [s[0] for s in self.failures]
+        slopes: list[list[SX]] = [[] for _ in failed]
+        traces = []
+        dense = ca.vec(ca.densify(j))
+        for v in directions:
+            change = ca.reshape(ca.jtimes(dense, q, v), m, n)
+            for slot, k in enumerate(failed):
+                column = [dot([change[i, c] for c in range(n)], projector[k]) for i in range(m)]
+                slopes[slot].append(-2 * dot(a[k], column))
+            traces.append(ca.trace(ca.horzcat(*[ca.vertcat(*x) for x in a]).T @ change))
+        return [projector[k][k] for k in failed], slopes, traces
+
     # ---- kernels -----------------------------------------------------------------------------------------------
 
     @cached_property
@@ -223,6 +252,20 @@ class Manipulability(RelativeManipulability):
 
     def _scale(self, qr: HouseholderQR) -> SX:
         return qr.volume() * self._rows_scale
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """``kr^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
+        if any(len(s) != 1 for s in self.failures):
+            volume = self._scale(qr) ** 2
+            values = [volume * x for x in self._squares(qr)]
+            by_direction = [ca.vertsplit(ca.densify(ca.jtimes(ca.vertcat(*values), q, v))) for v in directions]
+            return values, [list(row) for row in zip(*by_direction, strict=True)]
+        squares, slopes, traces = self._squares_and_slopes(q, j, qr, directions)
+        volume = qr.squared_volume() * self._rows_scale**2  # D^2, with d(D^2) = 2 D^2 tr(J^+ dJ)
+        values = [volume * x for x in squares]
+        return values, [
+            [volume * (s + 2 * x * t) for s, t in zip(row, traces, strict=True)] for x, row in zip(squares, slopes, strict=True)
+        ]
 
     def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
         # kr = rho D with dD/dJ = D (J^+)'

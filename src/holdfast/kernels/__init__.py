@@ -3,7 +3,7 @@
 from holdfast.kernels.kernel import BACKENDS, Kernel, default_backend
 from holdfast.kernels.loop import Loop, LoopResult
 from holdfast.kernels.program import SX, Program
-from holdfast.kernels.threads import pool, set_threads, thread_count
+from holdfast.kernels.threads import in_pool, pool, set_threads, thread_count
 
 __all__ = [
     "BACKENDS",
@@ -13,6 +13,7 @@ __all__ = [
     "LoopResult",
     "Program",
     "default_backend",
+    "in_pool",
     "pool",
     "set_threads",
     "thread_count",

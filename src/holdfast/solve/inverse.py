@@ -100,6 +100,23 @@ def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) 
     return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
 
 
+def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
+    """Error (m,) of the task's rows in metres and radians, and their Jacobian (m, n).
+
+    Whatever the characteristic length of the indices, errors of poses are in metres.
+    """
+    chain = kinematics.chain(arm, q)
+    free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
+    error = (pointing_error if free_spin else pose_error)(chain.position, chain.rotation, target, target_rotation)
+    full = kinematics.jacobian_of(arm, chain, chain.position)
+    j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
+    return task.error(error, chain.rotation), j
+
+
+def _parameters(poses: Array) -> Array:
+    return np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
+
+
 class InverseKinematics:
     """The compiled solver of one arm and task.
 
@@ -111,19 +128,12 @@ class InverseKinematics:
         self.arm, self.task = arm, task
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        chain = kinematics.chain(arm, q)
-        free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
-        error = (pointing_error if free_spin else pose_error)(chain.position, chain.rotation, p, r)
-        e = task.error(error, chain.rotation)
-        # Errors are in metres and radians whatever the characteristic length of the indices.
-        full = kinematics.jacobian_of(arm, chain, chain.position)
-        j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
+        e, j = task_error(arm, task, q, p, r)
         step, residual = _damped_step(arm, q, e, j)
         self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
-        linear = ca.SX(ca.DM(task.rows * np.r_[1, 1, 1, 0, 0, 0]))
-        angular = ca.SX(ca.DM(task.rows * np.r_[0, 0, 0, 1, 1, 1]))
-        twist = error if task.frame == "base" else ca.vertcat(chain.rotation.T @ error[:3], chain.rotation.T @ error[3:])
-        self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(linear @ twist), ca.norm_2(angular @ twist))])
+        # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
+        back = ca.SX(ca.DM(task.rows)).T @ e
+        self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
         bounded = np.where(arm.prismatic, 1.0, _FREE_RANGE)
         self._low = np.where(np.isfinite(arm.lower), arm.lower, -bounded)
         self._high = np.where(np.isfinite(arm.upper), arm.upper, bounded)
@@ -131,6 +141,22 @@ class InverseKinematics:
     def starts(self, rows: int, generator: np.random.Generator) -> Array:
         """Random configurations (rows, n), uniform within the limits."""
         return generator.uniform(self._low, self._high, (rows, self.arm.n))
+
+    def attempt(self, q: Array, poses: Array, tolerance: float) -> tuple[Array, NDArray[np.bool_]]:
+        """One start q (N, n) for each pose: where it led, and whether that is on the pose and within the limits."""
+        run = self._loop.run(q, _parameters(poses), tolerance**2, STEPS)
+        return run.state, self.verdict(run.state, poses, tolerance)
+
+    def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
+        """(N,) True where q is on the pose and within the limits."""
+        position_error, rotation_error = self.errors(q, poses)
+        inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
+        return np.asarray(inside & (position_error <= tolerance) & (rotation_error <= tolerance))
+
+    def errors(self, q: Array, poses: Array) -> tuple[Array, Array]:
+        """Position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is."""
+        errors = self._errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
+        return errors[:, 0], errors[:, 1]
 
     def solve(
         self, poses: Array, seed: np.random.SeedSequence, restarts: int, tolerance: float, first: Array | None = None
@@ -140,7 +166,7 @@ class InverseKinematics:
         Start k of pose i is row i of a draw from child k of ``seed``, so it does not depend on which poses are left.
         """
         rows = len(poses)
-        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(rows, 9)], axis=1)
+        parameters = _parameters(poses)
         finite = np.isfinite(parameters).all(axis=1)
         q = np.full((rows, self.arm.n), np.nan)
         residual = np.full(rows, np.inf)
@@ -158,14 +184,9 @@ class InverseKinematics:
             residual[left[better]] = run.residual[better]
             left = left[~run.done]
         q = self._wrapped(q)
-        position_error, rotation_error = np.full(rows, np.nan), np.full(rows, np.nan)
-        known = np.flatnonzero(np.isfinite(q).all(axis=1))
-        errors = self._errors.rows(q[known], poses[known, :3, 3], poses[known, :3, :3])
-        position_error[known], rotation_error[known] = errors[:, 0], errors[:, 1]
         # The verdict comes from the configuration handed out, not from the solver's own residual.
-        inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
-        good = inside & (position_error <= tolerance) & (rotation_error <= tolerance)
-        status = np.where(good, Status.OK, Status.NOT_FOUND).astype(np.uint8)
+        position_error, rotation_error = self.errors(q, poses)
+        status = np.where(self.verdict(q, poses, tolerance), Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(q, status, position_error, rotation_error, used)
 
