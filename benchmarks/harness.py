@@ -22,7 +22,7 @@ import numpy as np
 Array = np.ndarray
 Function = Callable[[Array], Array]
 
-PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "heyoka", "jax", "pin", "roboticstoolbox-python")
+PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "heyoka", "jax", "pin", "roboticstoolbox-python", "pytracik")
 
 
 class MissingError(Exception):
@@ -176,9 +176,11 @@ def progress(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
-def options(description: str | None, rounds: int = 5) -> argparse.Namespace:
-    """``--rounds`` and ``--quick``, the same for every workload."""
-    parser = argparse.ArgumentParser(description=description)
+def options(
+    description: str | None, rounds: int = 5, parents: Sequence[argparse.ArgumentParser] = ()
+) -> argparse.Namespace:
+    """``--rounds`` and ``--quick``, the same for every workload, and what ``parents`` add."""
+    parser = argparse.ArgumentParser(description=description, parents=list(parents))
     parser.add_argument("--rounds", type=int, default=rounds, help="rounds of candidate and peer (default %(default)s)")
     parser.add_argument("--quick", action="store_true", help="one round on small batches: does it run, not how fast")
     chosen = parser.parse_args()

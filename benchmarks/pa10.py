@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import islice
+from pathlib import Path
+
 import numpy as np
 
 Array = np.ndarray
@@ -46,6 +49,11 @@ def link_transform(i: int, angle: Array) -> Array:
 
 def jacobian(q: Array) -> Array:
     """(N, 6, 9) geometric Jacobian at the tool in the base frame, linear rows first; q may be complex."""
+    return forward(q)[1]
+
+
+def forward(q: Array) -> tuple[Array, Array]:
+    """Poses of the tool (N, 4, 4) in the base frame, and its geometric Jacobian."""
     frame = np.broadcast_to(np.eye(4, dtype=q.dtype), (len(q), 4, 4))
     axes, origins = [], []
     for i in range(N):
@@ -54,7 +62,34 @@ def jacobian(q: Array) -> Array:
         frame = frame @ link_transform(i, q[:, i])
     z, p = np.stack(axes, axis=1), np.stack(origins, axis=1)
     linear = np.cross(z, frame[:, None, :3, 3] - p)
-    return np.concatenate([linear, z], axis=2).transpose(0, 2, 1)
+    return frame, np.concatenate([linear, z], axis=2).transpose(0, 2, 1)
+
+
+def region_poses(count: int, seed: int = 1) -> Array:
+    """(count, 4, 4) poses, uniform in the region of the paper; the first ones are the same for every count."""
+    from holdfast.assess.region import builtin_region
+
+    region = builtin_region("pa10-9dof")
+    if region is None:
+        raise RuntimeError("holdfast no longer knows the region of the pa10-9dof")
+    blocks = islice(region.blocks(0, seed), -(-count // region.block))
+    return region.poses(np.concatenate(list(blocks))[:count])
+
+
+def on_pose(poses: Array, q: Array, tolerance: float = 1e-6, slack: float = 1e-9) -> Array:
+    """(N,) True where q is within the limits and puts the tool on the pose, by the forward kinematics of this file.
+
+    Args:
+        poses: (N, 4, 4).
+        q: (N, 9); NaN is never on the pose.
+        tolerance: Largest error, m and rad.
+        slack: By which a joint may pass its limit, rad.
+    """
+    reached = forward(q)[0]
+    position = np.linalg.norm(reached[:, :3, 3] - poses[:, :3, 3], axis=1)
+    chord = np.linalg.norm(reached[:, :3, :3] - poses[:, :3, :3], axis=(1, 2)) / np.sqrt(2)  # 2 sin(angle / 2)
+    inside = ((q >= LOWER - slack) & (q <= UPPER + slack)).all(axis=1)
+    return inside & (position <= tolerance) & (chord <= tolerance)
 
 
 def by_determinants(q: Array) -> Array:
@@ -113,4 +148,22 @@ def robotics_toolbox():
     """Elementary transform sequence of the Robotics Toolbox, whose Jacobian is written in C."""
     import roboticstoolbox as rtb
 
-    return rtb.DHRobot([rtb.RevoluteDH(d=D[i], alpha=ALPHA[i], a=A[i]) for i in range(N)], name="pa10-9dof").ets()
+    links = [rtb.RevoluteDH(d=D[i], alpha=ALPHA[i], a=A[i], qlim=[LOWER[i], UPPER[i]]) for i in range(N)]
+    return rtb.DHRobot(links, name="pa10-9dof").ets()
+
+
+def write_urdf(path: Path) -> None:
+    """The arm from link ``base`` to link ``tool``, for peers that read files."""
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    lines = ['<robot name="pa10-9dof">', '<link name="base"/>']
+    origin, parent = '<origin xyz="0 0 0" rpy="0 0 0"/>', "base"
+    for i in range(N):
+        lines += [
+            f'<link name="link{i + 1}">{inertial}</link>',
+            f'<joint name="joint{i + 1}" type="revolute"><parent link="{parent}"/><child link="link{i + 1}"/>{origin}',
+            f'<axis xyz="0 0 1"/><limit lower="{LOWER[i]:.17g}" upper="{UPPER[i]:.17g}" velocity="1" effort="1"/></joint>',
+        ]
+        origin, parent = f'<origin xyz="{A[i]:.17g} 0 {D[i]:.17g}" rpy="{ALPHA[i]:.17g} 0 0"/>', f"link{i + 1}"
+    lines.append(f'<link name="tool"/><joint name="fix" type="fixed"><parent link="{parent}"/><child link="tool"/>{origin}')
+    lines.append("</joint></robot>")
+    path.write_text("\n".join(lines))

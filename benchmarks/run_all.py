@@ -9,7 +9,7 @@ from pathlib import Path
 import harness
 
 HERE = Path(__file__).parent
-WORKLOADS = ("w1_index", "w2_gradient", "spectral", "start_up", "memory")
+WORKLOADS = ("w1_index", "w2_gradient", "w3_inverse", "w4_optimise", "spectral", "start_up", "memory")
 
 INTRODUCTION = """# Results
 

@@ -12,8 +12,9 @@ from scipy.spatial.transform import Rotation
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task
-from holdfast.assess.assess import Assessment, _provenance
+from holdfast.assess.assess import Assessment
 from holdfast.assess.distribution import Interval
+from holdfast.assess.run import provenance
 from holdfast.assess.structure import Structure, structure, structures
 from holdfast.errors import InputError
 from holdfast.report import figures
@@ -188,7 +189,7 @@ class Facts:
     def provenance(self) -> dict[str, object]:
         """When, how long, and with which versions; of this report where the run did not note it."""
         notes = self.a.store.notes if self.a.store is not None else {}
-        return notes if "versions" in notes else _provenance(self.a.seconds)
+        return notes if "versions" in notes else provenance(self.a.seconds)
 
     # ---- figures ---------------------------------------------------------------------------------------------------
 
@@ -298,14 +299,19 @@ class Facts:
         )
         if not self.d.unreached:
             return [first]
-        return [first, Curve(self.axis, self.a.cdf(self.axis, True), f"the {self.d.reached:,} reached poses only", second=True)]
+        return [
+            first,
+            Curve(
+                self.axis, self.a.cdf(self.axis, reachable_only=True), f"the {self.d.reached:,} reached poses only", second=True
+            ),
+        ]
 
     @cached_property
     def histogram(self) -> Bin:
         """Density over the reached poses, from the CDF, so that it also works for binned distributions."""
         count = int(np.clip(2 * self.d.reached ** (1 / 3), 8, 40)) if self.d.values is not None else 40
         edges = (np.geomspace if self.log else np.linspace)(self.axis[0], self.axis[-1], count + 1)
-        share = np.diff(self.a.cdf(edges, True))
+        share = np.diff(self.a.cdf(edges, reachable_only=True))
         width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
         per = "per decade" if self.log else self.unit and f"per{self.unit}"
         return Bin(edges, share / width, "", f"probability density {per}".strip())

@@ -41,8 +41,8 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     if a.region.kind == "box":
         options["restarts"] = str(a.restarts)
     lines = [f"holdfast assess {shlex.quote(spec)}"]
-    for name, value in options.items():
-        word = f"--{name} {shlex.quote(value)}"
+    words = [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
+    for word in [*words, *(["--optimise"] if a.optimised is not None else [])]:
         if len(lines[-1]) + len(word) > 90:
             lines[-1] += " \\"
             lines.append("    " + word)

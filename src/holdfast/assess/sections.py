@@ -376,7 +376,8 @@ def method(f: Facts) -> list[Block]:
             (
                 "Not optimised",
                 "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
-                "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers",
+                "non-optimised sample of Abdi et al. 2012): choosing better ones by the redundancy improves these numbers"
+                + ("; see what that gains above" if a.optimised is not None else ""),
             ),
             (
                 "Not found",

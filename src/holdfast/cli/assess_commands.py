@@ -45,6 +45,7 @@ def assess(
     seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
     restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
+    optimise: Annotated[bool, typer.Option("--optimise", help="Also find the best configuration of each pose.")] = False,
     at_least: Annotated[
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
@@ -91,6 +92,7 @@ def assess(
             restarts=restarts,
             store=out,
             progress=progress,
+            optimise=optimise,
         )
     page = None if out is None else result.report(out / "report.html", at_least[0] if at_least else None)
     if json_:
@@ -200,7 +202,20 @@ def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]
         "band_95": d.band() if d.samples else None,
         "probability": [_probability(result, h) for h in _thresholds(result, at_least)] if d.samples else [],
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
+        "optimised": _optimised(result, at_least),
         "seconds": result.seconds,
+    }
+
+
+def _optimised(result: Assessment, at_least: list[float] | None) -> dict[str, Any] | None:
+    d, counts = result.optimised, result.optimised_worst_counts
+    if d is None or counts is None or not d.reached:
+        return None
+    return {
+        "mean": d.mean,
+        "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True)),
+        "probability": [_probability(result, h, optimised=True) for h in _thresholds(result, at_least)],
+        "worst_counts": dict(zip(result.index.failure_names, counts.tolist(), strict=True)),
     }
 
 
@@ -214,9 +229,9 @@ def _thresholds(result: Assessment, given: list[float] | None) -> list[float]:
     return [float(f"{x:.3g}") for x in result.distribution.quantile([0.25, 0.5, 0.75]).tolist()]
 
 
-def _probability(result: Assessment, h: float) -> dict[str, Any]:
+def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[str, Any]:
     key = "at_least" if result.index.better == "larger" else "at_most"
-    p = result.interval(**{key: h})  # type: ignore[arg-type]
+    p = result.interval(optimised=optimised, **{key: h})  # type: ignore[arg-type]
     return {key: h, "value": p.value, "low": p.low, "high": p.high, "confidence": p.confidence}
 
 
@@ -240,23 +255,32 @@ def _print(result: Assessment, at_least: list[float] | None) -> None:
     )
     if not d.samples:
         return
+    both = [(result.distribution, "as inverse kinematics found them")]
+    if result.optimised is not None:
+        both.append((result.optimised, "best configurations found"))
     if d.reached:
-        low, middle, high = d.quantile([0.05, 0.5, 0.95]).tolist()
-        bound = f"; no configuration can beat {number(result.index.bound)}" if result.index.bound is not None else ""
-        spread = f"median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(d.mean)}"
-        out.print(f"over reached poses: {spread}{bound}", soft_wrap=True)
+        for which, name in both:
+            low, middle, high = which.quantile([0.05, 0.5, 0.95]).tolist()
+            spread = f"median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(which.mean)}"
+            out.print(f"over reached poses, {name}: {spread}", soft_wrap=True)
+        if result.index.bound is not None:
+            out.print(f"no configuration can beat {number(result.index.bound)}", soft_wrap=True)
     sign = "at least" if result.index.better == "larger" else "at most"
-    table = Table(f"{result.index.name}", "probability", "95 % interval", box=None, pad_edge=False)
+    after = ["optimised", "95 % interval"] if result.optimised is not None else []
+    table = Table(result.index.name, "probability", "95 % interval", *after, box=None, pad_edge=False)
     for h in _thresholds(result, at_least):
-        p = _probability(result, h)
-        table.add_row(f"{sign} {h:g}", f"{p['value']:.4f}", f"{p['low']:.4f} to {p['high']:.4f}")
+        cells = []
+        for optimised in (False, True)[: len(both)]:
+            p = _probability(result, h, optimised)
+            cells += [f"{p['value']:.4f}", f"{p['low']:.4f} to {p['high']:.4f}"]
+        table.add_row(f"{sign} {h:g}", *cells)
     out.print(table)
-    total = int(result.worst_counts.sum())
-    if total:
-        table = Table("failure", "is the worst in", box=None, pad_edge=False)
-        for name, count in zip(result.index.failure_names, result.worst_counts.tolist(), strict=True):
-            if count:
-                table.add_row(escape(name), f"{count} ({count / total:.1%})")
+    columns = [result.worst_counts, *([] if result.optimised_worst_counts is None else [result.optimised_worst_counts])]
+    if any(c.sum() for c in columns):
+        table = Table("failure", "is the worst in", *["optimised"][: len(columns) - 1], box=None, pad_edge=False)
+        for k, name in enumerate(result.index.failure_names):
+            if any(c[k] for c in columns):
+                table.add_row(escape(name), *[f"{c[k]} ({c[k] / max(c.sum(), 1):.1%})" for c in columns])
         out.print(table)
 
 

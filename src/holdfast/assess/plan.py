@@ -1,0 +1,202 @@
+"""What an assessment computes: everything that defines its rows, and the rows of one block."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.serial import from_dict, to_dict
+from holdfast.arm.task import Task
+from holdfast.assess.region import Region, Sampling
+from holdfast.errors import InputError
+from holdfast.indices import BY_NAME, Evaluation, Index, by_name
+from holdfast.solve import solver
+from holdfast.solve.optimise import STARTS, objective_ascent
+from holdfast.status import Status
+from holdfast.study import Column
+
+Array = NDArray[np.float64]
+Rows = dict[str, NDArray[Any]]
+
+TOLERANCE = 1e-6  # of the pose, m and rad
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A run: two runs with equal plans have equal rows.
+
+    Attributes:
+        region: Which poses, or configurations.
+        index: An index; it holds the arm, the task and the failures.
+        poses: Number of poses.
+        seed: Of everything random.
+        sampling: ``random`` or ``sobol``.
+        restarts: Random starts per pose before it counts as not found.
+        optimise: Also look for the best configuration of each pose.
+    """
+
+    region: Region
+    index: Index
+    poses: int
+    seed: int
+    sampling: Sampling
+    restarts: int
+    optimise: bool
+
+    def __post_init__(self) -> None:
+        for what, least in (("poses", 1), ("seed", 0), ("restarts", 1)):
+            object.__setattr__(self, what, _whole(what, getattr(self, what), least))
+        if self.sampling not in ("random", "sobol"):
+            raise InputError(f"sampling '{self.sampling}' is not known; use 'random' or 'sobol'")
+        if self.region.kind == "joints":
+            if len(self.region.center) != self.arm.n:
+                raise InputError(
+                    f"the region has {len(self.region.center)} joints, '{self.arm.name}' has {self.arm.n}; they must agree"
+                )
+            if self.optimise:
+                raise InputError("a region of joints fixes the configurations, so there is nothing to optimise; give a box")
+
+    @property
+    def arm(self) -> Arm:
+        """The arm of the index."""
+        return self.index.arm
+
+    # ---- files -----------------------------------------------------------------------------------------------------
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON data that :meth:`from_dict` reads; ``poses`` is kept by the folder.
+
+        Raises:
+            InputError: The index is a function of the user's own.
+        """
+        index, task = self.index, self.index.task
+        data = {
+            "kind": "assess",
+            "arm": to_dict(self.arm),
+            "fingerprint": self.arm.fingerprint,
+            "region": self.region.to_dict(),
+            "index": index.slug,
+            "task": {"name": task.name, "rows": task.rows.tolist(), "frame": task.frame, "length": task.length},
+            "failures": [[self.arm.joint_names[k] for k in f] for f in index.failures],
+            "seed": self.seed,
+            "sampling": self.sampling,
+            "restarts": self.restarts,
+            "seeds": "poses of block b: SeedSequence(seed, spawn_key=(0, b)); starts of block b: (1, b), of its optimisation "
+            f"(2, b); {self.region.block} poses per block",
+        }
+        return {**data, "optimise": STARTS} if self.optimise else data
+
+    @property
+    def storable(self) -> bool:
+        """False for an index that a folder cannot hold."""
+        return self.index.slug in BY_NAME
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:
+        """The plan that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
+        arm = from_dict(data["arm"])
+        t = data["task"]
+        task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
+        index = by_name(data["index"], arm, task, [list(f) for f in data["failures"]])
+        region = Region.from_dict(data["region"])
+        return cls(region, index, poses, data["seed"], data["sampling"], data["restarts"], "optimise" in data)
+
+    def columns(self) -> list[Column]:
+        """What each row holds."""
+        n, f, unit, about = self.arm.n, len(self.index.failures), self.index.unit, self.index.describe()
+        pose = [
+            Column("position", "float64", (("axis", 3),), "m", "drawn position of the tool in the world"),
+            Column("quaternion", "float64", (("xyzw", 4),), "1", "drawn orientation of the tool in the world, x y z w"),
+        ]
+        best = [
+            Column("optimised_q", "float64", (("joint", n),), "rad or m", "best configuration found; NaN where there is none"),
+            Column("optimised_index", "float64", (), unit, f"{about}, at the best configuration found"),
+            Column("optimised_worst", "int16", (), "1", "position of the worst failure there; -1 if there is none"),
+            Column("agreeing", "float64", (), "1", "share of the starts followed to the end that reached the best value"),
+        ]
+        return [
+            *(pose if self.region.kind == "box" else []),
+            Column("q", "float64", (("joint", n),), "rad or m", "configuration; NaN where none was found"),
+            Column("status", "uint8", (), "1", "0 ok, 1 not found, 3 singular, 255 not computed yet"),
+            Column("index", "float64", (), unit, about),
+            Column("by_failure", "float64", (("failure", f),), unit, f"{self.index.name} for each failure"),
+            Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
+            *(best if self.optimise else []),
+        ]
+
+    # ---- rows ------------------------------------------------------------------------------------------------------
+
+    def compile(self) -> None:
+        """Compile in this thread, once, instead of in every worker at the same time."""
+        self.index.evaluate(np.zeros((1, self.arm.n)))
+        if self.region.kind == "box":
+            solver(self.arm, self.index.task)
+        if self.optimise:
+            objective_ascent(self.index)
+
+    def evaluate(self, samples: Array, number: int) -> Rows:
+        """The rows of block ``number``."""
+        from scipy.spatial.transform import Rotation
+
+        count = len(samples)
+        if self.region.kind == "joints":
+            result = self.index.evaluate(samples)
+            return {
+                "q": samples,
+                "status": result.status,
+                "index": result.value,
+                "by_failure": result.by_failure,
+                "worst": _worst(result),
+            }
+        poses = self.region.poses(samples)
+        reach = solver(self.arm, self.index.task).solve(
+            poses, np.random.SeedSequence(self.seed, spawn_key=(1, number)), self.restarts, TOLERANCE
+        )
+        ok = np.flatnonzero(reach.success)
+        value, by_failure = np.full(count, np.nan), np.full((count, len(self.index.failures)), np.nan)
+        worst, status = np.full(count, -1, dtype=np.int16), reach.status.copy()
+        if ok.size:
+            result = self.index.evaluate(reach.q[ok])
+            value[ok], by_failure[ok], worst[ok], status[ok] = result.value, result.by_failure, _worst(result), result.status
+        rows: Rows = {
+            "position": poses[:, :3, 3],
+            "quaternion": Rotation.from_matrix(poses[:, :3, :3]).as_quat(),
+            "q": np.where(reach.success[:, None], reach.q, np.nan),
+            "status": status,
+            "index": value,
+            "by_failure": by_failure,
+            "worst": worst,
+        }
+        if self.optimise:
+            others = np.random.SeedSequence(self.seed, spawn_key=(2, number))
+            best = objective_ascent(self.index).solve(poses, reach, others, STARTS, TOLERANCE)
+            best_worst = np.full(count, -1, dtype=np.int16)
+            if ok.size:
+                best_worst[ok] = _worst(self.index.evaluate(best.q[ok]))
+            rows |= {
+                "optimised_q": best.q,
+                "optimised_index": best.value,
+                "optimised_worst": best_worst,
+                "agreeing": best.agreeing,
+            }
+        return rows
+
+
+def _worst(result: Evaluation) -> NDArray[np.int16]:
+    """Worst failure; none at a singular configuration, where all are equally bad."""
+    return np.where(result.status == Status.OK, result.worst, -1).astype(np.int16)
+
+
+def _whole(what: str, value: Any, least: int) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if number < least:
+        raise InputError(f"{what} is {value}; it must be {least} or more, and whole")
+    return number

@@ -1,0 +1,140 @@
+"""Carrying out a plan: blocks in the pool of threads, chunks in a folder, and what is counted on the way."""
+
+from __future__ import annotations
+
+import platform
+from collections import deque
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import Future
+from contextlib import closing
+from datetime import UTC, datetime
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from holdfast.assess.distribution import Collector
+from holdfast.assess.plan import Plan, Rows
+from holdfast.errors import StoreError
+from holdfast.kernels import pool, thread_count
+from holdfast.status import Status
+from holdfast.study import Store
+
+Progress = Callable[[int, int], None]
+
+
+def blocks(plan: Plan, first: int, stop: int) -> Generator[tuple[int, Rows], None, None]:
+    """Blocks in order from number ``first`` up to row ``stop``; a few ahead of the consumer are at work in the pool."""
+    size = plan.region.block
+    source = plan.region.blocks(first, plan.seed, plan.sampling)
+    numbers = iter(range(first, -(-stop // size)))
+    waiting: deque[tuple[int, Future[Rows]]] = deque()
+
+    def submit() -> None:
+        number = next(numbers, None)
+        if number is not None:
+            samples = next(source)[: stop - number * size]
+            waiting.append((number * size, pool().submit(plan.evaluate, samples, number)))
+
+    try:
+        for _ in range(2 * thread_count()):
+            submit()
+        while waiting:
+            start, task = waiting.popleft()
+            rows = task.result()
+            submit()
+            yield start, rows
+    finally:
+        for _, task in waiting:
+            task.cancel()
+
+
+def fill(store: Store, plan: Plan, progress: Progress | None) -> None:
+    """Compute and commit the chunks that are missing."""
+    missing, chunks = store.missing, store.chunks
+    done = plan.poses - sum(chunks[k][1] - chunks[k][0] for k in missing)
+    if progress is not None:
+        progress(done, plan.poses)
+    while missing:
+        # Chunks that follow one another share one stream of blocks, so that the workers never wait for a chunk's end.
+        length = next((i for i, k in enumerate(missing) if k != missing[0] + i), len(missing))
+        span, missing = missing[:length], missing[length:]
+        stream = blocks(plan, chunks[span[0]][0] // plan.region.block, chunks[span[-1]][1])
+        with closing(stream):
+            for k in span:
+                start, stop = chunks[k]
+                parts = [next(stream)[1] for _ in range(-(-(stop - start) // plan.region.block))]
+                store.write(k, {name: np.concatenate([p[name] for p in parts]) for name in parts[0]})
+                done += stop - start
+                if progress is not None:
+                    progress(done, plan.poses)
+
+
+def stored(store: Store, plan: Plan) -> Iterator[Rows]:
+    """The committed chunks of a folder.
+
+    Raises:
+        StoreError: A chunk is damaged or lost.
+    """
+    names = [c.name for c in plan.columns()]
+    for k in store.done:
+        rows = store.read(k, names)
+        lost = _lost(rows)
+        if lost is not None:
+            raise StoreError(
+                f"'{store.path}' is damaged: chunk {k + 1} is marked done but its '{lost}' is lost; "
+                "start the run again in a new folder"
+            )
+        yield rows
+
+
+def _lost(rows: Rows) -> str | None:
+    """A column whose values are the fill value where there must be one: its file is gone."""
+    status = rows["status"]
+    if (status == Status.NOT_COMPUTED).any():
+        return "status"
+    reached = (status == Status.OK) | (status == Status.SINGULAR)
+    for name, values in rows.items():
+        if values.dtype.kind == "f" and np.isnan(values if name in ("position", "quaternion") else values[reached]).any():
+            return name
+    return "worst" if (rows["worst"][status == Status.OK] < 0).any() else None
+
+
+class Tally:
+    """Distribution and worst failures of rows added one block at a time."""
+
+    def __init__(self, plan: Plan, optimised: bool = False) -> None:
+        index = plan.index
+        self._collector = Collector(index.better, index.bound)
+        self._failures = len(index.failures)
+        self._index, self._worst = ("optimised_index", "optimised_worst") if optimised else ("index", "worst")
+        self.worst = np.zeros(self._failures, dtype=np.int64)
+
+    def add(self, rows: Rows) -> None:
+        """Count a block of rows."""
+        reached = (rows["status"] == Status.OK) | (rows["status"] == Status.SINGULAR)
+        worst = rows[self._worst]
+        self._collector.add(rows[self._index][reached], int((~reached).sum()), int((worst[reached] < 0).sum()))
+        self.worst += np.bincount(worst[worst >= 0], minlength=self._failures)
+
+    def finish(self) -> Any:
+        """The distribution of everything added."""
+        return self._collector.finish()
+
+
+def provenance(seconds: float | None) -> dict[str, Any]:
+    """When, with what and on what a run was computed; none of it defines the rows."""
+    found = {}
+    for name in ("holdfast", "numpy", "scipy", "casadi", "heyoka", "xarray", "zarr"):
+        try:
+            found[name] = version(name)
+        except ModuleNotFoundError:
+            continue
+    return {
+        "seconds": seconds,
+        "finished": datetime.now(UTC).isoformat(timespec="seconds"),
+        "versions": found,
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+        "threads": thread_count(),
+    }
