@@ -176,9 +176,7 @@ def progress(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
-def options(
-    description: str | None, rounds: int = 5, parents: Sequence[argparse.ArgumentParser] = ()
-) -> argparse.Namespace:
+def options(description: str | None, rounds: int = 5, parents: Sequence[argparse.ArgumentParser] = ()) -> argparse.Namespace:
     """``--rounds`` and ``--quick``, the same for every workload, and what ``parents`` add."""
     parser = argparse.ArgumentParser(description=description, parents=list(parents))
     parser.add_argument("--rounds", type=int, default=rounds, help="rounds of candidate and peer (default %(default)s)")

@@ -76,19 +76,18 @@ def region_poses(count: int, seed: int = 1) -> Array:
     return region.poses(np.concatenate(list(blocks))[:count])
 
 
-def on_pose(poses: Array, q: Array, tolerance: float = 1e-6, slack: float = 1e-9) -> Array:
+def on_pose(poses: Array, q: Array, tolerance: float = 1e-6) -> Array:
     """(N,) True where q is within the limits and puts the tool on the pose, by the forward kinematics of this file.
 
     Args:
         poses: (N, 4, 4).
         q: (N, 9); NaN is never on the pose.
-        tolerance: Largest error, m and rad.
-        slack: By which a joint may pass its limit, rad.
+        tolerance: Largest error, m and rad; also of the limits, since TRAC-IK rounds them to single precision.
     """
     reached = forward(q)[0]
     position = np.linalg.norm(reached[:, :3, 3] - poses[:, :3, 3], axis=1)
     chord = np.linalg.norm(reached[:, :3, :3] - poses[:, :3, :3], axis=(1, 2)) / np.sqrt(2)  # 2 sin(angle / 2)
-    inside = ((q >= LOWER - slack) & (q <= UPPER + slack)).all(axis=1)
+    inside = ((q >= LOWER - tolerance) & (q <= UPPER + tolerance)).all(axis=1)
     return inside & (position <= tolerance) & (chord <= tolerance)
 
 

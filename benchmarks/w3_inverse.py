@@ -220,7 +220,7 @@ def main() -> None:
     few = slice(0, FEW)
     missed_few = int((by_peers & ~next(s for p, _, s in able if p.rows == FEW and "100 restarts" in p.name))[few].sum())
     print(
-        f"Solved: to 1e-6 m and rad and within the limits, by forward kinematics written apart. Solvable: solved by any row, "
+        f"Solved: pose and limits to 1e-6 m and rad, by forward kinematics written apart. Solvable: solved by any row, "
         f"{int(possible[few].sum())} of the first {FEW} poses and {int(possible.sum())} of {many} (only rows of batch {many} "
         f"saw the rest). Of the poses that a peer solved, holdfast with 100 restarts missed {missed_few} of "
         f"{int(by_peers[few].sum())} in the batch of {FEW} and {int((by_peers & ~found).sum())} of {int(by_peers.sum())} "

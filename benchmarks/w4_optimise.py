@@ -188,7 +188,9 @@ def main() -> None:
             continue
         rates, large, small = zip(*rounds, strict=True)
         faster = ["1" if own is poses else str(Spread.of(large)), str(Spread.of(small))]
-        results.append((name, values, [number(float(np.median(rates))), *faster, f"batch {len(own)}" + (f"; {note}" if note else "")]))
+        results.append(
+            (name, values, [number(float(np.median(rates))), *faster, f"batch {len(own)}" + (f"; {note}" if note else "")])
+        )
     found = np.array([v for _, v, _ in results if v is not None])
     best = np.nanmax(found, axis=0)
     lines = []
