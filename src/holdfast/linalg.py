@@ -33,7 +33,7 @@ class HouseholderQR:
     zeros zero (measured: 733 instead of 955 operations for the 9-joint PA10). Every method speaks in the caller's order.
 
     Attributes:
-        reflectors: (vector, 2/|vector|^2) of each reflection, the k-th acting on entries k to n - 1.
+        reflectors: Vector ``v`` and ``2 / (v v)`` of each reflection, the k-th acting on entries k to n - 1.
         r: upper triangle of R, ``r[i][j]`` for i <= j < m.
         pivots: squares of the diagonal of R.
         rows, columns: the permutations: ``rows[i]`` of J is eliminated as the i-th.
