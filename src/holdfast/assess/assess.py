@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -40,6 +41,7 @@ class Assessment:
         worst_counts: (F,) how often each failure is the worst, over reached and non-singular poses.
         optimised: The distribution at the best configurations, or None if they were not asked for.
         optimised_worst_counts: As ``worst_counts``, at the best configurations.
+        survivors: (n,) poses that can still be reached once the joint has locked, or None if that was not asked for.
         store: The results folder, if one was written.
         seconds: Time it took, or None if that is not known.
         complete: False if the run was stopped before all poses were done.
@@ -50,6 +52,7 @@ class Assessment:
     worst_counts: NDArray[np.int64]
     optimised: Distribution | None
     optimised_worst_counts: NDArray[np.int64] | None
+    survivors: NDArray[np.int64] | None
     store: Store | None
     seconds: float | None
     complete: bool
@@ -127,6 +130,42 @@ class Assessment:
         """That probability with its Wilson score interval."""
         return self.of(optimised).interval(at_least, at_most, reachable_only, confidence)
 
+    def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
+        """Share of all poses of the region that can still be reached once a joint has locked, with its Wilson interval.
+
+        The joint stands where it was at another pose of the region. A pose that the healthy arm does not reach counts as
+        lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
+
+        Args:
+            joint: Name or index from 0; every joint if not given.
+            confidence: Of the interval.
+
+        Raises:
+            InputError: The run did not ask; assess again with ``after_lock=True``.
+        """
+        if self.survivors is None:
+            raise InputError("this run did not look at what survives a lock; assess again with after_lock=True")
+        chosen = range(self.arm.n) if joint is None else [self.arm.joint_index(joint)]
+        total = self.distribution.samples
+        return {self.arm.joint_names[k]: Interval.of(int(self.survivors[k]), total, confidence) for k in chosen}
+
+    def expected_survival(self, rates: Mapping[str | int, float]) -> float:
+        """Share of the region that is left after a failure, weighted by how often each joint fails.
+
+        Args:
+            rates: Relative failure rates by joint name or index from 0; joints that are not named do not fail.
+
+        Raises:
+            InputError: A negative rate, or none above 0, or the run did not ask.
+        """
+        weights = np.zeros(self.arm.n)
+        for joint, rate in rates.items():
+            weights[self.arm.joint_index(joint)] = rate
+        if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
+            raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
+        shares = np.array([x.value for x in self.survival().values()])
+        return float(shares @ weights / weights.sum())
+
     @property
     def dataset(self) -> xr.Dataset:
         """Every pose with its configuration and index values, as an xarray dataset with units and provenance.
@@ -199,6 +238,7 @@ def assess(
     progress: Progress | None = None,
     task: str | Task = "pose",
     optimise: bool = False,
+    after_lock: bool = False,
 ) -> Assessment:
     """The distribution of an index over a region.
 
@@ -219,6 +259,7 @@ def assess(
         progress: Called with (poses done, poses in all).
         task: Of the index, if that is given by name.
         optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
+        after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
 
     Raises:
         InputError: Options out of range, or an index of another arm.
@@ -232,7 +273,7 @@ def assess(
         index = by_name(index, arm, task)
     if index.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
-    plan = Plan(region, index, poses, seed, sampling, restarts, optimise)
+    plan = Plan(region, index, poses, seed, sampling, restarts, optimise, after_lock)
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else _open_store(Path(store), plan)
@@ -297,7 +338,8 @@ def _finished(
 ) -> Assessment:
     optimised = None if best is None else best.finish()
     counts = None if best is None else best.worst
-    return Assessment(plan, tally.finish(), tally.worst, optimised, counts, store, seconds, complete, rows)
+    survivors = tally.survivors if plan.after_lock else None
+    return Assessment(plan, tally.finish(), tally.worst, optimised, counts, survivors, store, seconds, complete, rows)
 
 
 def _open_store(path: Path, plan: Plan) -> Store:

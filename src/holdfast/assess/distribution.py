@@ -24,6 +24,14 @@ class Interval:
     high: float
     confidence: float
 
+    @classmethod
+    def of(cls, hits: float, size: int, confidence: float = 0.95) -> Interval:
+        """Share ``hits / size`` with its Wilson score interval."""
+        from scipy import stats
+
+        limits = stats.binomtest(round(hits), size).proportion_ci(confidence_level=confidence, method="wilson")
+        return cls(hits / size, float(limits.low), float(limits.high), confidence)
+
     def __str__(self) -> str:
         return f"{self.value:.4f} ({self.low:.4f} to {self.high:.4f}, {self.confidence:.0%})"
 
@@ -154,11 +162,7 @@ class Distribution:
             assert at_most is not None
             up = np.nextafter(float(at_most), np.inf)
             hits = size if np.isposinf(at_most) else float(self._below(np.asarray(up), reachable_only))
-        from scipy import stats
-
-        test = stats.binomtest(round(hits), size)
-        limits = test.proportion_ci(confidence_level=confidence, method="wilson")
-        return Interval(hits / size, float(limits.low), float(limits.high), confidence)
+        return Interval.of(hits, size, confidence)
 
     def band(self, confidence: float = 0.95, reachable_only: bool = False) -> float:
         """Half width of the band that holds the whole true CDF with the given confidence.

@@ -24,6 +24,11 @@ Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 TOLERANCE = 1e-6  # of the pose, m and rad
+LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
+
+_SURVIVES = (
+    "1 if the pose can still be reached once the joint has locked where it was at another pose, 0 if not found, -1 unknown"
+)
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,7 @@ class Plan:
         sampling: ``random`` or ``sobol``.
         restarts: Random starts per pose before it counts as not found.
         optimise: Also look for the best configuration of each pose.
+        after_lock: Also ask for each pose and joint whether the pose can still be reached once the joint has locked.
     """
 
     region: Region
@@ -47,6 +53,7 @@ class Plan:
     sampling: Sampling
     restarts: int
     optimise: bool
+    after_lock: bool = False
 
     def __post_init__(self) -> None:
         for what, least in (("poses", 1), ("seed", 0), ("restarts", 1)):
@@ -60,6 +67,8 @@ class Plan:
                 )
             if self.optimise:
                 raise InputError("a region of joints fixes the configurations, so there is nothing to optimise; give a box")
+            if self.after_lock:
+                raise InputError("a region of joints has no poses to reach after a lock; give a box")
 
     @property
     def arm(self) -> Arm:
@@ -75,7 +84,7 @@ class Plan:
             InputError: The index is a function of the user's own.
         """
         index, task = self.index, self.index.task
-        data = {
+        data: dict[str, Any] = {
             "kind": "assess",
             "arm": to_dict(self.arm),
             "fingerprint": self.arm.fingerprint,
@@ -89,7 +98,11 @@ class Plan:
             "seeds": "poses of block b: SeedSequence(seed, spawn_key=(0, b)); starts of block b: (1, b), of its optimisation "
             f"(2, b); {self.region.block} poses per block",
         }
-        return {**data, "optimise": STARTS} if self.optimise else data
+        if self.optimise:
+            data["optimise"] = STARTS
+        if self.after_lock:
+            data["after_lock"] = LOCK_RESTARTS
+        return data
 
     @property
     def storable(self) -> bool:
@@ -104,7 +117,9 @@ class Plan:
         task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
         index = by_name(data["index"], arm, task, [list(f) for f in data["failures"]])
         region = Region.from_dict(data["region"])
-        return cls(region, index, poses, data["seed"], data["sampling"], data["restarts"], "optimise" in data)
+        return cls(
+            region, index, poses, data["seed"], data["sampling"], data["restarts"], "optimise" in data, "after_lock" in data
+        )
 
     def columns(self) -> list[Column]:
         """What each row holds."""
@@ -127,6 +142,7 @@ class Plan:
             Column("by_failure", "float64", (("failure", f),), unit, f"{self.index.name} for each failure"),
             Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
             *(best if self.optimise else []),
+            *([Column("survives", "int8", (("lock", n),), "1", _SURVIVES)] if self.after_lock else []),
         ]
 
     # ---- rows ------------------------------------------------------------------------------------------------------
@@ -184,7 +200,29 @@ class Plan:
                 "optimised_worst": best_worst,
                 "agreeing": best.agreeing,
             }
+        if self.after_lock:
+            rows["survives"] = self._survival(poses, reach.q, reach.success, number)
         return rows
+
+    def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> NDArray[np.int8]:
+        """For each reached pose and each joint: is it still reached with the joint locked where another pose had it?
+
+        The angle of the lock is drawn from those in use: joint k stands where it was at another reached pose of the block.
+        """
+        n = self.arm.n
+        result = np.full((len(poses), n), -1, dtype=np.int8)
+        rows = np.flatnonzero(reached)
+        if not rows.size:
+            return result
+        seed = np.random.SeedSequence(self.seed, spawn_key=(3, number))
+        draw, starts = seed.spawn(2)
+        generator = np.random.default_rng(draw)
+        angles = np.stack([q[rows[generator.integers(rows.size, size=rows.size)], k] for k in range(n)], axis=1)
+        locked = np.tile(np.arange(n), rows.size)
+        engine = solver(self.arm, self.index.task)
+        found = engine.reaches_locked(poses[np.repeat(rows, n)], locked, angles.ravel(), starts, LOCK_RESTARTS, TOLERANCE)
+        result[rows] = found.reshape(-1, n)
+        return result
 
 
 def _worst(result: Evaluation) -> NDArray[np.int16]:

@@ -11,6 +11,7 @@ from holdfast.assess import sections
 from holdfast.assess.assess import Assessment
 from holdfast.assess.facts import Facts
 from holdfast.assess.gain import gain
+from holdfast.assess.survival import survival
 from holdfast.report import figures, page, scenes
 from holdfast.report.page import Page, Section
 from holdfast.report.words import interval
@@ -42,6 +43,7 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         Section("The arm and the region", sections.views(facts)),
         Section("How the index is distributed", sections.distribution(facts)),
         Section("What choosing configurations gains", gain(facts)),
+        Section("What survives a locked joint", survival(facts)),
         Section("Which failure is the worst", sections.worst_failures(facts)),
         Section(f"The worst {facts.noun}s, and where tolerance is low", sections.places(facts)),
         Section("How it was computed", sections.method(facts)),

@@ -42,7 +42,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         options["restarts"] = str(a.restarts)
     lines = [f"holdfast assess {shlex.quote(spec)}"]
     words = [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
-    for word in [*words, *(["--optimise"] if a.optimised is not None else [])]:
+    for word in [*words, *(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]:
         if len(lines[-1]) + len(word) > 90:
             lines[-1] += " \\"
             lines.append("    " + word)

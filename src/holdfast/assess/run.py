@@ -109,6 +109,7 @@ class Tally:
         self._failures = len(index.failures)
         self._index, self._worst = ("optimised_index", "optimised_worst") if optimised else ("index", "worst")
         self.worst = np.zeros(self._failures, dtype=np.int64)
+        self.survivors = np.zeros(plan.arm.n, dtype=np.int64)
 
     def add(self, rows: Rows) -> None:
         """Count a block of rows."""
@@ -116,6 +117,8 @@ class Tally:
         worst = rows[self._worst]
         self._collector.add(rows[self._index][reached], int((~reached).sum()), int((worst[reached] < 0).sum()))
         self.worst += np.bincount(worst[worst >= 0], minlength=self._failures)
+        if "survives" in rows:
+            self.survivors += (rows["survives"] == 1).sum(axis=0)
 
     def finish(self) -> Any:
         """The distribution of everything added."""

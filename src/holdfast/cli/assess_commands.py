@@ -46,6 +46,9 @@ def assess(
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
     restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also find the best configuration of each pose.")] = False,
+    after_lock: Annotated[
+        bool, typer.Option("--after-lock", help="Also find which poses can still be reached once each joint has locked.")
+    ] = False,
     at_least: Annotated[
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
@@ -93,6 +96,7 @@ def assess(
             store=out,
             progress=progress,
             optimise=optimise,
+            after_lock=after_lock,
         )
     page = None if out is None else result.report(out / "report.html", at_least[0] if at_least else None)
     if json_:
@@ -203,6 +207,7 @@ def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]
         "probability": [_probability(result, h) for h in _thresholds(result, at_least)] if d.samples else [],
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
         "optimised": _optimised(result, at_least),
+        "after_lock": _after_lock(result),
         "seconds": result.seconds,
     }
 
@@ -217,6 +222,12 @@ def _optimised(result: Assessment, at_least: list[float] | None) -> dict[str, An
         "probability": [_probability(result, h, optimised=True) for h in _thresholds(result, at_least)],
         "worst_counts": dict(zip(result.index.failure_names, counts.tolist(), strict=True)),
     }
+
+
+def _after_lock(result: Assessment) -> dict[str, Any] | None:
+    if result.survivors is None or not result.distribution.samples:
+        return None
+    return {name: {"value": p.value, "low": p.low, "high": p.high} for name, p in result.survival().items()}
 
 
 def _thresholds(result: Assessment, given: list[float] | None) -> list[float]:
@@ -281,6 +292,11 @@ def _print(result: Assessment, at_least: list[float] | None) -> None:
         for k, name in enumerate(result.index.failure_names):
             if any(c[k] for c in columns):
                 table.add_row(escape(name), *[f"{c[k]} ({c[k] / max(c.sum(), 1):.1%})" for c in columns])
+        out.print(table)
+    if result.survivors is not None:
+        table = Table("once it has locked", "poses still reached", "95 % interval", box=None, pad_edge=False)
+        for name, share in result.survival().items():
+            table.add_row(escape(name), f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
         out.print(table)
 
 

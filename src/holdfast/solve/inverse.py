@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import casadi as ca
@@ -131,6 +131,7 @@ class InverseKinematics:
         e, j = task_error(arm, task, q, p, r)
         step, residual = _damped_step(arm, q, e, j)
         self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
+        self._symbols = q, p, r, e, j
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
         back = ca.SX(ca.DM(task.rows)).T @ e
         self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
@@ -146,6 +147,43 @@ class InverseKinematics:
         """One start q (N, n) for each pose: where it led, and whether that is on the pose and within the limits."""
         run = self._loop.run(q, _parameters(poses), tolerance**2, STEPS)
         return run.state, self.verdict(run.state, poses, tolerance)
+
+    @cached_property
+    def _loop_with_locks(self) -> Loop:
+        q, p, r, e, j = self._symbols
+        free = ca.SX.sym("free", self.arm.n)
+        masked = ca.horzcat(*[j[:, k] * free[k] for k in range(self.arm.n)])
+        step, residual = _damped_step(self.arm, q, e, masked)
+        return Loop("inverse kinematics with locked joints", q, [p, r, free], step, residual)
+
+    def reaches_locked(
+        self,
+        poses: Array,
+        locked: NDArray[np.int64],
+        angles: Array,
+        seed: np.random.SeedSequence,
+        restarts: int,
+        tolerance: float,
+    ) -> NDArray[np.bool_]:
+        """(N,) True where a configuration of pose i is found with joint ``locked[i]`` standing at ``angles[i]``.
+
+        False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
+        """
+        rows = np.arange(len(poses))
+        free = np.ones((len(poses), self.arm.n))
+        free[rows, locked] = 0.0
+        parameters = np.concatenate([_parameters(poses), free], axis=1)
+        found = np.zeros(len(poses), dtype=bool)
+        for child in np.random.SeedSequence(seed.entropy, spawn_key=seed.spawn_key).spawn(restarts):
+            left = np.flatnonzero(~found)
+            if not left.size:
+                break
+            start = self.starts(len(poses), np.random.default_rng(child))
+            start[rows, locked] = angles
+            run = self._loop_with_locks.run(start[left], parameters[left], tolerance**2, STEPS)
+            stood = run.state[np.arange(left.size), locked[left]] == angles[left]
+            found[left] = self.verdict(run.state, poses[left], tolerance) & stood
+        return found
 
     def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
         """(N,) True where q is on the pose and within the limits."""
