@@ -170,7 +170,7 @@ def test_as_good_as_slsqp_from_several_starts(pa10, targets, optimised, rng):
     rows = np.flatnonzero(optimised.success)[:12]
     reference = []
     for k in rows:
-        starts = [optimised.start_q[k], *oracles.inside(pa10, rng, 7)]
+        starts = [optimised.start_q[k], *oracles.inside(pa10, rng, 6)]
         reference.append(Reference(pa10, targets[k]).best(starts))
     reference = np.array(reference)
     assert np.isfinite(reference).all()
@@ -350,6 +350,9 @@ def test_continuous_joints_reach_the_bound(rng):
     np.testing.assert_allclose(best.value, np.sqrt(1 / 3), rtol=1e-6)
     assert (best.value <= index.bound * (1 + 1e-12)).all()
     np.testing.assert_allclose(np.cos(best.q[:, 1] + best.q[:, 2]), 1, atol=1e-4)
+
+    # As inverse kinematics does: joints without limits come back to -pi..pi.
+    assert np.abs(best.q).max() <= np.pi
 
 
 @pytest.mark.parametrize("limit", [np.pi, 1.6, 1.2])

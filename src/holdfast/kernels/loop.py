@@ -15,7 +15,7 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 
 Array = NDArray[np.float64]
 
-_CHUNK = 2048  # rows that one worker iterates on; no result depends on it
+_MOST, _LEAST = 8192, 512  # rows that one worker iterates on; no result depends on it
 
 
 @dataclass(frozen=True)
@@ -70,10 +70,11 @@ class Loop:
         result = LoopResult(
             np.array(state, dtype=np.float64), np.full(rows, np.nan), np.zeros(rows, dtype=bool), np.zeros(rows, dtype=np.int64)
         )
-        starts = range(0, rows, _CHUNK)
+        chunk = min(_MOST, max(_LEAST, -(-rows // thread_count())))
+        starts = range(0, rows, chunk)
 
         def work(start: int) -> None:
-            self._iterate(result, parameters, start, min(start + _CHUNK, rows), tolerance, most_steps)
+            self._iterate(result, parameters, start, min(start + chunk, rows), tolerance, most_steps)
 
         if len(starts) <= 1 or in_pool() or thread_count() == 1:
             for start in starts:

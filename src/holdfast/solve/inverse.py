@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Literal
@@ -22,6 +22,8 @@ from holdfast.status import Status, require_ok
 Array = NDArray[np.float64]
 
 STEPS = 40  # per start; most starts that arrive do so within 15
+_WAVE = 8192  # rows of starts that run side by side when poses are left over
+_BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
 _FREE_RANGE = np.pi  # start interval of a joint without limits: +-pi rad, or +-1 m for a sliding one
 
 
@@ -117,6 +119,12 @@ def _parameters(poses: Array) -> Array:
     return np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
 
 
+@dataclass(frozen=True)
+class _Found:
+    q: Array
+    restarts: NDArray[np.int64]
+
+
 class InverseKinematics:
     """The compiled solver of one arm and task.
 
@@ -173,17 +181,59 @@ class InverseKinematics:
         free = np.ones((len(poses), self.arm.n))
         free[rows, locked] = 0.0
         parameters = np.concatenate([_parameters(poses), free], axis=1)
-        found = np.zeros(len(poses), dtype=bool)
-        for child in np.random.SeedSequence(seed.entropy, spawn_key=seed.spawn_key).spawn(restarts):
-            left = np.flatnonzero(~found)
-            if not left.size:
-                break
-            start = self.starts(len(poses), np.random.default_rng(child))
-            start[rows, locked] = angles
-            run = self._loop_with_locks.run(start[left], parameters[left], tolerance**2, STEPS)
-            stood = run.state[np.arange(left.size), locked[left]] == angles[left]
-            found[left] = self.verdict(run.state, poses[left], tolerance) & stood
-        return found
+
+        def stand(start: Array, chosen: NDArray[np.int64]) -> Array:
+            start[np.arange(chosen.size), locked[chosen]] = angles[chosen]
+            return start
+
+        found = self._search(self._loop_with_locks, parameters, rows, seed, restarts, tolerance, stand)
+        stood = found.q[rows, locked] == angles
+        return np.asarray(self.verdict(found.q, poses, tolerance) & stood)
+
+    def _search(
+        self,
+        loop: Loop,
+        parameters: Array,
+        rows: NDArray[np.int64],
+        seed: np.random.SeedSequence,
+        restarts: int,
+        tolerance: float,
+        prepare: Callable[[Array, NDArray[np.int64]], Array],
+        first: Array | None = None,
+    ) -> _Found:
+        """Starts until each of the chosen rows is done; several starts of a row run side by side once few rows are left.
+
+        Start k of row i is one of a pool of random configurations, chosen by i and k alone: it does not depend on which
+        rows are left, on how many starts run side by side, or on how many rows there are.
+        """
+        count, n = len(parameters), self.arm.n
+        size = 1 << max(12, (restarts - 1).bit_length())
+        pool_of_starts = self.starts(size, np.random.default_rng(seed))
+        q, residual = np.full((count, n), np.nan), np.full(count, np.inf)
+        used = np.zeros(count, dtype=np.int64)
+        left, k = rows, 0
+        while left.size and k < restarts:
+            # Doubling: most rows arrive early, and starts that run beside a successful one are wasted.
+            wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
+            number = np.repeat(np.arange(k, k + wave), left.size)
+            chosen = np.tile(left, wave)
+            start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
+            if k == 0 and first is not None:
+                start = first[left]
+            run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
+            done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
+            arrived = done.any(axis=0)
+            # The first start that arrived, else the one that came closest; NaN never wins.
+            pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
+            column = np.arange(left.size)
+            best = rest[pick, column]
+            used[left] += np.where(arrived, pick + 1, wave)
+            better = best < residual[left]
+            q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
+            residual[left[better]] = best[better]
+            left = left[~arrived]
+            k += wave
+        return _Found(q, used)
 
     def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
         """(N,) True where q is on the pose and within the limits."""
@@ -199,28 +249,12 @@ class InverseKinematics:
     def solve(
         self, poses: Array, seed: np.random.SeedSequence, restarts: int, tolerance: float, first: Array | None = None
     ) -> Reach:
-        """Solve (N, 4, 4) poses.
-
-        Start k of pose i is row i of a draw from child k of ``seed``, so it does not depend on which poses are left.
-        """
-        rows = len(poses)
+        """Solve (N, 4, 4) poses; start k of pose i does not depend on the other poses."""
         parameters = _parameters(poses)
         finite = np.isfinite(parameters).all(axis=1)
-        q = np.full((rows, self.arm.n), np.nan)
-        residual = np.full(rows, np.inf)
-        used = np.zeros(rows, dtype=np.int64)
-        left = np.flatnonzero(finite)
-        children = np.random.SeedSequence(seed.entropy, spawn_key=seed.spawn_key).spawn(restarts)
-        for k in range(restarts):
-            if not left.size:
-                break
-            draw = first if k == 0 and first is not None else self.starts(rows, np.random.default_rng(children[k]))
-            run = self._loop.run(draw[left], parameters[left], tolerance**2, STEPS)
-            used[left] += 1
-            better = run.residual < residual[left]
-            q[left[better]] = run.state[better]
-            residual[left[better]] = run.residual[better]
-            left = left[~run.done]
+        rows = np.flatnonzero(finite)
+        found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first)
+        q, used = found.q, found.restarts
         q = self._wrapped(q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
         position_error, rotation_error = self.errors(q, poses)
