@@ -52,6 +52,12 @@ def worst(name, arm, q, task="pose"):
     return oracles.worst(name, oracles.index(name, j, [(k,) for k in range(arm.n)]))
 
 
+def tie(arm, q):
+    """How much larger the second smallest rho is than the smallest, (N,): 0 at most of the best configurations."""
+    values = np.sort(oracles.index("relative-manipulability", oracles.jacobian(arm, q), [(k,) for k in range(arm.n)]))
+    return values[:, 1] / values[:, 0] - 1
+
+
 def assert_sound(arm, best, poses, value, task="pose", sign=1.0):
     """Pose and limits kept, values those of the configurations, never below the start; ``value`` is a numpy function."""
     ok = best.success
@@ -221,7 +227,9 @@ def test_same_seed_same_result_whatever_the_threads(pa10, rho, targets, threads)
     assert_same(results[0], results[2])
     assert_same(results[0], optimise(pa10, targets, rho, seed=11, starts=3, restarts=4))
     other = optimise(pa10, targets, rho, seed=12, starts=3, restarts=4)
-    assert (other.start_q != results[0].start_q).any(axis=1).all()
+    both = other.success & results[0].success  # two misses may end in the same corner of the limits
+    # A pose at the edge of the region may have one corner of the limits as its only configuration.
+    assert (other.start_q != results[0].start_q).any(axis=1)[both].mean() > 0.98
     # Later blocks do not change earlier ones.
     assert_same(optimise(pa10, targets[:512], rho, seed=11, starts=3, restarts=4), results[0], slice(512))
     fewer = optimise(pa10, targets[:600], rho, seed=11, starts=3, restarts=4)
@@ -240,6 +248,7 @@ def test_more_starts_are_better(pa10, rho, targets, optimised):
     np.testing.assert_array_equal(few.starts[ok], 1)
     np.testing.assert_array_equal(few.agreeing[ok], 1)
     assert_sound(pa10, few, targets[:200], lambda q: worst("relative-manipulability", pa10, q))
+    assert np.median(tie(pa10, few.q[ok])) < 1e-4
     # Section 6: means of 0.338 from one start and 0.360 from twenty.
     assert optimised.value[ok].mean() - few.value[ok].mean() > 0.005
     assert few.value[ok].mean() - few.start_value[ok].mean() > 0.1

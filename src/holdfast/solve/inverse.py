@@ -255,14 +255,14 @@ class InverseKinematics:
         rows = np.flatnonzero(finite)
         found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first)
         q, used = found.q, found.restarts
-        q = self._wrapped(q)
+        q = self.wrapped(q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
         position_error, rotation_error = self.errors(q, poses)
         status = np.where(self.verdict(q, poses, tolerance), Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(q, status, position_error, rotation_error, used)
 
-    def _wrapped(self, q: Array) -> Array:
+    def wrapped(self, q: Array) -> Array:
         """Joints without limits come back to -pi..pi."""
         turning = [k for k, j in enumerate(self.arm.joints) if not j.prismatic and np.isinf(j.lower) and np.isinf(j.upper)]
         q[:, turning] = np.arctan2(np.sin(q[:, turning]), np.cos(q[:, turning]))

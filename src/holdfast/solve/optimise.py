@@ -155,9 +155,9 @@ class Ascent:
             sign = 1.0 if self.index.better == "larger" else -1.0
             start_value[reached] = best[reached] = self.index(first.q[reached])
             # Start k of pose i is the same number whichever other poses are reached.
-            draws = engine.starts((starts - 1) * count, np.random.default_rng(seed)).reshape(starts - 1, count, n)
+            draws = engine.starts(count * (starts - 1), np.random.default_rng(seed)).reshape(count, starts - 1, n)
             owner = np.tile(reached, starts - 1)
-            q, ok = engine.attempt(draws[:, reached].reshape(-1, n), poses[owner], tolerance)
+            q, ok = engine.attempt(draws[reached].transpose(1, 0, 2).reshape(-1, n), poses[owner], tolerance)
             owner, q = np.r_[reached, owner[ok]], np.concatenate([first.q[reached], q[ok]])
             found = np.bincount(owner, minlength=count)
             q, radius = self.climb(q, poses[owner], _FIRST_STEPS)
@@ -166,6 +166,7 @@ class Ascent:
             q, _ = self.climb(q, poses[owner], _LAST_STEPS, radius)
             # Far below the tolerance, so that the pose does not pay for the value.
             q, _ = engine.attempt(q, poses[owner], 1e-3 * tolerance)
+            q = engine.wrapped(q)
             value = np.where(engine.verdict(q, poses[owner], tolerance), sign * self.index(q), -np.inf)
             top = _best_of_each(owner, value, 1)
             top = top[value[top] > sign * best[owner[top]]]
