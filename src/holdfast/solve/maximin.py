@@ -28,14 +28,14 @@ def maximin_step(
         values: F functions now.
         slopes: Their derivatives along z, F lists of r.
         rows: Directions a_j of the limits, lists of r.
-        low: Lower limits of ``a_j z``; may be minus infinity.
+        low: Lower limits of ``a_j z``; finite: +-1e3 stands for no limit.
         high: Upper limits.
         radius: Largest entry of z.
     """
     r = len(slopes[0])
     unit = [[ca.SX(float(i == k)) for i in range(r)] for k in range(r)]
     two_sided = [*zip(rows, low, high, strict=True), *[(e, -radius, radius) for e in unit]]
-    floor = 1e-6 * radius
+    floor = 1e-3 * radius  # a limit that is met already; closer to 0 the iteration stalls there
     count = len(values) + 2 * len(two_sided)
 
     z: Vector = [ca.SX(0)] * r
