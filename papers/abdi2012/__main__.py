@@ -261,7 +261,7 @@ def main() -> None:
         "",
         "## The same study on two real arms (measured)",
         "",
-        "2000 poses each: positions in a cube of a quarter of the reach about the tool at the arm's home, angles in 90 degrees.",
+        "2000 poses each: positions in a cube of a quarter of the reach about the tool at the arm's home, angles in 90 deg.",
         "",
         "| arm | task | not found | single point of failure by structure | median rho found | median rho chosen | bound "
         "| P(rho >= 0.1) found | P(rho >= 0.1) chosen | lock that leaves least of the region |",
