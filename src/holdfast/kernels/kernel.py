@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import os
 import threading
+import warnings
 from collections.abc import Sequence
+from functools import cache as cache_once
 from typing import Any
 
 import numpy as np
@@ -24,10 +26,19 @@ BACKENDS = ("heyoka", "casadi")
 
 def default_backend() -> str:
     """``HOLDFAST_BACKEND`` if set, else heyoka where it is installed, else the CasADi virtual machine."""
-    name = os.environ.get("HOLDFAST_BACKEND") or ("heyoka" if heyoka_backend.available() else "casadi")
+    name = os.environ.get("HOLDFAST_BACKEND")
+    if not name:
+        name = "heyoka" if heyoka_backend.available() else "casadi"
+        if name == "casadi":
+            _say_slow()
     if name not in BACKENDS:
         raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}")
     return name
+
+
+@cache_once
+def _say_slow() -> None:
+    warnings.warn("heyoka is not installed: kernels run on the CasADi virtual machine, about 50 times slower", stacklevel=3)
 
 
 class Kernel:
