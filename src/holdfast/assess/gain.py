@@ -68,7 +68,8 @@ def gain_figure(f: Facts, best: Distribution) -> Figure:
     with figures.style():
         figure = Figure(figsize=(figures.WIDTH, 3.9))
         left, right = figure.subplots(1, 2)
-        figures.draw_cdf(left, curves, f.marks, f.axis_label, "share with a smaller value, F", f.log)
+        shown = [mark for mark in f.marks if mark.x <= axis[-1]]
+        figures.draw_cdf(left, curves, shown, f.axis_label, "share with a smaller value, F", f.log)
         left.set_title(f"Cumulative (CDF), {f.d.samples:,} poses")
         rows = f.rows
         if rows is None:
@@ -77,10 +78,10 @@ def gain_figure(f: Facts, best: Distribution) -> Figure:
             before = rows.value[rows.reached]
             after = f.a.dataset["optimised_index"].values[: len(rows.reached)][rows.reached]
             order = np.argsort(before)
-            shown = order if len(order) <= _MOST_DOTS else order[:: -(-len(order) // _MOST_DOTS)]
-            rank = np.searchsorted(np.sort(before), before[shown]) + 1
-            right.plot(rank, after[shown], ".", color=figures.BLUE, markersize=2.2, rasterized=True)
-            right.plot(rank, before[shown], color=figures.ORANGE, linewidth=1.6)
+            some = order if len(order) <= _MOST_DOTS else order[:: -(-len(order) // _MOST_DOTS)]
+            rank = np.searchsorted(np.sort(before), before[some]) + 1
+            right.plot(rank, after[some], ".", color=figures.BLUE, markersize=2.2, rasterized=True)
+            right.plot(rank, before[some], color=figures.ORANGE, linewidth=1.6)
             right.set(xlabel="reached poses, sorted by the index before", ylabel=f.axis_label, ylim=(0, None))
             if f.log:
                 right.set(yscale="log", ylim=(None, None))

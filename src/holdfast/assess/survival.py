@@ -17,7 +17,9 @@ def survival(f: Facts) -> list[Block]:
     shares = f.a.survival()
     worst = min(shares, key=lambda name: shares[name].value)
     names = [f"{k + 1} {name}" for k, name in enumerate(f.a.arm.joint_names)]
-    figure = figures.bar_figure(names, survivors.tolist(), "poses still reached once the joint has locked", f.d.samples)
+    figure = figures.bar_figure(
+        names, survivors.tolist(), "poses still reached once the joint has locked", f.d.samples, "least"
+    )
     return [
         Text(
             f"Healthy, the arm reaches {percent(f.d.reached / f.d.samples)} of the {f.d.samples:,} poses. The lock that costs "

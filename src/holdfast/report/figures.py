@@ -255,7 +255,13 @@ def legend_below(figure: Figure, axes: Axes, columns: int = 2) -> None:
 # ---- bars ----------------------------------------------------------------------------------------------------------------
 
 
-def bar_figure(names: Sequence[str], counts: Sequence[int], xlabel: str, total: int | None = None) -> Figure:
+def bar_figure(
+    names: Sequence[str],
+    counts: Sequence[int],
+    xlabel: str,
+    total: int | None = None,
+    stress: Literal["most", "least"] = "most",
+) -> Figure:
     """Horizontal bars, first one on top, each with its count and share.
 
     Args:
@@ -263,14 +269,16 @@ def bar_figure(names: Sequence[str], counts: Sequence[int], xlabel: str, total: 
         counts: One per bar.
         xlabel: What is counted.
         total: What the shares are of; the sum of the counts if not given.
+        stress: Which bar is drawn darker.
     """
     whole = sum(counts) if total is None else total
     most = max([1, *counts])
+    dark = most if stress == "most" else min(counts)
     with style():
         figure = Figure(figsize=(WIDTH * 0.8, 0.75 + 0.27 * len(names)))
         axes = figure.add_subplot()
         rows = np.arange(len(names))
-        axes.barh(rows, counts, height=0.64, color=[BLUE if c == most else SKY for c in counts])
+        axes.barh(rows, counts, height=0.64, color=[BLUE if c == dark else SKY for c in counts])
         for row, count in zip(rows, counts, strict=True):
             share = f" ({percent(count / whole)})" if whole else ""
             axes.annotate(
