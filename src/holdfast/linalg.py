@@ -185,6 +185,21 @@ def determinant(a: Sequence[Vector]) -> SX:
     return total
 
 
+def slopes_along(values: Sequence[SX], q: SX, directions: Sequence[SX]) -> list[Vector]:
+    """Derivatives of each value by q along each direction, by forward differentiation; one list per value."""
+    stacked = ca.vertcat(*values)
+    by_direction = [ca.vertsplit(ca.densify(ca.jtimes(stacked, q, v))) for v in directions]
+    return [list(row) for row in zip(*by_direction, strict=True)]
+
+
+def damped_least_norm(j: SX, e: SX, damping: SX | float) -> SX:
+    """``J' (J J' + damping I)^-1 e``: the least-norm solution of ``J x = e``, damped."""
+    m = j.shape[0]
+    gram = j @ j.T
+    a = [[gram[i, k] + (damping if i == k else 0) for k in range(m)] for i in range(m)]
+    return j.T @ ca.vertcat(*solve_spd(a, [e[i] for i in range(m)]))
+
+
 def solve_spd(a: list[list[SX]], b: Vector) -> Vector:
     """Solve ``A x = b`` for a symmetric positive definite A by Cholesky (L D L', no roots)."""
     n = len(b)

@@ -278,13 +278,11 @@ def assess(
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else _open_store(Path(store), plan)
     plan.compile()
-    tally, best = Tally(plan), Tally(plan, optimised=True) if optimise else None
+    tally = Tally(plan)
     kept: list[Rows] = []
 
     def take(rows: Rows) -> None:
-        for counter in (tally, best):
-            if counter is not None:
-                counter.add(rows)
+        tally.add(rows)
         if keep:
             kept.append(rows)
 
@@ -303,7 +301,7 @@ def assess(
         for rows in stored(folder, plan):
             take(rows)
     merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
-    return _finished(plan, tally, best, folder, time.monotonic() - begin, True, merged)
+    return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
 
 
 def load(path: str | Path) -> Assessment:
@@ -319,27 +317,28 @@ def load(path: str | Path) -> Assessment:
         plan = Plan.from_dict(store.plan, store.rows)
     except (KeyError, TypeError) as error:
         raise StoreError(f"'{path}' is damaged: its plan lacks {error}; start the run again in a new folder") from error
-    tally, best = Tally(plan), Tally(plan, optimised=True) if plan.optimise else None
+    tally = Tally(plan)
     for rows in stored(store, plan):
         tally.add(rows)
-        if best is not None:
-            best.add(rows)
-    return _finished(plan, tally, best, store, store.notes.get("seconds"), store.complete, None)
+    return _finished(plan, tally, store, store.notes.get("seconds"), store.complete, None)
 
 
 def _finished(
-    plan: Plan,
-    tally: Tally,
-    best: Tally | None,
-    store: Store | None,
-    seconds: float | None,
-    complete: bool,
-    rows: Rows | None,
+    plan: Plan, tally: Tally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
 ) -> Assessment:
-    optimised = None if best is None else best.finish()
-    counts = None if best is None else best.worst
-    survivors = tally.survivors if plan.after_lock else None
-    return Assessment(plan, tally.finish(), tally.worst, optimised, counts, survivors, store, seconds, complete, rows)
+    best = tally.optimised
+    return Assessment(
+        plan,
+        tally.found.finish(),
+        tally.found.worst,
+        None if best is None else best.finish(),
+        None if best is None else best.worst,
+        tally.survivors,
+        store,
+        seconds,
+        complete,
+        rows,
+    )
 
 
 def _open_store(path: Path, plan: Plan) -> Store:

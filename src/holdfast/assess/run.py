@@ -12,8 +12,9 @@ from importlib.metadata import version
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from holdfast.assess.distribution import Collector
+from holdfast.assess.distribution import Collector, Distribution
 from holdfast.assess.plan import Plan, Rows
 from holdfast.errors import StoreError
 from holdfast.kernels import pool, thread_count
@@ -100,29 +101,47 @@ def _lost(rows: Rows) -> str | None:
     return "worst" if (rows["worst"][status == Status.OK] < 0).any() else None
 
 
-class Tally:
-    """Distribution and worst failures of rows added one block at a time."""
+class Count:
+    """Distribution of one index column and how often each failure is the worst."""
 
-    def __init__(self, plan: Plan, optimised: bool = False) -> None:
-        index = plan.index
-        self._collector = Collector(index.better, index.bound)
-        self._failures = len(index.failures)
-        self._index, self._worst = ("optimised_index", "optimised_worst") if optimised else ("index", "worst")
-        self.worst = np.zeros(self._failures, dtype=np.int64)
-        self.survivors = np.zeros(plan.arm.n, dtype=np.int64)
+    def __init__(self, plan: Plan, index: str, worst: str) -> None:
+        self._collector = Collector(plan.index.better, plan.index.bound)
+        self._index, self._worst = index, worst
+        self.worst = np.zeros(len(plan.index.failures), dtype=np.int64)
+
+    def add(self, rows: Rows, reached: NDArray[np.bool_]) -> None:
+        """Count a block of rows."""
+        worst = rows[self._worst]
+        self._collector.add(rows[self._index][reached], int((~reached).sum()), int((worst[reached] < 0).sum()))
+        self.worst += np.bincount(worst[worst >= 0], minlength=self.worst.size)
+
+    def finish(self) -> Distribution:
+        """The distribution of everything added."""
+        return self._collector.finish()
+
+
+class Tally:
+    """What is counted over all rows of a plan, added one block at a time.
+
+    Attributes:
+        found: At the configurations that inverse kinematics found.
+        optimised: At the best configurations, if the plan asks for them.
+        survivors: (n,) poses still reached once each joint has locked, if the plan asks for them.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self.found = Count(plan, "index", "worst")
+        self.optimised = Count(plan, "optimised_index", "optimised_worst") if plan.optimise else None
+        self.survivors = np.zeros(plan.arm.n, dtype=np.int64) if plan.after_lock else None
 
     def add(self, rows: Rows) -> None:
         """Count a block of rows."""
         reached = (rows["status"] == Status.OK) | (rows["status"] == Status.SINGULAR)
-        worst = rows[self._worst]
-        self._collector.add(rows[self._index][reached], int((~reached).sum()), int((worst[reached] < 0).sum()))
-        self.worst += np.bincount(worst[worst >= 0], minlength=self._failures)
-        if "survives" in rows:
+        self.found.add(rows, reached)
+        if self.optimised is not None:
+            self.optimised.add(rows, reached)
+        if self.survivors is not None:
             self.survivors += (rows["survives"] == 1).sum(axis=0)
-
-    def finish(self) -> Any:
-        """The distribution of everything added."""
-        return self._collector.finish()
 
 
 def provenance(seconds: float | None) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
 from holdfast.kernels import SX, Kernel
-from holdfast.linalg import HouseholderQR
+from holdfast.linalg import HouseholderQR, slopes_along
 
 Array = NDArray[np.float64]
 Formula = Callable[[SX], SX]
@@ -88,8 +88,7 @@ class CustomIndex(Index):
         symbols, formulas = self._symbols()
         sign = 1.0 if self.better == "larger" else -1.0
         values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * x for x in formulas]), symbols, q))
-        slopes = [ca.vertsplit(ca.densify(ca.jtimes(ca.vertcat(*values), q, v))) for v in directions]
-        return values, [list(row) for row in zip(*slopes, strict=True)]
+        return values, slopes_along(values, q, directions)
 
     def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
         values = self._values_kernel.rows(q)

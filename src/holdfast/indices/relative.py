@@ -21,7 +21,7 @@ from holdfast.arm.task import Task
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
 from holdfast.kernels import SX, Kernel
-from holdfast.linalg import HouseholderQR, dot, householder, squared_volume
+from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, squared_volume
 
 Array = NDArray[np.float64]
 
@@ -143,8 +143,7 @@ class RelativeManipulability(Index):
         """``rho^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
         if any(len(s) != 1 for s in self.failures):
             values = self._squares(qr)
-            slopes = [ca.vertsplit(ca.densify(ca.jtimes(ca.vertcat(*values), q, v))) for v in directions]
-            return values, [list(row) for row in zip(*slopes, strict=True)]
+            return values, slopes_along(values, q, directions)
         values, slopes_by_joint, _ = self._squares_and_slopes(q, j, qr, directions)
         return values, slopes_by_joint
 
@@ -258,8 +257,7 @@ class Manipulability(RelativeManipulability):
         if any(len(s) != 1 for s in self.failures):
             volume = self._scale(qr) ** 2
             values = [volume * x for x in self._squares(qr)]
-            by_direction = [ca.vertsplit(ca.densify(ca.jtimes(ca.vertcat(*values), q, v))) for v in directions]
-            return values, [list(row) for row in zip(*by_direction, strict=True)]
+            return values, slopes_along(values, q, directions)
         squares, slopes, traces = self._squares_and_slopes(q, j, qr, directions)
         volume = qr.squared_volume() * self._rows_scale**2  # D^2, with d(D^2) = 2 D^2 tr(J^+ dJ)
         values = [volume * x for x in squares]

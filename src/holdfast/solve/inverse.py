@@ -16,7 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
-from holdfast.linalg import solve_spd
+from holdfast.linalg import damped_least_norm
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
@@ -270,7 +270,7 @@ class InverseKinematics:
 
 
 def _damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
-    m, n = e.numel(), arm.n
+    n = arm.n
     size = ca.sumsqr(e)
     pull = [ca.dot(j[:, k], e) for k in range(n)]
     active = []
@@ -280,20 +280,20 @@ def _damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
         high = ca.logic_and(q[k] >= arm.upper[k], pull[k] > 0) if np.isfinite(arm.upper[k]) else ca.SX(0)
         active.append(ca.if_else(ca.logic_or(low, high), 0.0, 1.0))
     masked = ca.horzcat(*[j[:, k] * active[k] for k in range(n)])
-    gram = masked @ masked.T
-    damping = 1e-3 * size + 1e-12
-    a = [[gram[i, k] + (damping if i == k else 0) for k in range(m)] for i in range(m)]
-    y = ca.vertcat(*solve_spd(a, [e[i] for i in range(m)]))
-    step = masked.T @ y
-    moved = []
-    for k in range(n):
-        x = q[k] + step[k]
-        if np.isfinite(arm.lower[k]):
-            x = ca.if_else(x < arm.lower[k], arm.lower[k], x)
-        if np.isfinite(arm.upper[k]):
-            x = ca.if_else(x > arm.upper[k], arm.upper[k], x)
-        moved.append(x)
-    return ca.vertcat(*moved), size
+    step = damped_least_norm(masked, e, 1e-3 * size + 1e-12)
+    return clipped(arm, [q[k] + step[k] for k in range(n)]), size
+
+
+def clipped(arm: Arm, q: Sequence[SX]) -> SX:
+    """Joint values (n,) brought back to the limits."""
+    inside = []
+    for x, low, high in zip(q, arm.lower, arm.upper, strict=True):
+        if np.isfinite(low):
+            x = ca.if_else(x < low, low, x)
+        if np.isfinite(high):
+            x = ca.if_else(x > high, high, x)
+        inside.append(x)
+    return ca.vertcat(*inside)
 
 
 @lru_cache(maxsize=16)

@@ -18,8 +18,8 @@ from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.indices import Index
 from holdfast.kernels import Kernel, in_pool, pool, thread_count
-from holdfast.linalg import dot, householder, solve_spd
-from holdfast.solve.inverse import InverseKinematics, Reach, check_poses, solver, task_error
+from holdfast.linalg import damped_least_norm, dot, householder
+from holdfast.solve.inverse import InverseKinematics, Reach, check_poses, clipped, solver, task_error
 from holdfast.solve.maximin import maximin_step
 from holdfast.status import Status, require_ok
 
@@ -89,9 +89,7 @@ class Ascent:
         values, slopes = index.scores(q, j, qr, directions)
         # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
         e, full = task_error(arm, task, q, p, r)
-        gram = full @ full.T
-        damped = [[gram[i, k] + (1e-12 if i == k else 0.0) for k in range(task.m)] for i in range(task.m)]
-        back = full.T @ ca.vertcat(*solve_spd(damped, [e[i] for i in range(task.m)]))
+        back = damped_least_norm(full, e, 1e-12)
         low = [arm.lower[k] - q[k] - back[k] for k in range(arm.n)]
         high = [arm.upper[k] - q[k] - back[k] for k in range(arm.n)]
         bounded = [k for k in range(arm.n) if np.isfinite(arm.lower[k]) or np.isfinite(arm.upper[k])]
@@ -105,20 +103,13 @@ class Ascent:
             radius,
         )
         move = [dot(rows[k], z) for k in range(arm.n)]
-        moved = []
-        for k in range(arm.n):
-            x = q[k] + back[k] + move[k]
-            if np.isfinite(arm.lower[k]):
-                x = ca.if_else(x < arm.lower[k], arm.lower[k], x)
-            if np.isfinite(arm.upper[k]):
-                x = ca.if_else(x > arm.upper[k], arm.upper[k], x)
-            moved.append(x)
+        moved = clipped(arm, [q[k] + back[k] + move[k] for k in range(arm.n)])
         # Steps that agree may grow; steps that turn back have passed the best point.
         d = ca.vertcat(*move)
         turn = ca.dot(d, last) / (ca.sqrt(ca.sumsqr(d) * ca.sumsqr(last)) + 1e-30)
         next_radius = radius * ca.if_else(turn < 0, 0.5, ca.if_else(turn > 0.5, 1.3, 0.85))
         next_radius = ca.if_else(next_radius > _WIDEST, _WIDEST, next_radius)
-        self._step = Kernel(f"ascent of {index.name}", [q, radius, last, p, r], [ca.vertcat(*moved, next_radius, d)])
+        self._step = Kernel(f"ascent of {index.name}", [q, radius, last, p, r], [ca.vertcat(moved, next_radius, d)])
 
     def climb(self, q: Array, poses: Array, steps: int, radius: Array | None = None) -> tuple[Array, Array]:
         """Steps from q (N, n); returns where they led and the last trust radius."""
