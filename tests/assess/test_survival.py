@@ -1,5 +1,7 @@
 """What is left after a lock, against closed forms and brute force."""
 
+import shutil
+
 import numpy as np
 import pytest
 
@@ -116,3 +118,11 @@ def test_optimised_runs_through_the_folder(arm, region, tmp_path):
     with pytest.raises(hf.InputError, match="optimise=True"):
         plain.cdf(0.1, optimised=True)
     assert "What choosing configurations gains" in again.report(tmp_path / "report.html").read_text()
+
+
+@pytest.mark.parametrize("lost", ["survives", "optimised_worst", "optimised_index", "optimised_q"])
+def test_a_lost_column_is_a_sentence_and_not_a_result(arm, region, tmp_path, lost):
+    hf.assess(arm, region, poses=50, seed=2, task="planar", optimise=True, after_lock=True, store=tmp_path / "run")
+    shutil.rmtree(tmp_path / "run" / "samples.zarr" / lost / "c")
+    with pytest.raises(hf.StoreError, match=f"'{lost}' is lost"):
+        hf.load(tmp_path / "run")

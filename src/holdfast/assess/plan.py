@@ -96,7 +96,7 @@ class Plan:
             "sampling": self.sampling,
             "restarts": self.restarts,
             "seeds": "poses of block b: SeedSequence(seed, spawn_key=(0, b)); starts of block b: (1, b), of its optimisation "
-            f"(2, b); {self.region.block} poses per block",
+            f"(2, b), of its locks (3, b); {self.region.block} poses per block",
         }
         if self.optimise:
             data["optimise"] = STARTS

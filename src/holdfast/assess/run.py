@@ -98,7 +98,11 @@ def _lost(rows: Rows) -> str | None:
     for name, values in rows.items():
         if values.dtype.kind == "f" and np.isnan(values if name in ("position", "quaternion") else values[reached]).any():
             return name
-    return "worst" if (rows["worst"][status == Status.OK] < 0).any() else None
+    # Whole numbers are -1 where there is nothing; at an ordinary configuration, which the best one never undercuts, there is.
+    for name in ("worst", "optimised_worst", "survives"):
+        if name in rows and (rows[name][status == Status.OK] < 0).any():
+            return name
+    return None
 
 
 class Count:
