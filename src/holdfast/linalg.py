@@ -24,6 +24,14 @@ def dot(a: Sequence[SX], b: Sequence[SX]) -> SX:
     return total
 
 
+def smallest(values: Sequence[SX]) -> SX:
+    """The smallest of several scalars, without fmin, which would swallow a NaN."""
+    best = values[0]
+    for x in values[1:]:
+        best = ca.if_else(x < best, x, best)
+    return best
+
+
 @dataclass(frozen=True)
 class HouseholderQR:
     """``(A J B)' = Q [R; 0]`` of a wide matrix J (m, n), by Householder reflections; A and B permute rows and columns.

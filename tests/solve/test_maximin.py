@@ -11,7 +11,7 @@ from scipy.optimize import linprog
 
 import oracles
 from holdfast.arm import kinematics
-from holdfast.indices import CustomIndex, Manipulability, RelativeManipulability
+from holdfast.indices import CustomIndex, Manipulability, Part, RelativeManipulability
 from holdfast.linalg import householder
 from holdfast.solve.maximin import maximin_step
 
@@ -25,8 +25,7 @@ def compiled(functions: int, r: int, limits: int) -> ca.Function:
     rows, low, high = ca.SX.sym("a", limits, r), ca.SX.sym("low", limits), ca.SX.sym("high", limits)
     radius = ca.SX.sym("radius")
     z = maximin_step(
-        ca.vertsplit(values),
-        [[slopes[k, i] for i in range(r)] for k in range(functions)],
+        [Part(1.0, ca.vertsplit(values), [[slopes[k, i] for i in range(r)] for k in range(functions)])],
         [[rows[k, i] for i in range(r)] for k in range(limits)],
         [low[k] for k in range(limits)],
         [high[k] for k in range(limits)],
@@ -108,6 +107,47 @@ def test_a_start_outside_the_limits_comes_back(rng):
     assert np.quantile(short, 0.8) < 0.08
     assert np.quantile(over, 0.9) < 0.02
     assert over.max() < 0.1
+
+
+@pytest.mark.parametrize("scales", [(1.0, 1.0), (1e4, 1e-5)])
+@pytest.mark.parametrize("sizes", [(1, 1), (7, 1), (5, 4, 1)])
+def test_a_weighted_sum_of_minima(sizes, scales, rng):
+    r, limits, count = 3, 7, 60
+    functions, weights = sum(sizes), (1.0, 3.0, 0.5)[: len(sizes)]
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    size = np.resize(scales, len(sizes))
+    values, slopes = ca.SX.sym("s", functions), ca.SX.sym("g", functions, r)
+    rows, low, high = ca.SX.sym("a", limits, r), ca.SX.sym("low", limits), ca.SX.sym("high", limits)
+    parts = [
+        Part(
+            w / c,
+            [values[k] for k in np.flatnonzero(owner == p)],
+            [ca.horzsplit(slopes[k, :]) for k in np.flatnonzero(owner == p)],
+        )
+        for p, (w, c) in enumerate(zip(weights, size, strict=True))
+    ]
+    z = maximin_step(
+        parts, [ca.horzsplit(rows[k, :]) for k in range(limits)], ca.vertsplit(low), ca.vertsplit(high), ca.SX(RADIUS)
+    )
+    step = ca.Function("step", [values, slopes, rows, low, high], [ca.vertcat(*z)])
+    short = []
+    for s, g, a, lo, hi in programs(rng, functions, r, limits, count, active=False):
+        s, g = s * size[owner], g * size[owner][:, None]
+
+        def total(z, s=s, g=g):
+            reached = s + g @ z
+            return sum(w / c * reached[owner == p].min() for p, (w, c) in enumerate(zip(weights, size, strict=True)))
+
+        # variables z, t_p: maximise the weighted t_p
+        t = -np.eye(len(sizes))[owner]
+        upper = np.r_[np.c_[-g, -t], np.c_[a, np.zeros((limits, len(sizes)))], np.c_[-a, np.zeros((limits, len(sizes)))]]
+        cost = np.r_[np.zeros(r), [-w / c for w, c in zip(weights, size, strict=True)]]
+        best = linprog(cost, A_ub=upper, b_ub=np.r_[s, hi, -lo], bounds=[(-RADIUS, RADIUS)] * r + [(None, None)] * len(sizes))
+        got = total(np.array(step(s, g, a, lo, hi)).ravel())
+        short.append((-best.fun - got) / (-best.fun - total(np.zeros(r))))
+    assert np.median(short) < 0.02
+    assert np.quantile(short, 0.9) < 0.15
+    assert min(short) > -1e-6
 
 
 # ---- the scores ----------------------------------------------------------------------------------------------------------

@@ -80,6 +80,10 @@ class Task:
         scale = np.diag([1 / self.length] * 3 + [1.0] * 3)
         return ca.sparsify(ca.SX(ca.DM(self.rows @ scale))) @ full
 
+    def same_rows(self, other: Task) -> bool:
+        """True if both prescribe the same rows in the same frame; names and lengths may differ."""
+        return self.frame == other.frame and self.rows.shape == other.rows.shape and np.allclose(self.rows, other.rows)
+
     def describe(self) -> str:
         """One phrase for people."""
         text = f"{self.name} ({self.m} rows)"

@@ -16,7 +16,7 @@ from holdfast.assess.region import Region, Sampling
 from holdfast.errors import InputError
 from holdfast.indices import BY_NAME, Evaluation, Index, by_name
 from holdfast.solve import solver
-from holdfast.solve.optimise import STARTS, objective_ascent
+from holdfast.solve.optimise import default_starts, objective_ascent
 from holdfast.status import Status
 from holdfast.study import Column
 
@@ -99,7 +99,7 @@ class Plan:
             f"(2, b), of its locks (3, b); {self.region.block} poses per block",
         }
         if self.optimise:
-            data["optimise"] = STARTS
+            data["optimise"] = default_starts(self.arm, task)
         if self.after_lock:
             data["after_lock"] = LOCK_RESTARTS
         return data
@@ -190,7 +190,8 @@ class Plan:
         }
         if self.optimise:
             others = np.random.SeedSequence(self.seed, spawn_key=(2, number))
-            best = objective_ascent(self.index).solve(poses, reach, others, STARTS, TOLERANCE)
+            starts = default_starts(self.arm, self.index.task)
+            best = objective_ascent(self.index).solve(poses, reach, others, starts, TOLERANCE)
             best_worst = np.full(count, -1, dtype=np.int16)
             if ok.size:
                 best_worst[ok] = _worst(self.index.evaluate(best.q[ok]))

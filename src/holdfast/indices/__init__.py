@@ -13,6 +13,7 @@ from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.custom import CustomIndex
 from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index
+from holdfast.indices.objective import Objective, Part, WeightedSum
 from holdfast.indices.relative import Manipulability, RelativeManipulability
 from holdfast.indices.spectral import SpectralIndex
 
@@ -88,8 +89,11 @@ __all__ = [
     "Evaluation",
     "Index",
     "Manipulability",
+    "Objective",
+    "Part",
     "RelativeManipulability",
     "SpectralIndex",
+    "WeightedSum",
     "by_name",
     "condition_number",
     "geometric_mean_singular_value",

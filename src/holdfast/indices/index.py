@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
+import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,6 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
+from holdfast.indices.objective import Better, Objective, Part
 from holdfast.kernels import SX, Kernel
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status
@@ -43,7 +44,7 @@ class Evaluation:
     status: NDArray[np.uint8]
 
 
-class Index(ABC):
+class Index(Objective):
     """A number that says what a configuration is worth after any one of a set of failures.
 
     Attributes:
@@ -56,8 +57,7 @@ class Index(ABC):
         bound: The value no configuration can beat, or None if there is none.
     """
 
-    better: Literal["larger", "smaller"] = "larger"
-    unit = "1"
+    better: Better = "larger"
     source = ""
     bound: float | None = None
 
@@ -170,7 +170,37 @@ class Index(ABC):
         Raises:
             TaskError: The index is not one symbolic program.
         """
-        raise TaskError(f"{self.name} cannot be optimised yet; use relative manipulability, manipulability or a CustomIndex")
+        raise TaskError(f"{self.name} cannot be optimised: it has no scores; use one of the built-in indices or a CustomIndex")
+
+    def value_of_score(self, score: SX) -> SX:
+        """The value that a score stands for, its negative where smaller is better: an increasing function of the score."""
+        return score
+
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """The scores, as one part; see :meth:`Objective.parts`."""
+        return [Part(1.0, *self.scores(q, j, qr, directions))]
+
+    def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """The values themselves, as one part; see :meth:`Objective.exact_parts`."""
+        scores, slopes = self.scores(q, j, qr, directions)
+        s = ca.SX.sym("score")
+        value = self.value_of_score(s)
+        both = ca.Function("value", [s], [value, ca.gradient(value, s)])
+        values, exact = [], []
+        for score, row in zip(scores, slopes, strict=True):
+            v, rate = both(score)
+            values.append(v)
+            exact.append([rate * x for x in row])
+        return [Part(1.0, values, exact)]
+
+    def statuses(self, q: Array) -> NDArray[np.uint8]:
+        """``SINGULAR`` where the value is a convention; see :meth:`Objective.statuses`."""
+        return self.evaluate(q).status
+
+    @property
+    def own_task(self) -> Task:
+        """The task of the index."""
+        return self.task
 
     # ---- shared machinery --------------------------------------------------------------------------------------
 

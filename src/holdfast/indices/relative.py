@@ -21,10 +21,11 @@ from holdfast.arm.task import Task
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
 from holdfast.kernels import SX, Kernel
-from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, squared_volume
+from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
 
 Array = NDArray[np.float64]
 
+_FLAT_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
 _FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
 
 
@@ -92,7 +93,7 @@ class RelativeManipulability(Index):
         q, _, qr = self._symbols
         squares = self._squares(qr)
         if worst_only:
-            squares = [_smallest(squares)]
+            squares = [smallest(squares)]
         scale = self._scale(qr)
         values = [scale * ca.sqrt(s) for s in squares]
         return Kernel(self.name, [q], [self._mark(qr, values, marked)])
@@ -106,7 +107,7 @@ class RelativeManipulability(Index):
             pull = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
             g = pull(q, cotangent)
         else:
-            best, scale = _smallest(self._squares(qr)), self._scale(qr)
+            best, scale = smallest(self._squares(qr)), self._scale(qr)
             rho = ca.sqrt(best)
             slope = ca.if_else(rho > _FLAT, 0.5 / rho, 0.0)
             # Held apart so that no root is differentiated at 0.
@@ -146,6 +147,11 @@ class RelativeManipulability(Index):
             return values, slopes_along(values, q, directions)
         values, slopes_by_joint, _ = self._squares_and_slopes(q, j, qr, directions)
         return values, slopes_by_joint
+
+    def value_of_score(self, score: SX) -> SX:
+        """The root of a square, with a finite slope at 0; see :meth:`Index.value_of_score`."""
+        least = _FLAT_SCORE
+        return ca.if_else(score > least, ca.sqrt(ca.if_else(score > least, score, 1.0)), score / least**0.5)
 
     def _squares_and_slopes(
         self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]
@@ -271,10 +277,3 @@ class Manipulability(RelativeManipulability):
         columns = [qr.pinv_transposed(qr.q_transposed(e)) for e in units]
         pinv_transposed = ca.horzcat(*[ca.vertcat(*c) for c in columns])
         return self._scale(qr) * (super()._assemble(qr, rho, a, p) + rho * pinv_transposed)
-
-
-def _smallest(values: list[SX]) -> SX:
-    best = values[0]
-    for x in values[1:]:
-        best = ca.if_else(x < best, x, best)
-    return best

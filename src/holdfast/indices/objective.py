@@ -1,0 +1,192 @@
+"""What a configuration can be chosen by: a number, which way is better, and how the optimiser may raise it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.errors import InputError, TaskError
+from holdfast.kernels import SX
+from holdfast.linalg import HouseholderQR
+from holdfast.status import Status
+
+Array = NDArray[np.float64]
+Better = Literal["larger", "smaller"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """``weight * min(values)``, one summand of what the optimiser raises.
+
+    Attributes:
+        weight: Above 0.
+        values: F scalars.
+        slopes: Their derivatives along each null-space direction, F lists.
+    """
+
+    weight: float
+    values: list[SX]
+    slopes: list[list[SX]]
+
+
+class Objective(ABC):
+    """A number by which :func:`holdfast.optimise` chooses: an index, a susceptibility, or a weighted sum of them.
+
+    Objectives of one arm can be added, subtracted and multiplied by numbers: ``rho - 1e-4 * torque``.
+
+    Attributes:
+        name: For people and files.
+        arm: The arm it belongs to.
+        better: ``"larger"`` or ``"smaller"``.
+        unit: Of the value; ``1`` if it has none.
+    """
+
+    name: str
+    arm: Arm
+    better: Better
+    unit: str = "1"
+
+    @abstractmethod
+    def __call__(self, q: ArrayLike) -> Array:
+        """The value at q (N, n) or (n,): (N,), or a scalar."""
+
+    @abstractmethod
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """What to raise: a sum of parts that is largest where the objective is best.
+
+        Args:
+            q: (n,) symbols.
+            j: The Jacobian that was factored.
+            qr: Its factorisation.
+            directions: (n,) each, a basis of the null space of J.
+
+        Raises:
+            TaskError: The objective is not one symbolic program.
+        """
+
+    def exact_parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """As :meth:`parts`, but the sum *is* the value, or its negative where smaller is better: it can be added to others."""
+        return self.parts(q, j, qr, directions)
+
+    def statuses(self, q: Array) -> NDArray[np.uint8]:
+        """Status of each row of q (N, n): ``SINGULAR`` where the value is a convention."""
+        return np.full(len(q), Status.OK, dtype=np.uint8)
+
+    @property
+    def own_task(self) -> Task | None:
+        """The task it is defined for; None if any will do."""
+        return None
+
+    # ---- arithmetic --------------------------------------------------------------------------------------------
+
+    def __mul__(self, factor: float) -> WeightedSum:
+        return WeightedSum([(factor, self)])
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> WeightedSum:
+        return self * -1.0
+
+    def __add__(self, other: Objective) -> WeightedSum:
+        if not isinstance(other, Objective):
+            return NotImplemented
+        return WeightedSum([(1.0, self), (1.0, other)])
+
+    def __sub__(self, other: Objective) -> WeightedSum:
+        if not isinstance(other, Objective):
+            return NotImplemented
+        return WeightedSum([(1.0, self), (-1.0, other)])
+
+
+class WeightedSum(Objective):
+    """A sum of objectives times weights; of English & Maciejewski 1998, section VII, and Abdi et al. 2012 side by side.
+
+    All summands must pull the same way: a susceptibility (smaller is better) beside an index (larger is better) needs a
+    weight of the other sign. The sum is better the way its first summand is.
+
+    Args:
+        terms: Weights, not 0, and objectives of one arm.
+        name: For people; made of the summands if not given.
+
+    Attributes:
+        terms: The summands, sums among them taken apart.
+
+    Raises:
+        InputError: No summand, a weight that is 0 or not finite, or summands of different arms.
+        TaskError: Summands that pull different ways, or that are defined for different tasks.
+    """
+
+    def __init__(self, terms: Sequence[tuple[float, Objective]], name: str | None = None) -> None:
+        flat: list[tuple[float, Objective]] = []
+        for weight, objective in terms:
+            try:
+                w = float(weight)
+            except (TypeError, ValueError) as error:
+                raise InputError(f"the weight {weight!r} of {objective.name} is not a number") from error
+            if not np.isfinite(w) or w == 0:
+                raise InputError(f"the weight of {objective.name} is {w:g}; it must be finite and not 0")
+            if isinstance(objective, WeightedSum):
+                flat += [(w * v, o) for v, o in objective.terms]
+            else:
+                flat.append((w, objective))
+        if not flat:
+            raise InputError("a weighted sum needs at least one objective")
+        self.terms = tuple(flat)
+        first = flat[0][1]
+        self.arm = first.arm
+        ways = []
+        for w, objective in flat:
+            if objective.arm.fingerprint != self.arm.fingerprint:
+                raise InputError(f"{objective.name} belongs to '{objective.arm.name}', not to '{self.arm.name}'; use one arm")
+            ways.append((objective.better == "larger") == (w > 0))
+        if len(set(ways)) > 1:
+            other = flat[ways.index(not ways[0])][1]
+            raise TaskError(
+                f"{first.name} is better when {first.better} and {other.name} when {other.better}, but their weights pull "
+                "different ways: change the sign of one of them"
+            )
+        self.better = "larger" if ways[0] else "smaller"
+        self.name = name or " ".join(f"{'+' if w > 0 else '-'} {abs(w):g} x {o.name}" for w, o in flat).removeprefix("+ ")
+        units = {o.unit for _, o in flat}
+        self.unit = units.pop() if len(units) == 1 else "mixed"
+        tasks = [o.own_task for _, o in flat if o.own_task is not None]
+        for task in tasks[1:]:
+            if not task.same_rows(tasks[0]):
+                raise TaskError(
+                    f"{self.name}: its summands are defined for the tasks '{tasks[0].name}' and '{task.name}'; use one"
+                )
+        self._task = tasks[0] if tasks else None
+
+    @property
+    def own_task(self) -> Task | None:
+        """The task of its summands."""
+        return self._task
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """The value at q (N, n) or (n,): (N,), or a scalar."""
+        return np.asarray(sum(w * objective(q) for w, objective in self.terms))
+
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """The parts of its summands."""
+        return [
+            Part(abs(w) * part.weight, part.values, part.slopes)
+            for w, objective in self.terms
+            for part in objective.exact_parts(q, j, qr, directions)
+        ]
+
+    def statuses(self, q: Array) -> NDArray[np.uint8]:
+        """The first status of its summands that is not ``OK``."""
+        found = np.full(len(q), Status.OK, dtype=np.uint8)
+        for _, objective in self.terms:
+            found = np.where(found == Status.OK, objective.statuses(q), found)
+        return found
+
+    def __repr__(self) -> str:
+        return f"<{self.name}, arm {self.arm.name!r}>"

@@ -1,0 +1,91 @@
+"""Weighted sums of indices: arithmetic, what they refuse, and what the optimiser is given."""
+
+from __future__ import annotations
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.arm import kinematics
+from holdfast.indices import CustomIndex, WeightedSum, condition_number, manipulability, relative_manipulability
+from holdfast.linalg import householder
+from holdfast.status import Status
+
+
+def test_arithmetic_is_that_of_numbers(mixed8, rng):
+    rho, kr = relative_manipulability(mixed8), manipulability(mixed8)
+    q = oracles.inside(mixed8, rng, 20)
+    total = 2 * rho + 0.5 * (kr + rho * 3)
+    np.testing.assert_allclose(total(q), 2 * rho(q) + 0.5 * (kr(q) + 3 * rho(q)), rtol=1e-14)
+    assert float(total(q[0])) == pytest.approx(float(total(q)[0]), rel=1e-15)
+    assert [w for w, _ in total.terms] == [2, 0.5, 1.5]
+    assert total.better == "larger"
+    assert (-1 * total).better == "smaller"
+    np.testing.assert_allclose((-total)(q), -total(q))
+    assert total.own_task is not None
+    assert "2 x relative manipulability" in total.name
+
+
+def test_a_smaller_is_better_summand_needs_the_other_sign(mixed8, rng):
+    rho, kappa = relative_manipulability(mixed8), condition_number(mixed8)
+    with pytest.raises(hf.TaskError, match="change the sign"):
+        rho + kappa
+    total = rho - 0.01 * kappa
+    q = oracles.inside(mixed8, rng, 5)
+    np.testing.assert_allclose(total(q), rho(q) - 0.01 * kappa(q), rtol=1e-14)
+    assert (0.01 * kappa - rho).better == "smaller"
+
+
+@pytest.mark.parametrize("weight", [0, np.nan, np.inf, "much", None])
+def test_weights_that_are_none(mixed8, weight):
+    with pytest.raises(hf.InputError, match="weight"):
+        WeightedSum([(weight, relative_manipulability(mixed8))])
+
+
+def test_what_does_not_belong_together(mixed8, mixed7):
+    with pytest.raises(hf.InputError, match="use one arm"):
+        relative_manipulability(mixed8) + relative_manipulability(mixed7, "position")
+    with pytest.raises(hf.TaskError, match="use one"):
+        relative_manipulability(mixed8) + relative_manipulability(mixed8, "position")
+    with pytest.raises(hf.InputError, match="at least one"):
+        WeightedSum([])
+    with pytest.raises(TypeError):
+        relative_manipulability(mixed8) + 1
+
+
+def test_singular_rows_are_told():
+    planar3 = hf.arms.load("planar-3r")
+    rho = relative_manipulability(planar3, "planar")
+    total = rho + manipulability(planar3, "planar")
+    q = np.array([[0.0, 0.0, 0.0], [0.1, 0.5, 0.9]])
+    assert total.statuses(q).tolist() == [Status.SINGULAR, Status.OK]
+
+
+def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
+    own = CustomIndex(lambda j: ca.sumsqr(j), mixed8, better="smaller")
+    total = relative_manipulability(mixed8) + 3 * manipulability(mixed8) - 0.2 * own
+    q = kinematics.joint_symbols(mixed8)
+    j = kinematics.invariant_jacobian(mixed8, q)
+    qr = householder(j)
+    rows = qr.null_rows()
+    directions = [ca.vertcat(*[row[c] for row in rows]) for c in range(2)]
+    parts = total.parts(q, j, qr, directions)
+    value = sum(p.weight * ca.mmin(ca.vertcat(*p.values)) for p in parts)
+    function = ca.Function("value", [q], [value, ca.horzcat(*directions)])
+    # Differences of the sum along the manifold against the slopes of the functions that are lowest.
+    slopes = ca.Function("slopes", [q], [ca.vertcat(*[ca.horzcat(*row) for row in p.slopes]) for p in parts])
+    lowest = ca.Function("lowest", [q], [ca.vertcat(*p.values) for p in parts])
+    checked = 0
+    for x in oracles.inside(mixed8, rng, 12):
+        at, null = (np.array(y) for y in function(x))
+        np.testing.assert_allclose(at.item(), total(x), rtol=1e-9)
+        gaps = [np.diff(np.sort(np.array(v).ravel())[:2]) / np.abs(np.array(v)).max() for v in lowest(x)]
+        if min(float(g[0]) for g in gaps) < 1e-4:  # two functions tie: no one slope
+            continue
+        checked += 1
+        mine = sum(p.weight * np.array(s)[np.array(v).argmin()] for p, s, v in zip(parts, slopes(x), lowest(x), strict=True))
+        wanted = [(total(x + 1e-6 * d) - total(x - 1e-6 * d)) / 2e-6 for d in null.T]
+        np.testing.assert_allclose(mine, wanted, rtol=1e-5, atol=1e-6 * max(1.0, np.abs(wanted).max()))
+    assert checked
