@@ -138,7 +138,7 @@ class WeightedSum(Objective):
                 flat.append((w, objective))
         if not flat:
             raise InputError("a weighted sum needs at least one objective")
-        self.terms = tuple(flat)
+        self.terms: tuple[tuple[float, Objective], ...] = tuple(flat)
         first = flat[0][1]
         self.arm = first.arm
         ways = []

@@ -110,21 +110,19 @@ class Ascent:
         e, full = task_error(arm, task, q, p, r)
         back = damped_least_norm(full, e, 1e-12)
         big = 1e3  # stands for no limit: far beyond any trust region
-        kept: list[tuple[list[SX], SX, SX]] = []
+        rows_kept: list[list[SX]] = []
+        room: list[tuple[SX, SX]] = []
         for k, (low, high) in enumerate(zip(arm.lower, arm.upper, strict=True)):
             if np.isfinite(low) or np.isfinite(high):
-                kept.append(
-                    (
-                        rows[k],
-                        low - q[k] - back[k] if np.isfinite(low) else ca.SX(-big),
-                        high - q[k] - back[k] if np.isfinite(high) else ca.SX(big),
-                    )
-                )
+                below = low - q[k] - back[k] if np.isfinite(low) else ca.SX(-big)
+                above = high - q[k] - back[k] if np.isfinite(high) else ca.SX(big)
+                rows_kept.append(rows[k])
+                room.append((below, above))
         if clearance is not None:
             gap = smallest(clearance.distances(q))
-            (slope,) = slopes_along([gap], q, directions)
-            kept.append((slope, self.margin - gap, ca.SX(big)))
-        z = maximin_step(parts, *[list(x) for x in zip(*kept, strict=True)] if kept else ([], [], []), radius)
+            rows_kept.append(slopes_along([gap], q, directions)[0])
+            room.append((self.margin - gap, ca.SX(big)))
+        z = maximin_step(parts, rows_kept, [below for below, _ in room], [above for _, above in room], radius)
         move = [dot(rows[k], z) for k in range(arm.n)]
         moved = clipped(arm, [q[k] + back[k] + move[k] for k in range(arm.n)])
         # Steps that agree may grow; steps that turn back have passed the best point.
