@@ -202,36 +202,64 @@ def slopes_along(values: Sequence[SX], q: SX, directions: Sequence[SX]) -> list[
 
 def damped_least_norm(j: SX, e: SX, damping: SX | float) -> SX:
     """``J' (J J' + damping I)^-1 e``: the least-norm solution of ``J x = e``, damped."""
-    m = j.shape[0]
-    gram = j @ j.T
-    a = [[gram[i, k] + (damping if i == k else 0) for k in range(m)] for i in range(m)]
-    return j.T @ ca.vertcat(*solve_spd(a, [e[i] for i in range(m)]))
+    return j.T @ ca.vertcat(*solve_spd(gram(j, damping), ca.vertsplit(ca.densify(e))))
+
+
+class Cholesky:
+    """``A = L D L'`` of a symmetric positive definite A (n, n), without roots, for several right-hand sides.
+
+    Attributes:
+        pivots: Diagonal of D; their product is det A.
+    """
+
+    def __init__(self, a: list[list[SX]]) -> None:
+        n = len(a)
+        self._lower: list[list[SX]] = [[None] * n for _ in range(n)]
+        self._inverse: Vector = []
+        self.pivots: Vector = []
+        scaled: list[list[SX]] = [[None] * n for _ in range(n)]  # L D
+        for j in range(n):
+            pivot = a[j][j]
+            for k in range(j):
+                pivot = pivot - self._lower[j][k] * scaled[j][k]
+            self.pivots.append(pivot)
+            self._inverse.append(1 / pivot)
+            for i in range(j + 1, n):
+                entry = a[i][j]
+                for k in range(j):
+                    entry = entry - scaled[i][k] * self._lower[j][k]
+                scaled[i][j] = entry
+                self._lower[i][j] = entry * self._inverse[j]
+
+    def determinant(self) -> SX:
+        """``det A``."""
+        product = self.pivots[0]
+        for pivot in self.pivots[1:]:
+            product = product * pivot
+        return product
+
+    def solve(self, b: Vector) -> Vector:
+        """``A^-1 b``."""
+        n = len(b)
+        x = list(b)
+        for i in range(n):
+            for k in range(i):
+                x[i] = x[i] - self._lower[i][k] * x[k]
+        for i in range(n):
+            x[i] = x[i] * self._inverse[i]
+        for i in reversed(range(n)):
+            for k in range(i + 1, n):
+                x[i] = x[i] - self._lower[k][i] * x[k]
+        return x
 
 
 def solve_spd(a: list[list[SX]], b: Vector) -> Vector:
-    """Solve ``A x = b`` for a symmetric positive definite A by Cholesky (L D L', no roots)."""
-    n = len(b)
-    lower: list[list[SX]] = [[None] * n for _ in range(n)]
-    inverse: Vector = []
-    scaled: list[list[SX]] = [[None] * n for _ in range(n)]  # L D
-    for j in range(n):
-        pivot = a[j][j]
-        for k in range(j):
-            pivot = pivot - lower[j][k] * scaled[j][k]
-        inverse.append(1 / pivot)
-        for i in range(j + 1, n):
-            entry = a[i][j]
-            for k in range(j):
-                entry = entry - scaled[i][k] * lower[j][k]
-            scaled[i][j] = entry
-            lower[i][j] = entry * inverse[j]
-    x = list(b)
-    for i in range(n):
-        for k in range(i):
-            x[i] = x[i] - lower[i][k] * x[k]
-    for i in range(n):
-        x[i] = x[i] * inverse[i]
-    for i in reversed(range(n)):
-        for k in range(i + 1, n):
-            x[i] = x[i] - lower[k][i] * x[k]
-    return x
+    """Solve ``A x = b`` for a symmetric positive definite A."""
+    return Cholesky(a).solve(b)
+
+
+def gram(j: SX, damping: SX | float = 0.0) -> list[list[SX]]:
+    """``J J' + damping I`` of J (m, n)."""
+    product = j @ j.T
+    m = j.shape[0]
+    return [[product[i, k] + (damping if i == k else 0) for k in range(m)] for i in range(m)]
