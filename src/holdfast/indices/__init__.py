@@ -1,6 +1,6 @@
-"""What one configuration is worth after a failure: locked-joint indices, each with its exact gradient.
+"""What one configuration is worth after a failure: locked-joint indices and free-swinging susceptibilities, with gradients.
 
-Every constructor takes ``(arm, task="pose", failures="single", length=None)`` and returns an :class:`Index`.
+Free-swinging joints are in :mod:`holdfast.indices.susceptibility`. Of the indices every constructor takes ``(arm, task="pose", failures="single", length=None)`` and returns an :class:`Index`.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
+from holdfast.indices import susceptibility
 from holdfast.indices.custom import CustomIndex
 from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index
 from holdfast.indices.relative import Manipulability, RelativeManipulability
@@ -97,4 +98,5 @@ __all__ = [
     "mean_singular_value",
     "minimum_singular_value",
     "relative_manipulability",
+    "susceptibility",
 ]

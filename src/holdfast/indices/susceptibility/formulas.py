@@ -31,6 +31,7 @@ class Formula:
         name: For people.
         source: Paper and equations.
         turning, sliding: Unit of the measure of a revolute and of a prismatic joint.
+        slides: Defined for prismatic joints too.
         check: Raises ArmError for an arm that has no such measure.
         values: ``(arm, q) -> f (n,), degenerate (n,)``.
         jacobian: ``(arm, q) -> Df (n, n)`` by the paper's formulas, for configurations without a degenerate joint.
@@ -40,6 +41,7 @@ class Formula:
     source: str
     turning: str
     sliding: str
+    slides: bool
     check: Callable[[Arm], None]
     values: Callable[[Arm, SX], tuple[SX, SX]]
     jacobian: Callable[[Arm, SX], SX]
@@ -154,8 +156,8 @@ def _matrix(n: int, entry: Callable[[int, int], SX]) -> SX:
 
 
 PAPER = "English and Maciejewski 1998"
-TORQUE = Formula("torque", f"{PAPER}, eq. (7), (8), (12)", "N m", "N", require_masses, _torque, _torque_jacobian)
+TORQUE = Formula("torque", f"{PAPER}, eq. (7), (8), (12)", "N m", "N", True, require_masses, _torque, _torque_jacobian)
 ACCELERATION = Formula(
-    "acceleration", f"{PAPER}, eq. (22)", "rad/s^2", "m/s^2", _require_inertia, _acceleration, _acceleration_jacobian
+    "acceleration", f"{PAPER}, eq. (22)", "rad/s^2", "m/s^2", True, _require_inertia, _acceleration, _acceleration_jacobian
 )
-SWING_ANGLE = Formula("swing angle", f"{PAPER}, eq. (38), (39)", "rad", "rad", require_masses, _swing, _swing_jacobian)
+SWING_ANGLE = Formula("swing angle", f"{PAPER}, eq. (38), (39)", "rad", "rad", False, require_masses, _swing, _swing_jacobian)
