@@ -1,6 +1,7 @@
 """What one configuration is worth after a failure: locked-joint indices and free-swinging susceptibilities, with gradients.
 
-Free-swinging joints are in :mod:`holdfast.indices.susceptibility`. Of the indices every constructor takes ``(arm, task="pose", failures="single", length=None)`` and returns an :class:`Index`.
+Free-swinging joints are in :mod:`holdfast.indices.susceptibility`. Every constructor of an index takes
+``(arm, task="pose", failures="single", length=None)`` and returns an :class:`Index`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A susceptibility: how much a free-swinging failure of each joint would do to an arm at rest, and all of them in one number."""
+"""A susceptibility: how much a free-swinging failure of each joint would do to an arm at rest, and all in one number."""
 
 from __future__ import annotations
 
