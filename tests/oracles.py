@@ -6,6 +6,7 @@ Functions take batches ``q (N, n)``. The Jacobian is the exact derivative of the
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import null_space
@@ -56,6 +57,26 @@ def random_arm(
         tuple(joints),
         base=random_pose(rng, 1.0) if base else np.eye(4),
         tool=random_pose(rng, 0.3),
+    )
+
+
+def random_link(rng: np.random.Generator, name: str | None = None) -> hf.Link:
+    """A body with a full inertia that obeys the triangle inequality."""
+    moments = rng.uniform(0.01, 0.1, 3)
+    turn = Rotation.random(random_state=rng).as_matrix()
+    inertia = turn @ np.diag(moments.sum() - moments) @ turn.T
+    return hf.Link(rng.uniform(0.3, 3.0), rng.uniform(-0.3, 0.3, 3), inertia, name)
+
+
+def with_bodies(arm: hf.Arm, rng: np.random.Generator, payload: bool = False, armature: bool = False) -> hf.Arm:
+    """The arm with random links, gravity in a random direction, and if asked a payload and rotor inertias."""
+    joints = [replace(j, armature=rng.uniform(0.01, 0.2) if armature else 0.0) for j in arm.joints]
+    return replace(
+        arm,
+        joints=tuple(joints),
+        links=tuple(random_link(rng) for _ in joints),
+        gravity=9.81 * Rotation.random(random_state=rng).as_matrix()[0],
+        payload=random_link(rng) if payload else None,
     )
 
 
@@ -112,7 +133,7 @@ def inside(arm: hf.Arm, rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 def to_pinocchio(arm: hf.Arm):
-    """The arm as a Pinocchio model and the id of its tool frame."""
+    """The arm as a Pinocchio model, with links, payload, gravity and armature, and the id of its tool frame."""
     import pinocchio as pin
 
     model, parent = pin.Model(), 0
@@ -120,6 +141,12 @@ def to_pinocchio(arm: hf.Arm):
         made = pin.JointModelPrismaticUnaligned if joint.prismatic else pin.JointModelRevoluteUnaligned
         placement = (arm.base @ joint.origin) if k == 0 else joint.origin
         parent = model.addJoint(parent, made(np.array(joint.axis)), pin.SE3(np.array(placement)), joint.name)
+        for body in (arm.links[k], arm.payload if k == arm.n - 1 else None):
+            if body is not None:
+                inertia = pin.Inertia(body.mass, np.array(body.com), np.array(body.inertia))
+                model.appendBodyToJoint(parent, inertia, pin.SE3.Identity())
+    model.gravity.linear = np.array(arm.gravity)
+    model.armature = np.array([j.armature for j in arm.joints])
     tool = model.addFrame(pin.Frame("tool", parent, 0, pin.SE3(np.array(arm.tool)), pin.FrameType.OP_FRAME))
     return model, tool
 

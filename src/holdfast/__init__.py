@@ -5,6 +5,7 @@ from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Region, assess, load
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
+from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
@@ -36,4 +37,5 @@ __all__ = [
     "optimise",
     "set_threads",
     "solve_ik",
+    "susceptibility",
 ]

@@ -56,19 +56,19 @@ def chain(arm: Arm, q: SX, frame: int | None = None, steps: list[Frame] | None =
     steps = joint_steps(arm, q) if steps is None else steps
     axes: list[SX] = [None] * n
     points: list[SX] = [None] * n
-    rotation, position = _split(arm.base) if frame is None else (_eye(), ca.SX(3, 1))
+    rotation, position = split(arm.base) if frame is None else (eye(), ca.SX(3, 1))
     start = 0 if frame is None else frame
     for k in range(start, n):
-        rotation, position = _compose((rotation, position), _split(arm.joints[k].origin))
+        rotation, position = compose((rotation, position), split(arm.joints[k].origin))
         axes[k], points[k] = _column(rotation, arm.joints[k].axis), position
-        rotation, position = _compose((rotation, position), steps[k])
-    rotation, position = _compose((rotation, position), _split(arm.tool))
+        rotation, position = compose((rotation, position), steps[k])
+    rotation, position = compose((rotation, position), split(arm.tool))
     tool = rotation, position
-    rotation, position = _eye(), ca.SX(3, 1)
+    rotation, position = eye(), ca.SX(3, 1)
     for k in reversed(range(start)):
-        rotation, position = _compose((rotation, position), _inverse(steps[k]))
+        rotation, position = compose((rotation, position), _inverse(steps[k]))
         axes[k], points[k] = _column(rotation, arm.joints[k].axis), position
-        rotation, position = _compose((rotation, position), _inverse(_split(arm.joints[k].origin)))
+        rotation, position = compose((rotation, position), _inverse(split(arm.joints[k].origin)))
     return Chain(axes, points, *tool)
 
 
@@ -129,19 +129,23 @@ def jacobian_derivative(arm: Arm, q: SX) -> SX:
     return ca.vertcat(*[ca.reshape(ca.jacobian(ca.vec(ca.densify(j)), q[i]), 6, arm.n) for i in range(arm.n)])
 
 
-def _eye() -> SX:
+def eye() -> SX:
+    """The identity (3, 3), zeros left out."""
     return ca.SX(ca.Sparsity.diag(3), 1)
 
 
-def _sparse(a: Array) -> SX:
+def constant(a: Array) -> SX:
+    """Numbers as a symbolic matrix, zeros left out."""
     return ca.sparsify(ca.SX(ca.DM(a)))
 
 
-def _split(transform: Array) -> Frame:
-    return _sparse(transform[:3, :3]), _sparse(transform[:3, 3])
+def split(transform: Array) -> Frame:
+    """Rotation (3, 3) and position (3,) of a constant transform (4, 4)."""
+    return constant(transform[:3, :3]), constant(transform[:3, 3])
 
 
-def _compose(a: Frame, b: Frame) -> Frame:
+def compose(a: Frame, b: Frame) -> Frame:
+    """The transform a followed by b, as a matrix product."""
     return a[0] @ b[0], a[1] + a[0] @ b[1]
 
 
@@ -150,7 +154,7 @@ def _inverse(a: Frame) -> Frame:
 
 
 def _column(rotation: SX, axis: Array) -> SX:
-    return rotation @ _sparse(axis)
+    return rotation @ constant(axis)
 
 
 def joint_steps(arm: Arm, q: SX) -> list[Frame]:
@@ -162,8 +166,8 @@ def _joint_step(arm: Arm, k: int, q: SX) -> Frame:
     joint = arm.joints[k]
     axis = joint.axis
     if joint.prismatic:
-        return _eye(), _sparse(axis) * q[k]
+        return eye(), constant(axis) * q[k]
     c, s = ca.cos(q[k]), ca.sin(q[k])
     outer, skew = np.outer(axis, axis), np.cross(np.eye(3), axis)
     # Rodrigues; for an axis along x, y or z the products below vanish and a plane rotation is left.
-    return _sparse(outer) + _sparse(np.eye(3) - outer) * c + _sparse(skew) * s, ca.SX(3, 1)
+    return constant(outer) + constant(np.eye(3) - outer) * c + constant(skew) * s, ca.SX(3, 1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +17,7 @@ from holdfast.errors import ArmError, InputError
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH
-    from holdfast.kernels import Kernel
+    from holdfast.kernels import SX, Kernel
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
@@ -328,29 +328,44 @@ class Arm:
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
-    @cached_property
-    def _pose_kernel(self) -> Kernel:
+    def _compiled(self, name: str, expression: Callable[[Arm, SX], SX]) -> Kernel:
         from holdfast.arm import kinematics
         from holdfast.kernels import Kernel
 
         q = kinematics.joint_symbols(self)
-        return Kernel("pose", [q], [kinematics.tool_pose(self, q)])
+        return Kernel(name, [q], [expression(self, q)])
+
+    @cached_property
+    def _pose_kernel(self) -> Kernel:
+        from holdfast.arm import kinematics
+
+        return self._compiled("pose", kinematics.tool_pose)
 
     @cached_property
     def _jacobian_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
-        from holdfast.kernels import Kernel
 
-        q = kinematics.joint_symbols(self)
-        return Kernel("jacobian", [q], [kinematics.jacobian(self, q)])
+        return self._compiled("jacobian", kinematics.jacobian)
 
     @cached_property
     def _jacobian_derivative_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
-        from holdfast.kernels import Kernel
 
-        q = kinematics.joint_symbols(self)
-        return Kernel("jacobian derivative", [q], [kinematics.jacobian_derivative(self, q)])
+        return self._compiled("jacobian derivative", kinematics.jacobian_derivative)
+
+    @cached_property
+    def _gravity_torque_kernel(self) -> Kernel:
+        from holdfast.arm import statics
+
+        return self._compiled("gravity torque", lambda arm, q: statics.gravity_torques(arm, statics.composite(arm, q)))
+
+    @cached_property
+    def _inertia_diagonal_kernel(self) -> Kernel:
+        from holdfast.arm import statics
+        from holdfast.arm.check import require_possible_inertia
+
+        require_possible_inertia(self)
+        return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
 
     def forward_kinematics(self, q: ArrayLike) -> Array:
         """Tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
@@ -369,6 +384,28 @@ class Arm:
         """Derivative of the Jacobian, ``out[..., j, :, i] = d J[:, i] / d q_j``, (n, 6, n) or (N, n, 6, n)."""
         a = self.check_configurations(q)
         return self._jacobian_derivative_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n, 6, self.n))
+
+    def gravity_torque(self, q: ArrayLike) -> Array:
+        """Torques and forces that hold the arm still against gravity, payload included, (n,) or (N, n); N m and N.
+
+        Source: English and Maciejewski 1998, eq. (8), (12).
+
+        Raises:
+            ArmError: A link of which nothing is known.
+        """
+        a = self.check_configurations(q)
+        return self._gravity_torque_kernel.rows(np.atleast_2d(a)).reshape(a.shape)
+
+    def inertia_diagonal(self, q: ArrayLike) -> Array:
+        """Diagonal of the joint-space inertia matrix, payload and armature included, (n,) or (N, n); kg m^2 and kg.
+
+        Source: English and Maciejewski 1998, eq. (25), (28).
+
+        Raises:
+            ArmError: A link of which nothing is known, or whose inertia no body has.
+        """
+        a = self.check_configurations(q)
+        return self._inertia_diagonal_kernel.rows(np.atleast_2d(a)).reshape(a.shape)
 
     def __repr__(self) -> str:
         return f"Arm({self.name!r}, {self.n} joints)"

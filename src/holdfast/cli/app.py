@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from holdfast.cli import arm_commands, assess_commands, index_commands
+from holdfast.cli import arm_commands, assess_commands, index_commands, susceptibility_commands
 from holdfast.errors import HoldfastError
 
 app = typer.Typer(
@@ -42,6 +42,7 @@ def _root(
 
 arm_commands.add(app)
 index_commands.add(app)
+susceptibility_commands.add(app)
 assess_commands.add(app)
 
 

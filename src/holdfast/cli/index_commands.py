@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import typer
@@ -10,14 +10,17 @@ import typer
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    DegreesOption,
     FailuresOption,
     IndexOption,
     JsonOption,
     LengthOption,
+    QOption,
     TaskOption,
     TipOption,
     console,
     number,
+    outside_limits,
     print_json,
     read_arm,
     read_configuration,
@@ -31,11 +34,6 @@ if TYPE_CHECKING:
 
     from holdfast.indices import Index
 
-QOption = Annotated[
-    list[str],
-    typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
-]
-
 
 def index(
     arm: ArmArgument,
@@ -44,7 +42,7 @@ def index(
     task: TaskOption = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: DegreesOption = False,
     base: BaseOption = None,
     tip: TipOption = None,
     json_: JsonOption = False,
@@ -105,7 +103,7 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
             out.print(
                 f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}", soft_wrap=True
             )
-        outside = [j.name for j, x in zip(measure.arm.joints, q, strict=True) if not j.lower <= x <= j.upper]
+        outside = outside_limits(measure.arm, q)
         if outside:
             out.print(f"[yellow]outside its limits: {escape(', '.join(outside))}[/]", soft_wrap=True)
         table = Table("failure", f"{measure.name}{unit}", box=None, pad_edge=False)

@@ -45,6 +45,11 @@ IndexOption = Annotated[
         "minimum-singular-value or condition-number.",
     ),
 ]
+QOption = Annotated[
+    list[str],
+    typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
+]
+DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")]
 FailuresOption = Annotated[
     str,
     typer.Option("--failures", help="single, pairs, a number of joints, or sets such as 'joint2; joint1+joint4' or '2; 1+4'."),
@@ -108,16 +113,26 @@ def read_failures(arm: Arm, text: str) -> FailureSpec:
 
 def read_configuration(arm: Arm, text: str, degrees: bool) -> NDArray[np.float64]:
     """Joint values separated by commas or spaces; with degrees, of the turning joints (sliding ones stay in m)."""
-    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
-    try:
-        q = np.array([float(x) for x in parts])
-    except ValueError as error:
-        wrong = next(x for x in parts if not _is_number(x))
-        raise InputError(f"--q: '{wrong}' is not a number; give {arm.n} numbers separated by commas or spaces") from error
+    q = read_numbers("--q", text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():
         raise InputError(f"--q holds NaN or infinity; give {arm.n} finite numbers")
     return np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
+
+
+def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
+    """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
+    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
+    try:
+        return np.array([float(x) for x in parts])
+    except ValueError as error:
+        wrong = next(x for x in parts if not _is_number(x))
+        raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
+
+
+def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:
+    """Names of the joints of which q (n,) is beyond a limit."""
+    return [j.name for j, x in zip(arm.joints, q, strict=True) if not j.lower <= x <= j.upper]
 
 
 def _is_number(text: str) -> bool:

@@ -1,6 +1,7 @@
-"""What one configuration is worth after a failure: locked-joint indices, each with its exact gradient.
+"""What one configuration is worth after a failure: locked-joint indices and free-swinging susceptibilities, with gradients.
 
-Every constructor takes ``(arm, task="pose", failures="single", length=None)`` and returns an :class:`Index`.
+Free-swinging joints are in :mod:`holdfast.indices.susceptibility`. Every constructor of an index takes
+``(arm, task="pose", failures="single", length=None)`` and returns an :class:`Index`.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
+from holdfast.indices import susceptibility
 from holdfast.indices.custom import CustomIndex
 from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index
 from holdfast.indices.objective import Objective, Part, WeightedSum
@@ -101,4 +103,5 @@ __all__ = [
     "mean_singular_value",
     "minimum_singular_value",
     "relative_manipulability",
+    "susceptibility",
 ]

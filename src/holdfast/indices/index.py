@@ -221,11 +221,7 @@ class Index(Objective):
         return np.asarray(sigma[:, -1] <= SINGULAR_RATIO * sigma[:, 0])
 
     def _rows(self, q: ArrayLike) -> tuple[Array, bool]:
-        a = self.arm.check_configurations(q)
-        single = a.ndim == 1
-        if single and not np.isfinite(a).all():
-            raise InputError(f"q for '{self.arm.name}' holds NaN or infinity; give {self.arm.n} finite numbers")
-        return np.atleast_2d(a), single
+        return configurations(self.arm, q)
 
     @property
     def slug(self) -> str:
@@ -240,3 +236,12 @@ class Index(Objective):
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
+
+
+def configurations(arm: Arm, q: ArrayLike) -> tuple[Array, bool]:
+    """``q`` as (N, n), and whether it was a single configuration, which must then be finite."""
+    a = arm.check_configurations(q)
+    single = a.ndim == 1
+    if single and not np.isfinite(a).all():
+        raise InputError(f"q for '{arm.name}' holds NaN or infinity; give {arm.n} finite numbers")
+    return np.atleast_2d(a), single

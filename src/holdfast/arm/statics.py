@@ -1,0 +1,201 @@
+"""Symbolic statics and inertia of a serial arm: what gravity asks of each joint, and how heavy each joint feels.
+
+Joint i carries a *composite body*: the links after it and the payload, as if they were welded together. English and
+Maciejewski 1998 give its mass, first and second moment by a recursion from the tip, eq. (9), (10), (26), (27), each in
+the axes of its own link, where joint axes and link data are constant numbers. Measured for the Panda: all three
+susceptibilities with their gradients take 1,400 operations that way and 3,900 as sums in one common frame.
+
+The paper's closed-form derivatives, eq. (14)-(17) and (31)-(35), need all vectors in one frame: :func:`in_world`.
+
+Source: English, Maciejewski 1998. The paper's upward vector g is minus the arm's gravity: the sign is changed here only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.check import require_masses
+from holdfast.arm.kinematics import Frame, compose, constant, eye, joint_steps, split
+from holdfast.arm.model import Arm, Link
+from holdfast.kernels import SX
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Composite:
+    """The composite body of every joint, as functions of q; entry i belongs to joint i.
+
+    Vectors are in the axes of link i, or all in the world's after :func:`in_world`. O is the origin of the joint's frame,
+    a point on its axis that the joint itself does not move.
+
+    Attributes:
+        axes: Unit vectors (3,) of the joint axes.
+        masses: kg, eq. (9).
+        moments: First moments (3,) about O, kg m, eq. (10).
+        inertias: Second moments (3, 3) about O, kg m^2, eq. (26), (27).
+        gravity: Upward vectors g (3,), m/s^2.
+        rotations: (3, 3) of each link in the world.
+        points: O (3,) in the world, m.
+    """
+
+    axes: list[SX]
+    masses: list[float]
+    moments: list[SX]
+    inertias: list[SX]
+    gravity: list[SX]
+    rotations: list[SX]
+    points: list[SX]
+
+
+def composite(arm: Arm, q: SX) -> Composite:
+    """The composite body of every joint, each in the axes of its own link.
+
+    Raises:
+        ArmError: A link of which nothing is known.
+    """
+    require_masses(arm)
+    n = arm.n
+    steps = joint_steps(arm, q)
+    rotations, points = _frames(arm, steps)
+    gravity: list[SX] = []
+    up = constant(-arm.base[:3, :3].T @ arm.gravity)  # in the base's axes, so that a tilted base costs nothing
+    for joint, step in zip(arm.joints, steps, strict=True):
+        up = step[0].T @ (split(joint.origin)[0].T @ up)
+        gravity.append(up)
+    masses, moments, inertias = [0.0] * n, [ca.SX(3, 1)] * n, [ca.SX(3, 3)] * n
+    mass, moment, inertia = 0.0, ca.SX(3, 1), ca.SX(3, 3)
+    for i, link in reversed(list(enumerate(bodies(arm)))):
+        if i < n - 1:  # from the axes of link i + 1, about its joint, to those of link i, about its origin
+            turn, shift = split(arm.joints[i + 1].origin)
+            for r in (steps[i + 1][0], turn):
+                moment, inertia = r @ moment, _turned(inertia, r)
+            moment, inertia = _shifted(mass, moment, inertia, shift)
+        mass = mass + link.mass
+        moment = moment + constant(link.mass * link.com)
+        inertia = inertia + constant(link.inertia + link.mass * _spread(link.com))
+        moment, inertia = _shifted(mass, moment, inertia, steps[i][1])  # a sliding joint's link has left O
+        masses[i], moments[i], inertias[i] = mass, moment, inertia
+    axes = [constant(joint.axis) for joint in arm.joints]
+    return Composite(axes, masses, moments, inertias, gravity, rotations, points)
+
+
+def bodies(arm: Arm) -> list[Link]:
+    """The links of an arm whose links are all known, the payload joined to the last one."""
+    links = [link for link in arm.links if link is not None]
+    if arm.payload is not None:
+        links[-1] = Link.joined([links[-1], arm.payload])
+    return links
+
+
+def length_scale(arm: Arm) -> float:
+    """A length of the arm, m, against which a first moment is small or not: its links end to end and the farthest mass."""
+    reach = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:])
+    slides = [max(abs(j.lower), abs(j.upper)) for j in arm.joints if j.prismatic]
+    reach += sum(x for x in slides if np.isfinite(x))
+    return reach + max(float(np.linalg.norm(link.com)) for link in bodies(arm))
+
+
+def gravity_torques(arm: Arm, c: Composite) -> SX:
+    """Torques and forces (n,) that hold the arm still against gravity, N m and N; eq. (8), (12)."""
+    return ca.vertcat(*[ca.dot(first_moment_rate(arm, c, i), c.gravity[i]) for i in range(arm.n)])
+
+
+def first_moment_rate(arm: Arm, c: Composite, i: int) -> SX:
+    """How the first moment behind joint i moves with that joint, (3,): ``z x s`` if it turns, ``M z`` if it slides; (15), (17).
+
+    Its product with g is the torque: ``z . (s x g) = (z x s) . g``.
+    """
+    return c.masses[i] * c.axes[i] if arm.joints[i].prismatic else ca.cross(c.axes[i], c.moments[i])
+
+
+def inertia_diagonal(arm: Arm, c: Composite) -> SX:
+    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28)."""
+    entries = []
+    for i, joint in enumerate(arm.joints):
+        z = c.axes[i]
+        body = ca.SX(c.masses[i]) if joint.prismatic else ca.dot(z, c.inertias[i] @ z)
+        entries.append(body + joint.armature)
+    return ca.vertcat(*entries)
+
+
+# ---- the paper's derivatives, all vectors in the world's axes --------------------------------------------------------
+
+
+def in_world(c: Composite) -> Composite:
+    """The same bodies with every vector in the world's axes."""
+    pairs = range(len(c.axes))
+    return Composite(
+        [c.rotations[i] @ c.axes[i] for i in pairs],
+        c.masses,
+        [c.rotations[i] @ c.moments[i] for i in pairs],
+        [_turned(c.inertias[i], c.rotations[i]) for i in pairs],
+        [c.rotations[0] @ c.gravity[0] for _ in pairs],
+        c.rotations,
+        c.points,
+    )
+
+
+def axis_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
+    """``d z_i / d q_j`` (3,) of bodies in the world; eq. (14), (16)."""
+    if j >= i or arm.joints[j].prismatic:
+        return ca.SX(3, 1)
+    return ca.cross(w.axes[j], w.axes[i])
+
+
+def moment_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
+    """``d s_i / d q_j`` (3,) of bodies in the world; eq. (15), (17)."""
+    if j >= i:
+        return first_moment_rate(arm, w, j)
+    return ca.SX(3, 1) if arm.joints[j].prismatic else ca.cross(w.axes[j], w.moments[i])
+
+
+def inertia_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
+    """``d m_ii / d q_j`` of bodies in the world; eq. (31), (33) to (35)."""
+    if j <= i or arm.joints[i].prismatic:
+        return ca.SX(0)
+    z, zj, d = w.axes[i], w.axes[j], w.points[j] - w.points[i]
+    if arm.joints[j].prismatic:
+        h = w.moments[j] + w.masses[j] * d
+        return 2 * ca.dot(ca.cross(z, zj), ca.cross(z, h))
+    turning = ca.dot(ca.cross(z, zj), w.inertias[j] @ z)
+    return 2 * turning + 2 * ca.dot(ca.cross(z, d), ca.cross(z, first_moment_rate(arm, w, j)))
+
+
+def _frames(arm: Arm, steps: list[Frame]) -> tuple[list[SX], list[SX]]:
+    rotations, points = [], []
+    at = split(arm.base)
+    for joint, step in zip(arm.joints, steps, strict=True):
+        at = compose(at, split(joint.origin))
+        points.append(at[1])
+        at = compose(at, step)
+        rotations.append(at[0])
+    return rotations, points
+
+
+def _spread(r: Array) -> Array:
+    """``-[r][r]``: the second moment of a unit mass at r."""
+    return np.asarray(r @ r * np.eye(3) - np.outer(r, r))
+
+
+def _turned(inertia: SX, r: SX) -> SX:
+    """``R I R'``, its lower triangle only computed once."""
+    half = r @ inertia
+    out = ca.SX(3, 3)
+    for a in range(3):
+        for b in range(a, 3):
+            out[a, b] = out[b, a] = ca.dot(half[a, :], r[b, :])
+    return out
+
+
+def _shifted(mass: float, moment: SX, inertia: SX, p: SX) -> tuple[SX, SX]:
+    """Moments about a point from which the old one is seen at p: ``s + M p``, ``I - [p][s] - [s][p] - M [p][p]``."""
+    if p.nnz() == 0:
+        return moment, inertia
+    both = moment @ p.T
+    middle = both + both.T + mass * (p @ p.T)
+    return moment + mass * p, inertia + ca.trace(middle) * eye() - middle

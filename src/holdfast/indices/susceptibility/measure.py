@@ -1,0 +1,265 @@
+"""A susceptibility: how much a free-swinging failure of each joint would do to an arm at rest, and all in one number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+from typing import Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.errors import InputError
+from holdfast.indices.index import configurations
+from holdfast.indices.susceptibility.formulas import TORQUE, Formula
+from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
+from holdfast.kernels import SX, Kernel
+from holdfast.status import Status, require_ok
+
+Array = NDArray[np.float64]
+
+
+class JointStatus(IntEnum):
+    """What the measure of one joint at one configuration stands for; ``JointStatus(code).advice`` says it in a sentence."""
+
+    OK = 0
+    DEGENERATE = 1
+    NOT_DEFINED = 2
+    NO_INERTIA = 3
+    BAD_INPUT = 4
+
+    @property
+    def advice(self) -> str:
+        """One sentence: what this status means and what to do about it."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    JointStatus.OK: "the measure of this joint is what its formula says",
+    JointStatus.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not "
+    "swing, so the angle and its gradient are 0 by convention, and near here both change abruptly",
+    JointStatus.NOT_DEFINED: "a sliding joint does not swing, it slides to its stop: its swing angle is 0 by convention",
+    JointStatus.NO_INERTIA: "all the mass this joint carries lies on its axis, so its acceleration is 0/0: give the links "
+    "their inertia or the joint its armature",
+    JointStatus.BAD_INPUT: "the configuration held NaN or infinity: look at where it came from",
+}
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A susceptibility at N configurations, or at one (then without the leading N).
+
+    Attributes:
+        value: (N,) the joints combined by the weights, ``f' W f``.
+        by_joint: (N, n) the measure f of each joint, signed, in ``measure.joint_unit``.
+        status: (N,) ``Status.OK``, ``BAD_INPUT``, or ``NO_INERTIA`` where a joint has no acceleration.
+        joint_status: (N, n) :class:`JointStatus` of each joint.
+    """
+
+    value: Array
+    by_joint: Array
+    status: NDArray[np.uint8]
+    joint_status: NDArray[np.uint8]
+
+    def require_ok(self) -> Evaluation:
+        """Itself, or :class:`holdfast.HoldfastError` naming the first row that has no value."""
+        require_ok(self.status, "susceptibility")
+        return self
+
+
+class Susceptibility:
+    r"""How much the failure of each joint would do, :math:`f`, combined as :math:`F = f^\top W f`; smaller is better.
+
+    The arm is at rest, its links are rigid, and no joint holds by friction. Joints are signed: the torque that holds the
+    joint, and the way it would accelerate or swing, about ``+z`` of its axis; flipping an axis flips its f.
+
+    Source: English and Maciejewski 1998, eq. (1)-(4). The paper prints f' W f without saying whether half of it is meant.
+
+    Attributes:
+        arm: The arm.
+        formula: The measure.
+        weights: (n, n) W, symmetric.
+        better: ``"smaller"``.
+    """
+
+    better: Literal["smaller"] = "smaller"
+
+    def __init__(self, formula: Formula, arm: Arm, weights: WeightSpec = None) -> None:
+        formula.check(arm)
+        self.formula, self.arm = formula, arm
+        self.weights, self._weighting = weight_matrix(arm, weights, formula is TORQUE, formula.name)
+        self.weights.setflags(write=False)
+
+    # ---- how to speak of it ------------------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"{self.formula.name} susceptibility"
+
+    @property
+    def slug(self) -> str:
+        """The name as used on the command line and in files."""
+        return self.formula.name.replace(" ", "-")
+
+    @property
+    def source(self) -> str:
+        """Paper and equations."""
+        return self.formula.source
+
+    @property
+    def joint_unit(self) -> tuple[str, ...]:
+        """Unit of each joint's measure; the swing angle of a sliding joint is 0 by convention."""
+        return tuple(self.formula.sliding if p else self.formula.turning for p in self.arm.prismatic)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the value; ``1`` if the weights take the units away."""
+        if self._weighting in ("effort", "worst-case"):
+            return "1"
+        square = ", ".join(f"({u})^2" for u in dict.fromkeys(self.joint_unit))
+        mixed = " mixed" if len(set(self.joint_unit)) > 1 else ""
+        return square + mixed + ("" if self._weighting == "identity" else ", weighted")
+
+    def describe(self) -> str:
+        """One phrase for people: what it is, and how its joints are combined."""
+        return f"{self.name} after any one joint swings free, {self._weighting} weights"
+
+    def __repr__(self) -> str:
+        return f"<{self.describe()}, arm {self.arm.name!r}>"
+
+    # ---- symbols -----------------------------------------------------------------------------------------------
+
+    def by_joint_expression(self, q: SX) -> SX:
+        """The measure of every joint (n,) as a function of the symbols q (n,), its conventions included."""
+        return ca.densify(self.formula.values(self.arm, q)[0])
+
+    def expression(self, q: SX) -> SX:
+        """``f' W f`` as a function of the symbols q (n,); smooth but where a joint becomes degenerate or hangs upright."""
+        return self._combined(self.by_joint_expression(q))
+
+    def gradient_expression(self, q: SX) -> SX:
+        """Gradient (n,) of ``f' W f``, eq. (3), as a function of the symbols q (n,); 0 for a degenerate joint.
+
+        By differentiation of the formula: measured for the Panda it takes 312, 917 and 586 operations for torque,
+        acceleration and swing angle, the paper's closed forms 851, 2287 and 1935 (see ``formula.jacobian``).
+        """
+        return ca.densify(ca.gradient(self.expression(q), q))
+
+    def _combined(self, f: SX) -> SX:
+        # A joint without weight takes no part, also where its own measure is not a number.
+        weights = ca.sparsify(ca.SX(ca.DM(self.weights)))
+        return ca.SX(ca.densify(ca.dot(f, weights @ f)))
+
+    @cached_property
+    def _values(self) -> Kernel:
+        q = kinematics.joint_symbols(self.arm)
+        f, degenerate = self.formula.values(self.arm, q)
+        return Kernel(self.name, [q], [self._combined(f), f, degenerate])
+
+    @cached_property
+    def _gradient(self) -> Kernel:
+        q = kinematics.joint_symbols(self.arm)
+        return Kernel(f"{self.name} gradient", [q], [self.gradient_expression(q)])
+
+    @cached_property
+    def _jacobian(self) -> Kernel:
+        q = kinematics.joint_symbols(self.arm)
+        return Kernel(f"{self.name} jacobian", [q], [ca.jacobian(self.by_joint_expression(q), q)])
+
+    # ---- what a user asks --------------------------------------------------------------------------------------
+
+    def evaluate(self, q: ArrayLike) -> Evaluation:
+        """Value, measure of each joint and what both stand for, in one pass.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+
+        Raises:
+            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+        """
+        rows, single = configurations(self.arm, q)
+        n = self.arm.n
+        out = self._values.rows(rows)
+        value, by_joint = out[:, 0].copy(), out[:, 1 : n + 1].copy()
+        joint_status = np.where(out[:, n + 1 :] > 0, JointStatus.DEGENERATE, JointStatus.OK).astype(np.uint8)
+        if not self.formula.slides:
+            joint_status[:, self.arm.prismatic] = JointStatus.NOT_DEFINED
+        joint_status[np.isnan(by_joint)] = JointStatus.NO_INERTIA
+        bad = ~np.isfinite(rows).all(axis=1)
+        joint_status[bad] = JointStatus.BAD_INPUT
+        status = np.where(np.isnan(value), Status.NO_INERTIA, Status.OK).astype(np.uint8)
+        status[bad] = Status.BAD_INPUT
+        if single:
+            return Evaluation(value[0], by_joint[0], status[0], joint_status[0])
+        return Evaluation(value, by_joint, status, joint_status)
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
+        return self.evaluate(q).value
+
+    def by_joint(self, q: ArrayLike) -> Array:
+        """The measure f of each joint, signed, (N, n) or (n,), in :attr:`joint_unit`."""
+        return self.evaluate(q).by_joint
+
+    def gradient(self, q: ArrayLike) -> Array:
+        """Exact gradient of ``f' W f``, (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""
+        rows, single = configurations(self.arm, q)
+        g = self._gradient.rows(rows)
+        return g[0] if single else g
+
+    def jacobian(self, q: ArrayLike) -> Array:
+        """Exact derivatives of the joints' measures, ``out[..., i, j] = d f_i / d q_j``, (N, n, n) or (n, n); eq. (4).
+
+        The row of a degenerate joint is 0.
+        """
+        rows, single = configurations(self.arm, q)
+        slopes = self._jacobian.rows(rows).reshape(-1, self.arm.n, self.arm.n)
+        return slopes[0] if single else slopes
+
+
+class Together:
+    """Several susceptibilities of one arm, with their gradients, from one kernel that computes what they share once.
+
+    Args:
+        measures: At least one, all of the same arm.
+
+    Raises:
+        InputError: No measure, or measures of different arms.
+    """
+
+    def __init__(self, measures: Sequence[Susceptibility]) -> None:
+        self.measures = tuple(measures)
+        if not self.measures or any(m.arm is not self.measures[0].arm for m in self.measures):
+            raise InputError("measures to evaluate together must be at least one, and all of the same arm")
+        self.arm = self.measures[0].arm
+
+    @cached_property
+    def _kernel(self) -> Kernel:
+        q = kinematics.joint_symbols(self.arm)
+        values = [m.expression(q) for m in self.measures]
+        return Kernel("susceptibilities", [q], [ca.vertcat(*values), *[ca.gradient(v, q) for v in values]])
+
+    def __call__(self, q: ArrayLike) -> tuple[Array, Array]:
+        """Values and gradients.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+
+        Returns:
+            Values (N, k) and gradients (N, k, n) of the k measures, or (k,) and (k, n) for one configuration.
+
+        Raises:
+            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+        """
+        rows, single = configurations(self.arm, q)
+        out = self._kernel.rows(rows)
+        k = len(self.measures)
+        values = np.ascontiguousarray(out[:, :k])
+        gradients = np.ascontiguousarray(out[:, k:]).reshape(-1, k, self.arm.n)
+        return (values[0], gradients[0]) if single else (values, gradients)
