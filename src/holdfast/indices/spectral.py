@@ -17,16 +17,20 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
+from holdfast.indices import secular
 from holdfast.indices.index import SINGULAR_RATIO, Index
-from holdfast.kernels import Kernel, Loop
-from holdfast.linalg import jacobi_sweep
+from holdfast.indices.relative import Manipulability
+from holdfast.kernels import SX, Kernel, Loop
+from holdfast.linalg import HouseholderQR, dot, jacobi_sweep
 
 Array = NDArray[np.float64]
 Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 
 _MOST_SWEEPS = 30
 _CONVERGED = 1e-14
+_SWEEPS = 5  # in one straight-line program, for the scores
 _BLOCK = 1024  # with every failure some thousand small matrices: they stay in the cache
 
 _SOURCES = {
@@ -35,6 +39,8 @@ _SOURCES = {
     "minimum": ("minimum singular value", "Abdi et al. 2012, eq. (9)"),
     "condition number": ("condition number", "Abdi et al. 2012, eq. (10)"),
 }
+
+_SCORES = {"mean": secular.mean, "minimum": secular.minimum, "condition number": secular.inverse_condition}
 
 
 class Rotator:
@@ -120,6 +126,52 @@ class SpectralIndex(Index):
                 slope[rows, high] = 1 / sigma[rows, low]
                 slope[rows, low] -= sigma[rows, high] / sigma[rows, low] ** 2
         return slope
+
+    # ---- symbols -----------------------------------------------------------------------------------------------------
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """The index for every failure, or a monotone function of it, and its derivatives; see :meth:`Index.scores`.
+
+        The geometric mean is scored by the squared manipulability, the condition number by its inverse. The others are not
+        invariant to the frame, so they take the task Jacobian whatever ``j`` is: one singular value decomposition of the
+        healthy arm serves all failures.
+
+        Raises:
+            TaskError: Several joints fail together, unless the formula is the geometric mean.
+        """
+        if self.formula == "geometric mean":
+            return Manipulability(self.arm, self.task, self.failures).scores(q, j, qr, directions)
+        if any(len(s) != 1 for s in self.failures):
+            raise TaskError(
+                f"{self.name} cannot be optimised yet for joints that fail together; use single failures, "
+                "relative manipulability or the geometric mean singular value"
+            )
+        m, n = self.task.m, self.arm.n
+        j = self.task.jacobian(self.arm, q)
+        turned = [[j[i, k] for k in range(n)] for i in range(m)]
+        for _ in range(_SWEEPS):
+            turned, _off = jacobi_sweep(turned)
+        d = [dot(x, x) for x in turned]  # turned = U' J, with orthogonal rows
+        vectors = ca.vertcat(*[ca.horzcat(*x) / (s + np.finfo(float).tiny) for x, s in zip(turned, d, strict=True)]) @ j.T
+        changes = []  # of U' J, and of the Gram matrix U' J J' U
+        for v in directions:
+            change = vectors @ ca.reshape(ca.jtimes(ca.vec(ca.densify(j)), q, v), m, n)
+            half = change @ ca.vertcat(*[ca.horzcat(*x) for x in turned]).T
+            changes.append((change, half + half.T))
+        values, slopes = [], []
+        for (k,) in self.failures:
+            w = [x[k] for x in turned]
+            value, by_gram = _SCORES[self.formula](d, w)
+            moved = [dot(row, w) for row in by_gram]
+            values.append(value)
+            slopes.append(
+                [
+                    sum(dot(row, [gram[i, c] for c in range(m)]) for i, row in enumerate(by_gram))
+                    - 2 * dot(moved, [change[i, k] for i in range(m)])
+                    for change, gram in changes
+                ]
+            )
+        return values, slopes
 
     # ---- batches -----------------------------------------------------------------------------------------------------
 
