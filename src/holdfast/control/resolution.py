@@ -98,8 +98,8 @@ class Resolution(ABC):
             raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{chosen.name}'; use one task")
         if arm.n <= chosen.m:
             raise TaskError(
-                f"task '{chosen.name}' prescribes {chosen.m} rows and '{arm.name}' has {arm.n} joints, so there is no self-motion "
-                "to use; prescribe fewer rows, for example position or pointing"
+                f"task '{chosen.name}' prescribes {chosen.m} rows and '{arm.name}' has {arm.n} joints, so there is no "
+                "self-motion to use; prescribe fewer rows, for example position or pointing"
             )
         self.arm, self.objective, self.task = arm, objective, chosen
         self.rate_cap, self.period, self.damping = rate_cap, period, damping
@@ -281,7 +281,7 @@ class Step:
 
 
 class GradientProjection(Resolution):
-    """Self-motion down (or up) the gradient of the objective, projected onto the null space: ``J^+ v -+ gain (I - J^+ J) grad``.
+    """Self-motion down (or up) the gradient of the objective, kept off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
 
     Args:
         arm: The arm.

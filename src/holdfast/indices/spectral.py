@@ -31,6 +31,7 @@ Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 _MOST_SWEEPS = 30
 _CONVERGED = 1e-14
 _SWEEPS = 5  # in one straight-line program, for the scores
+_FLAT_SCORE = 1e-12  # below this a root or an inverse is drawn as a straight line, whose slope is finite
 _BLOCK = 1024  # with every failure some thousand small matrices: they stay in the cache
 
 _SOURCES = {
@@ -172,6 +173,15 @@ class SpectralIndex(Index):
                 ]
             )
         return values, slopes
+
+    def value_of_score(self, score: SX) -> SX:
+        """The index, negated for the condition number, with a finite slope at 0; see :meth:`Index.value_of_score`."""
+        if self.formula not in ("geometric mean", "condition number"):
+            return score
+        positive = score > _FLAT_SCORE
+        safe = ca.if_else(positive, score, _FLAT_SCORE)
+        value = safe ** (1 / (2 * self.task.m)) if self.formula == "geometric mean" else -1 / safe
+        return value + ca.if_else(positive, 0, score - _FLAT_SCORE) / _FLAT_SCORE
 
     # ---- batches -----------------------------------------------------------------------------------------------------
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
-from typing import Literal
 
 import casadi as ca
 import numpy as np
@@ -16,9 +15,11 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.indices.index import configurations
+from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
 from holdfast.kernels import SX, Kernel
+from holdfast.linalg import HouseholderQR
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
@@ -72,7 +73,7 @@ class Evaluation:
         return self
 
 
-class Susceptibility:
+class Susceptibility(Objective):
     r"""How much the failure of each joint would do, :math:`f`, combined as :math:`F = f^\top W f`; smaller is better.
 
     The arm is at rest, its links are rigid, and no joint holds by friction. Joints are signed: the torque that holds the
@@ -87,20 +88,15 @@ class Susceptibility:
         better: ``"smaller"``.
     """
 
-    better: Literal["smaller"] = "smaller"
-
     def __init__(self, formula: Formula, arm: Arm, weights: WeightSpec = None) -> None:
         formula.check(arm)
         self.formula, self.arm = formula, arm
+        self.name, self.better = f"{formula.name} susceptibility", "smaller"
         self.weights, self._weighting = weight_matrix(arm, weights, formula is TORQUE, formula.name)
         self.weights.setflags(write=False)
+        self.unit = self._value_unit()
 
     # ---- how to speak of it ------------------------------------------------------------------------------------
-
-    @property
-    def name(self) -> str:
-        """For people."""
-        return f"{self.formula.name} susceptibility"
 
     @property
     def slug(self) -> str:
@@ -117,9 +113,7 @@ class Susceptibility:
         """Unit of each joint's measure; the swing angle of a sliding joint is 0 by convention."""
         return tuple(self.formula.sliding if p else self.formula.turning for p in self.arm.prismatic)
 
-    @property
-    def unit(self) -> str:
-        """Unit of the value; ``1`` if the weights take the units away."""
+    def _value_unit(self) -> str:
         if self._weighting in ("effort", "worst-case"):
             return "1"
         square = ", ".join(f"({u})^2" for u in dict.fromkeys(self.joint_unit))
@@ -150,6 +144,12 @@ class Susceptibility:
         acceleration and swing angle, the paper's closed forms 851, 2287 and 1935 (see ``formula.jacobian``).
         """
         return ca.densify(ca.gradient(self.expression(q), q))
+
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """The negative of ``f' W f``, and its slopes; see :meth:`holdfast.indices.Objective.parts`."""
+        value = self.expression(q)
+        slope = ca.densify(ca.gradient(value, q))
+        return [Part(1.0, [-value], [[-ca.dot(slope, v) for v in directions]])]
 
     def _combined(self, f: SX) -> SX:
         # A joint without weight takes no part, also where its own measure is not a number.
