@@ -15,11 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
 from holdfast.errors import InputError
 from holdfast.indices import Index
 from holdfast.kernels import Kernel, in_pool, pool, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
-from holdfast.solve.inverse import InverseKinematics, Reach, check_poses, clipped, solver, task_error
+from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solve.maximin import maximin_step
 from holdfast.status import Status, require_ok
 
