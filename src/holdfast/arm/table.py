@@ -98,8 +98,8 @@ class _Body(Strict):
 
 
 class _Placement(Strict):
-    xyz: Three = [0.0, 0.0, 0.0]
-    urdf_rpy: Three = [0.0, 0.0, 0.0]
+    xyz: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
+    urdf_rpy: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
 
 
 TAGS = ("as rows", "as xyz and urdf_rpy")
@@ -116,7 +116,7 @@ class _Table(Strict):
     angles: Literal["rad", "deg"] = "rad"
     base: _Pose | None = None
     tool: _Pose | None = None
-    gravity: Three = list(GRAVITY)
+    gravity: Three = Field(default_factory=lambda: list(GRAVITY))
     links: list[_Body | None] | None = None
     payload: _Body | None = None
     source: str = ""
