@@ -18,6 +18,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
 from holdfast.linalg import damped_least_norm
+from holdfast.solve import joint_space
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
@@ -246,7 +247,7 @@ class InverseKinematics:
 
     def wrapped(self, q: Array) -> Array:
         """Joints without limits come back to -pi..pi."""
-        turning = [k for k, j in enumerate(self.arm.joints) if not j.prismatic and np.isinf(j.lower) and np.isinf(j.upper)]
+        turning = joint_space.turning(self.arm)
         q[:, turning] = np.arctan2(np.sin(q[:, turning]), np.cos(q[:, turning]))
         return q
 
