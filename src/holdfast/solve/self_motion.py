@@ -36,6 +36,7 @@ _STRAIGHT = 0.9  # least cosine between the null vectors at the two ends of a st
 _ON_CURVE = 0.15  # of the spacing: a configuration nearer than this to a traced curve lies on it
 _FARTHEST = 400.0  # rad: longer curves are cut
 _MOST_POINTS = 4000  # of a sample
+_WAVE = 64  # curves traced side by side; no result depends on it
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +178,7 @@ class _Run:
 
     q: Array
     tangent: Array
-    points: list[list[Array]]
+    points: list[Array]
     closed: NDArray[np.bool_]
     limit: NDArray[np.int64]  # joint, or -1
 
@@ -221,21 +222,19 @@ class Tracer:
     # ---- curves ----------------------------------------------------------------------------------------------------
 
     def curves(self, poses: Array, owner: NDArray[np.intp], q: Array, spacing: float) -> list[tuple[Component, ...]]:
-        """Every curve that a seed q (S, n) of pose ``owner`` (S,) lies on: a round takes one seed of each pose."""
+        """Every curve that a seed q (S, n) of pose ``owner`` (S,) lies on, in order of seeds."""
         found: list[list[Component]] = [[] for _ in poses]
         while owner.size:
-            _, first = np.unique(owner, return_index=True)
-            here = owner[first]
-            traced = self._both_ways(q[first], poses[here], spacing)
+            # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
+            each = max(1, _WAVE // np.unique(owner).size)
+            first = np.flatnonzero(_rank(owner) < each)
             left = np.ones(owner.size, dtype=bool)
-            left[first] = False
-            for i, component in zip(here, traced, strict=True):
-                if component is None:  # a singular seed
-                    continue
-                found[i].append(component)
-                mine = np.flatnonzero((owner == i) & left)
-                if mine.size:
+            for k, component in zip(first, self._both_ways(q[first], poses[owner[first]], spacing), strict=True):
+                if component is not None and left[k]:
+                    found[owner[k]].append(component)
+                    mine = np.flatnonzero((owner == owner[k]) & left)
                     left[mine] = distance_to_curve(self.arm, component, q[mine]) > _ON_CURVE * spacing
+                left[k] = False
             owner, q = owner[left], q[left]
         return [tuple(c) for c in found]
 
@@ -253,14 +252,15 @@ class Tracer:
             bounds: tuple[int | None, int | None] = (None, None)
             if k in other:
                 m = other[k]
-                points = [*behind.points[m][:0:-1], *points]
+                points = np.concatenate([behind.points[m][:0:-1], points])
                 bounds = _joint(behind.limit[m]), _joint(ahead.limit[k])
-            out[row] = _component(self.arm, np.array(points), bool(ahead.closed[k]), bounds)
+            out[row] = _component(self.arm, points, bool(ahead.closed[k]), bounds)
         return out
 
     def _trace(self, q: Array, tangent: Array, poses: Array, spacing: float) -> _Run:
         """Follow the curve of each row one way. Every pass tries one step of every row that is under way."""
-        run = _Run(q.copy(), tangent.copy(), [[x] for x in q], np.zeros(len(q), dtype=bool), np.full(len(q), -1))
+        run = _Run(q.copy(), tangent.copy(), [], np.zeros(len(q), dtype=bool), np.full(len(q), -1))
+        taken_rows, taken_points = [np.arange(len(q))], [q]
         step = np.full(len(q), spacing)
         way = np.zeros(len(q))
         left = np.arange(len(q))
@@ -279,10 +279,10 @@ class Tracer:
             step[left[short]] *= part[short]
             taken = good & ~beyond
             rows = left[taken]
-            home = self._home(run, rows, new[taken], tangent)
+            home = self._home(run.q[rows], new[taken], q[rows], tangent[rows])
             run.closed[rows[home]] = True
-            for row, x in zip(rows[~home], new[taken][~home], strict=True):
-                run.points[row].append(x)
+            taken_rows.append(rows[~home])
+            taken_points.append(new[taken][~home])
             run.q[rows], run.tangent[rows] = new[taken], ahead[taken]
             way[rows] += moved[taken]
             step[rows] = np.minimum(2 * step[rows], spacing)
@@ -290,6 +290,9 @@ class Tracer:
             over = at_limit | (~good & (step[left] < _SHORTEST * spacing)) | (way[left] > _FARTHEST)
             over |= np.isin(left, rows[home])
             left = left[~over]
+        every = np.concatenate(taken_rows)
+        order = np.argsort(every, kind="stable")
+        run.points = np.split(np.concatenate(taken_points)[order], np.searchsorted(every[order], np.arange(1, len(q))))
         return run
 
     def _within(self, q: Array, new: Array) -> tuple[Array, NDArray[np.int64]]:
@@ -301,14 +304,12 @@ class Tracer:
             share = np.where(outside, np.maximum(room / moved, 0.0), 1.0)
         return share.min(axis=1), share.argmin(axis=1)
 
-    def _home(self, run: _Run, rows: NDArray[np.intp], new: Array, tangent: Array) -> NDArray[np.bool_]:
-        """True where the step to new (N, n) passes the point at which the curve began, in the same direction."""
-        first = np.array([run.points[row][0] for row in rows]).reshape(new.shape)
-        before, after = (joint_space.difference(self.arm, x, first) for x in (run.q[rows], new))
-        along = tangent[rows]
+    def _home(self, q: Array, new: Array, first: Array, along: Array) -> NDArray[np.bool_]:
+        """True where the step from q to new (N, n) passes the first point of the curve, in the direction it left in."""
+        before, after = (joint_space.difference(self.arm, x, first) for x in (q, new))
         crosses = (np.einsum("ij,ij->i", before, along) < 0) & (np.einsum("ij,ij->i", after, along) >= 0)
-        size = np.linalg.norm(new - run.q[rows], axis=1)
-        near = _distance_to_segment(-before, new - run.q[rows]) <= _ON_CURVE * size
+        size = np.linalg.norm(new - q, axis=1)
+        near = _distance_to_segment(-before, new - q) <= _ON_CURVE * size
         return np.asarray(crosses & near & (np.linalg.norm(before, axis=1) <= 2 * size))
 
     # ---- samples ---------------------------------------------------------------------------------------------------
@@ -373,6 +374,15 @@ def _segments(arm: Arm, q: Array, closed: bool) -> Array:
 
 def _component(arm: Arm, q: Array, closed: bool, bounded_by: tuple[int | None, int | None]) -> Component:
     return Component(q, closed, bounded_by, float(np.linalg.norm(_segments(arm, q, closed), axis=1).sum()))
+
+
+def _rank(owner: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(S,) how many entries before each one have the same owner."""
+    order = np.argsort(owner, kind="stable")
+    first = np.searchsorted(owner[order], owner[order])
+    rank = np.empty(owner.size, dtype=np.intp)
+    rank[order] = np.arange(owner.size) - first
+    return rank
 
 
 def _joint(limit: np.int64) -> int | None:
