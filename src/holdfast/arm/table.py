@@ -30,14 +30,14 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.arm.dh import DH
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.urdf import rpy_rotation
-from holdfast.errors import ArmError
+from holdfast.errors import ArmError, InputError
+from holdfast.yaml_file import Four, Number, Strict, Three, content, sentence
 
 Array = NDArray[np.float64]
 
@@ -56,20 +56,14 @@ def load(path: str | Path) -> Arm:
     """
     path = Path(path)
     try:
-        return _arm(_Table.model_validate(_content(path)), path)
+        return _arm(_Table.model_validate(content(path, "holdfast.arm.table", "rows")), path)
     except ValidationError as error:
-        raise ArmError(f"{path.name}: {_sentence(error)}") from error
-    except ArmError as error:
+        raise ArmError(f"{path.name}: {sentence(error, _Table, TAGS)}") from error
+    except (ArmError, InputError) as error:
         raise ArmError(f"{path.name}: {error}") from error
 
 
 # ---- the format --------------------------------------------------------------------------------------------------
-
-
-def _not_a_flag(value: Any) -> Any:
-    if isinstance(value, bool):
-        raise ValueError("it must be a number")
-    return value
 
 
 def _full_inertia(value: Any) -> Any:
@@ -81,17 +75,7 @@ def _full_inertia(value: Any) -> Any:
     return value
 
 
-# Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
-Number = Annotated[float, BeforeValidator(_not_a_flag)]
-Three = Annotated[list[Number], Field(min_length=3, max_length=3)]
-Four = Annotated[list[Number], Field(min_length=4, max_length=4)]
-
-
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class _Row(_Strict):
+class _Row(Strict):
     a: Number
     alpha: Number
     d: Number = 0.0
@@ -106,16 +90,16 @@ class _Row(_Strict):
     armature: Number = 0.0
 
 
-class _Body(_Strict):
+class _Body(Strict):
     mass: Number
     com: Three
     inertia: Annotated[list[Three], Field(min_length=3, max_length=3), BeforeValidator(_full_inertia)]
     name: str | None = None
 
 
-class _Placement(_Strict):
-    xyz: Three = [0.0, 0.0, 0.0]
-    urdf_rpy: Three = [0.0, 0.0, 0.0]
+class _Placement(Strict):
+    xyz: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
+    urdf_rpy: Three = Field(default_factory=lambda: [0.0, 0.0, 0.0])
 
 
 TAGS = ("as rows", "as xyz and urdf_rpy")
@@ -125,77 +109,17 @@ _Pose = Annotated[
 ]
 
 
-class _Table(_Strict):
+class _Table(Strict):
     rows: Annotated[list[_Row], Field(min_length=1)]
     name: str | None = None
     convention: Literal["standard", "modified"] = "standard"
     angles: Literal["rad", "deg"] = "rad"
     base: _Pose | None = None
     tool: _Pose | None = None
-    gravity: Three = list(GRAVITY)
+    gravity: Three = Field(default_factory=lambda: list(GRAVITY))
     links: list[_Body | None] | None = None
     payload: _Body | None = None
     source: str = ""
-
-
-# ---- reading -----------------------------------------------------------------------------------------------------
-
-
-class _OneKeyOnce(yaml.SafeLoader):
-    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        keys = [key.value for key, _ in node.value]
-        for key in keys:
-            if keys.count(key) > 1:
-                raise ArmError(f"line {node.start_mark.line + 1}: the key '{key}' is given twice; give it once")
-        return super().construct_mapping(node, deep)
-
-
-def _content(path: Path) -> Any:
-    try:
-        content = yaml.load(path.read_text(encoding="utf-8"), _OneKeyOnce)
-    except OSError as error:
-        raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a YAML file") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        reason = " ".join(str(error).split())
-        raise ArmError(f"this is not sound YAML ({reason}); see holdfast.arm.table for an example") from error
-    if not isinstance(content, dict):
-        raise ArmError("the file must hold keys and values, at least rows; see holdfast.arm.table for an example")
-    return content
-
-
-def _sentence(error: ValidationError) -> str:
-    """The most telling of pydantic's complaints; a misspelt key comes before the key that it leaves missing."""
-    problems = error.errors()
-    first = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
-    trail = tuple(x for x in first["loc"] if x not in TAGS)
-    place = "".join(f"[{x}]" if isinstance(x, int) else f".{x}" for x in trail).lstrip(".")
-    given = repr(first["input"])
-    match first["type"]:
-        case "extra_forbidden":
-            return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(trail))}"
-        case "missing":
-            return f"{place}: it is missing; it must be given"
-        case "literal_error":
-            return f"{place}: {given} is not known; use {first['ctx']['expected']}"
-        case "value_error":
-            return f"{place}: {given} is wrong; {first['ctx']['error']}"
-        case "too_short" | "too_long":
-            return f"{place}: it has {first['ctx']['actual_length']} entries; it must have {_length(first['ctx'])}"
-        case _:
-            return f"{place}: {given} is wrong; {first['msg'][0].lower()}{first['msg'][1:]}"
-
-
-def _length(context: dict[str, Any]) -> str:
-    least = context.get("min_length", context.get("max_length"))
-    return "at least 1" if least == 1 else str(least)
-
-
-def _keys(trail: tuple[int | str, ...]) -> list[str]:
-    inner: dict[str, type[BaseModel]] = {"rows": _Row, "links": _Body, "payload": _Body}
-    model = _Table if len(trail) == 1 else inner.get(str(trail[0]), _Placement)
-    return list(model.model_fields)
 
 
 # ---- the arm -----------------------------------------------------------------------------------------------------

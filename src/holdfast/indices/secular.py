@@ -99,7 +99,9 @@ def _largest(d: Vector, w: Vector) -> tuple[Vector, SX]:
     for k in range(1, m):
         first, next_best = d[k] > top, d[k] > second
         second = ca.if_else(first, top, ca.if_else(next_best, d[k], second))
-        at_second = [ca.if_else(first, a, ca.if_else(next_best, e, b)) for a, b, e in zip(at_top, at_second, _one_hot(m, k))]
+        at_second = [
+            ca.if_else(first, a, ca.if_else(next_best, e, b)) for a, b, e in zip(at_top, at_second, _one_hot(m, k), strict=True)
+        ]
         at_top = [ca.if_else(first, e, a) for a, e in zip(at_top, _one_hot(m, k), strict=True)]
         top = ca.if_else(first, d[k], top)
     squares = [x * x for x in w]

@@ -13,10 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
 from holdfast.linalg import damped_least_norm
+from holdfast.solve import joint_space
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
@@ -54,25 +56,6 @@ class Reach:
         """Itself, or :class:`holdfast.HoldfastError` naming the first row that failed."""
         require_ok(self.status, "inverse kinematics")
         return self
-
-
-def check_poses(poses: ArrayLike) -> Array:
-    """Poses as (N, 4, 4) float64.
-
-    Raises:
-        InputError: Not 4x4, or the upper left block of a finite pose is not a rotation.
-    """
-    t = np.asarray(poses, dtype=np.float64)
-    if t.ndim not in (2, 3) or t.shape[-2:] != (4, 4):
-        raise InputError(f"poses have shape {t.shape}; they must be (4, 4) or (N, 4, 4) arrays")
-    t = t[None] if t.ndim == 2 else t
-    rotation = t[:, :3, :3]
-    finite: NDArray[np.bool_] = np.asarray(np.isfinite(t).all(axis=(1, 2)))
-    off = np.abs(rotation @ rotation.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2), initial=0.0)
-    wrong = np.flatnonzero(finite & ((off > 1e-6) | (np.linalg.det(np.where(finite[:, None, None], rotation, np.eye(3))) < 0)))
-    if wrong.size:
-        raise InputError(f"pose {wrong[0]} has no rotation in its upper left 3x3 block (orthonormal, determinant +1)")
-    return t
 
 
 def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
@@ -264,7 +247,7 @@ class InverseKinematics:
 
     def wrapped(self, q: Array) -> Array:
         """Joints without limits come back to -pi..pi."""
-        turning = [k for k, j in enumerate(self.arm.joints) if not j.prismatic and np.isinf(j.lower) and np.isinf(j.upper)]
+        turning = joint_space.turning(self.arm)
         q[:, turning] = np.arctan2(np.sin(q[:, turning]), np.cos(q[:, turning]))
         return q
 

@@ -18,12 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder, slopes_along, smallest
-from holdfast.solve.inverse import InverseKinematics, Reach, check_poses, clipped, solver, task_error
+from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solve.maximin import maximin_step
 from holdfast.status import Status, require_ok
 

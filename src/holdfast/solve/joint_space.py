@@ -1,0 +1,39 @@
+"""Distances between configurations: joints that turn without limits come round after 2 pi."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+
+if TYPE_CHECKING:
+    from scipy.spatial import KDTree
+
+Array = NDArray[np.float64]
+
+
+def turning(arm: Arm) -> NDArray[np.bool_]:
+    """(n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
+    return np.asarray(~arm.prismatic & np.isinf(arm.lower) & np.isinf(arm.upper))
+
+
+def difference(arm: Arm, a: Array, b: Array) -> Array:
+    """``a - b`` (..., n), the short way round where a joint turns without limits."""
+    d = a - b
+    return np.where(turning(arm), np.arctan2(np.sin(d), np.cos(d)), d)
+
+
+def tree(arm: Arm, q: Array) -> KDTree:
+    """For neighbours of configurations (N, n) in that distance. Ask it with configurations from :func:`folded`."""
+    from scipy.spatial import KDTree
+
+    return KDTree(folded(arm, q), boxsize=np.where(turning(arm), 2 * np.pi, 0.0))
+
+
+def folded(arm: Arm, q: Array) -> Array:
+    """Configurations (N, n) with joints that turn without limits in 0 to 2 pi, 2 pi left out."""
+    x = q % (2 * np.pi)
+    return np.where(turning(arm), np.where(x >= 2 * np.pi, 0.0, x), q)

@@ -1,0 +1,113 @@
+"""Reading YAML files that people write: each key once, none unknown, and one sentence for what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+import yaml
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+
+from holdfast.errors import InputError
+
+
+def _not_a_flag(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError("it must be a number")
+    return value
+
+
+# Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
+Number = Annotated[float, BeforeValidator(_not_a_flag)]
+Three = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Four = Annotated[list[Number], Field(min_length=4, max_length=4)]
+
+
+class Strict(BaseModel):
+    """A block of keys: unknown keys, NaN and infinity are errors."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class _OneKeyOnce(yaml.SafeLoader):
+    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        keys = [key.value for key, _ in node.value]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise InputError(f"line {node.start_mark.line + 1}: the key '{key}' is given twice; give it once")
+        return super().construct_mapping(node, deep)
+
+
+def content(path: Path, example: str, least: str) -> dict[str, Any]:
+    """The keys and values of a file.
+
+    Args:
+        path: The file.
+        example: Where an example of the format is, for messages.
+        least: What the file must hold at least, for messages.
+
+    Raises:
+        InputError: The file cannot be read, or is not YAML with keys and values.
+    """
+    try:
+        data = yaml.load(path.read_text(encoding="utf-8"), _OneKeyOnce)
+    except OSError as error:
+        raise InputError(f"the file cannot be read ({error.strerror}); give the path of a YAML file") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(f"this is not sound YAML ({reason}); see {example} for an example") from error
+    if not isinstance(data, dict):
+        raise InputError(f"the file must hold keys and values, at least {least}; see {example} for an example")
+    return data
+
+
+def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[str] = ()) -> str:
+    """The most telling of pydantic's complaints; a misspelt key comes before the key that it leaves missing.
+
+    Args:
+        error: What pydantic says.
+        model: The whole file.
+        tags: Names of the alternatives in ``model``, which are no part of the place.
+    """
+    problems = error.errors()
+    first = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
+    trail = tuple(x for x in first["loc"] if x not in tags)
+    place = "".join(f"[{x}]" if isinstance(x, int) else f".{x}" for x in trail).lstrip(".")
+    given = repr(first["input"])
+    match first["type"]:
+        case "extra_forbidden":
+            return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(model, trail))}"
+        case "missing":
+            return f"{place}: it is missing; it must be given"
+        case "literal_error":
+            return f"{place}: {given} is not known; use {first['ctx']['expected']}"
+        case "value_error":
+            return f"{place}: {given} is wrong; {first['ctx']['error']}"
+        case "too_short" | "too_long":
+            return f"{place}: it has {first['ctx']['actual_length']} entries; it must have {_length(first['ctx'])}"
+        case _:
+            return f"{place}: {given} is wrong; {first['msg'][0].lower()}{first['msg'][1:]}"
+
+
+def _length(context: dict[str, Any]) -> str:
+    least = context.get("min_length", context.get("max_length"))
+    return "at least 1" if least == 1 else str(least)
+
+
+def _keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
+    """The keys of the block that the last entry of a trail stands in."""
+    for step in trail[:-1]:
+        if isinstance(step, str):
+            field = next(f for name, f in model.model_fields.items() if step in (name, f.alias))
+            model = next(_blocks(field.annotation))
+    return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def _blocks(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _blocks(part)
