@@ -45,6 +45,34 @@ def check(arm: Arm) -> list[Finding]:
     return findings
 
 
+def require_masses(arm: Arm) -> None:
+    """Refuse an arm with a link of which nothing is known; a link may be massless.
+
+    Raises:
+        ArmError: The first such link.
+    """
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        if link is None:
+            raise ArmError(
+                f"arm '{arm.name}', link after joint '{joint.name}': it has no inertial data; give its mass, centre of mass "
+                "and inertia (mass 0 if it weighs nothing)"
+            )
+
+
+def require_possible_inertia(arm: Arm) -> None:
+    """Refuse an arm with a link of which nothing is known or whose inertia no body has; points and massless links pass.
+
+    Raises:
+        ArmError: The first such link, and why.
+    """
+    require_masses(arm)
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        for finding in [] if link is None else _moments(link, _subject(link, joint)):
+            raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
+    for finding in [] if arm.payload is None else _moments(arm.payload, "payload"):
+        raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
+
+
 def require_inertia(arm: Arm) -> None:
     """Refuse an arm whose links are not all known, with mass and a possible inertia.
 
@@ -89,12 +117,24 @@ def _link(link: Link | None, joint: Joint) -> list[Finding]:
     if link is None:
         message = "it has no inertial data; give mass, centre of mass and inertia for analyses with forces"
         return [Finding("warning", f"link after joint '{joint.name}'", message)]
-    return _body(link, f"link '{link.name}'" if link.name else f"link after joint '{joint.name}'")
+    return _body(link, _subject(link, joint))
+
+
+def _subject(link: Link, joint: Joint) -> str:
+    return f"link '{link.name}'" if link.name else f"link after joint '{joint.name}'"
 
 
 def _body(body: Link, subject: str) -> list[Finding]:
     if body.mass == 0:
         return [Finding("error", subject, "its mass is 0 kg; a moving link needs a mass above 0")]
+    findings = _moments(body, subject)
+    if not findings and not body.inertia.any():
+        message = f"it has a mass of {body.mass:g} kg and no inertia; give its moments in kg m^2"
+        return [Finding("error", subject, message)]
+    return findings
+
+
+def _moments(body: Link, subject: str) -> list[Finding]:
     small, middle, large = np.linalg.eigvalsh(body.inertia)
     slack = ROUNDING * max(abs(small), abs(large))
     if small < -slack:
@@ -106,6 +146,4 @@ def _body(body: Link, subject: str) -> list[Finding]:
             "no body has one above the sum of the other two"
         )
         return [Finding("error", subject, message)]
-    if large <= 0:
-        return [Finding("error", subject, f"it has a mass of {body.mass:g} kg and no inertia; give its moments in kg m^2")]
     return []
