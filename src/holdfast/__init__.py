@@ -6,6 +6,7 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Region, assess, load
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.kernels import set_threads
+from holdfast.simulate import BrakedDrop, FreeSwing, free_swing
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
@@ -16,6 +17,8 @@ __all__ = [
     "Arm",
     "ArmError",
     "Assessment",
+    "BrakedDrop",
+    "FreeSwing",
     "HoldfastError",
     "InputError",
     "Joint",
@@ -31,6 +34,7 @@ __all__ = [
     "__version__",
     "arms",
     "assess",
+    "free_swing",
     "indices",
     "load",
     "optimise",

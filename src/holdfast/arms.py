@@ -44,7 +44,8 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
         return urdf.load(spec, base, tip)
     if Path(spec).exists():
         raise ArmError(
-            f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); rename or convert it"
+            f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); "
+            "rename or convert it"
         )
     try:
         return load(spec)
