@@ -47,17 +47,8 @@ def gravity_torque(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
 def mass_matrix(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
     """(n, n) joint-space inertia, rotors included."""
     model, data, _ = to_pinocchio(arm)
-    made = pin.crba(model, data, q).copy()
-    made = np.triu(made) + np.triu(made, 1).T
-    # Some versions of crba add the rotors, others do not.
-    link_only = pin.crba(_without_rotors(model), model.createData(), q)
-    return made if not np.allclose(np.diag(made), np.diag(link_only)) else made + np.diag(model.armature)
-
-
-def _without_rotors(model: pin.Model) -> pin.Model:
-    bare = model.copy()
-    bare.armature = np.zeros(model.nv)
-    return bare
+    made = pin.crba(model, data, q)
+    return np.triu(made) + np.triu(made, 1).T
 
 
 def swing_angle(arm: hf.Arm, q: np.ndarray, joint: int) -> float:
@@ -66,12 +57,10 @@ def swing_angle(arm: hf.Arm, q: np.ndarray, joint: int) -> float:
     pin.forwardKinematics(model, data, q)
     placement = data.oMi[joint + 1]
     axis = placement.rotation @ arm.joints[joint].axis
-    mass, first = 0.0, np.zeros(3)
+    first = np.zeros(3)
     for k in range(joint + 1, model.njoints):
         body = model.inertias[k]
-        mass += body.mass
         first += body.mass * (data.oMi[k].act(body.lever) - placement.translation)
-    del mass
     across = first - axis * (axis @ first)
     down = arm.gravity - axis * (axis @ arm.gravity)
     return float(np.arctan2(axis @ np.cross(across, down), across @ down))
