@@ -85,7 +85,11 @@ def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
     if not path.is_file():
         raise ArmError("the file cannot be read; give the path of an MJCF file")
     try:
-        spec = mujoco.MjSpec.from_file(str(path))
+        if path.suffix.lower() == ".xml":
+            spec = mujoco.MjSpec.from_file(str(path))
+        else:  # MuJoCo goes by the ending
+            spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
+            spec.modelfiledir = str(path.parent)
         model = spec.compile()
     except ValueError as error:
         reason = " ".join(str(error).split())
@@ -271,7 +275,7 @@ def _ties(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, str, list[int],
     for k in range(model.neq):
         if not model.eq_active0[k]:
             continue
-        name, ends = model.equality(k).name or f"{k}", [int(model.eq_obj1id[k]), int(model.eq_obj2id[k])]
+        name, ends = model.equality(k).name or f"{k + 1}", [int(model.eq_obj1id[k]), int(model.eq_obj2id[k])]
         kind = int(model.eq_type[k])
         if kind == int(eq.mjEQ_JOINT):
             yield "equality", name, [x for x in ends if x >= 0], []
@@ -288,4 +292,4 @@ def _ties(mujoco: ModuleType, model: Any) -> Iterator[tuple[str, str, list[int],
                 tied_bodies.append(int(model.site_bodyid[thing]))
             elif kind in (int(wrap.mjWRAP_SPHERE), int(wrap.mjWRAP_CYLINDER)):
                 tied_bodies.append(int(model.geom_bodyid[thing]))
-        yield "tendon", model.tendon(k).name or f"{k}", tied_joints, tied_bodies
+        yield "tendon", model.tendon(k).name or f"{k + 1}", tied_joints, tied_bodies

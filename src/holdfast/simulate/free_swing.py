@@ -225,8 +225,6 @@ class _Swing:
         self.prismatic = bool(arm.prismatic[k])
         label = f"arm '{arm.name}', joint '{arm.joint_names[k]}'"
         mass = float(model.body_subtreemass[k + 1])
-        if mass <= 0:
-            raise ArmError(f"{label}: nothing behind it has mass, so gravity has nothing to move; give the links their masses")
         # What swings is no longer than this.
         length = float(
             np.linalg.norm(model.body_pos[k + 2 :], axis=1).sum() + np.linalg.norm(model.body_ipos[k + 1 :], axis=1).sum()

@@ -13,6 +13,7 @@ from holdfast.arm.check import require_possible_inertia
 from holdfast.arm.mjcf import import_mujoco
 from holdfast.arm.model import Arm, Joint, Link
 from holdfast.arm.tree import turn
+from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
 FAR = 1e9  # rad or m: a limit where there is none; MuJoCo's ranges are finite
@@ -35,11 +36,12 @@ def mujoco_model(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, s
         step: s.
 
     Raises:
-        ArmError: A link has no inertial data, or an inertia that no body can have.
+        ArmError: A link has no inertial data, or an inertia that no body can have, or a free joint carries no mass.
         HoldfastError: MuJoCo is not installed.
     """
     mujoco = import_mujoco()
     require_possible_inertia(arm)
+    _require_mass(arm, sorted(free))
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.gravity = arm.gravity
@@ -59,6 +61,18 @@ def mujoco_model(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, s
     # In the compiled model, because a spec takes it as one number or as three, by the version of MuJoCo.
     model.dof_damping[:] = [arm.joints[k].friction for k in sorted(free)]
     return model
+
+
+def _require_mass(arm: Arm, free: Sequence[int]) -> None:
+    """What moves with a free joint up to the next one must weigh something."""
+    mass = [0.0 if link is None else link.mass for link in arm.links]
+    mass[-1] += 0.0 if arm.payload is None else arm.payload.mass
+    for k, after in zip(free, [*free[1:], arm.n], strict=True):
+        if sum(mass[k:after]) <= 0:
+            raise ArmError(
+                f"arm '{arm.name}', joint '{arm.joint_names[k]}': nothing that it carries has mass, so gravity has nothing to "
+                "move; give the links their masses"
+            )
 
 
 def _motion(joint: Joint, value: float) -> Array:
