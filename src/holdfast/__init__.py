@@ -7,6 +7,7 @@ from holdfast.assess import Assessment, Region, assess, load
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
+from holdfast.simulate import BrakedDrop, FreeSwing, free_swing
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
@@ -17,6 +18,8 @@ __all__ = [
     "Arm",
     "ArmError",
     "Assessment",
+    "BrakedDrop",
+    "FreeSwing",
     "HoldfastError",
     "InputError",
     "Joint",
@@ -32,6 +35,7 @@ __all__ = [
     "__version__",
     "arms",
     "assess",
+    "free_swing",
     "indices",
     "load",
     "optimise",

@@ -1,4 +1,4 @@
-"""Where arms come from: built-in ones by name, others from URDF and DH files."""
+"""Where arms come from: built-in ones by name, others from URDF, MJCF and DH files."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from holdfast.errors import ArmError
 __all__ = ["Builtin", "about", "load", "names", "resolve"]
 
 URDF_ENDINGS = (".urdf", ".xml")
+MJCF_ENDINGS = (".mjcf",)
 TABLE_ENDINGS = (".yaml", ".yml")
 
 
@@ -18,26 +19,49 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
     """The arm that a person means on the command line.
 
     Args:
-        spec: A built-in name (see :func:`names`), a path ending in ``.urdf`` or ``.xml``, or a path of a DH table ending in
-            ``.yaml`` or ``.yml`` (see :mod:`holdfast.arm.table`).
-        base: Link of a URDF file on which the arm stands; see :func:`holdfast.arm.urdf.load`.
-        tip: Link of a URDF file whose frame is the tool.
+        spec: A built-in name (see :func:`names`), a path of a URDF or MJCF file ending in ``.urdf``, ``.mjcf`` or ``.xml``
+            (then its outermost element decides), or a path of a DH table ending in ``.yaml`` or ``.yml`` (see
+            :mod:`holdfast.arm.table`).
+        base: Link of a URDF file or body of an MJCF file on which the arm stands; see :func:`holdfast.arm.urdf.load` and
+            :func:`holdfast.arm.mjcf.load`.
+        tip: Link of a URDF file, or body or site of an MJCF file, whose frame is the tool.
 
     Raises:
-        ArmError: There is no such arm, the file is wrong, or base and tip are given for something that is not a URDF file.
+        ArmError: There is no such arm, the file is wrong, or base and tip are given for something that is neither a URDF
+            nor an MJCF file.
+        HoldfastError: It is an MJCF file and MuJoCo is not installed.
     """
-    from holdfast.arm import table, urdf
+    from holdfast.arm import mjcf, table, urdf
 
     ending = Path(spec).suffix.lower()
     if spec in names() or ending in TABLE_ENDINGS:
         if base is not None or tip is not None:
-            raise ArmError(f"'{spec}' is not a URDF file, so it has no links to choose; leave out base and tip")
+            raise ArmError(f"'{spec}' is not a URDF or MJCF file, so it has no links to choose; leave out base and tip")
         return load(spec) if spec in names() else table.load(spec)
+    if ending in MJCF_ENDINGS or (ending == ".xml" and _outermost(spec) == "mujoco"):
+        return mjcf.load(spec, base, tip)
     if ending in URDF_ENDINGS:
         return urdf.load(spec, base, tip)
     if Path(spec).exists():
-        raise ArmError(f"'{spec}' is neither a URDF file (.urdf, .xml) nor a DH table (.yaml, .yml); rename or convert it")
+        raise ArmError(
+            f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); "
+            "rename or convert it"
+        )
     try:
         return load(spec)
     except ArmError as error:
-        raise ArmError(f"{error}; give one of these (see 'holdfast arms'), a .urdf file or a .yaml DH table") from error
+        raise ArmError(
+            f"{error}; give one of these (see 'holdfast arms'), a .urdf file, an .mjcf file or a .yaml DH table"
+        ) from error
+
+
+def _outermost(path: str) -> str:
+    """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file then explains."""
+    from xml.etree import ElementTree
+
+    try:
+        for _, element in ElementTree.iterparse(path, events=("start",)):
+            return element.tag
+    except (OSError, ElementTree.ParseError, LookupError, ValueError):
+        pass
+    return ""

@@ -232,6 +232,18 @@ class Arm:
 
         return load(path, base, tip, **options)
 
+    @classmethod
+    def from_mjcf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
+        """The chain from body ``base`` to body or site ``tip`` of an MJCF file; see :func:`holdfast.arm.mjcf.load`.
+
+        Raises:
+            ArmError: The file cannot be read, or the chain is not unique or not serial; the message names the body or joint.
+            HoldfastError: MuJoCo is not installed; it comes with ``holdfast[physics]``.
+        """
+        from holdfast.arm.mjcf import load
+
+        return load(path, base, tip, **options)
+
     def with_tool(self, tool: ArrayLike) -> Arm:
         """The same arm with another tool, given as ``from_dh`` and URDF files do: (4, 4) in the last link's own frame."""
         return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"))

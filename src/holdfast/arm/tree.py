@@ -1,0 +1,299 @@
+"""A tree of bodies and the one chain of it that is an arm, whatever the file it was read from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm, Joint, JointType, Link
+from holdfast.errors import ArmError
+
+Array = NDArray[np.float64]
+MOVING = get_args(JointType)
+MOST_NAMES = 12  # in a sentence
+LIMITED = ("revolute", "prismatic")
+QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
+
+
+@dataclass(frozen=True)
+class TreeJoint:
+    """What carries one link of the tree: a moving or fixed joint; types that no arm can have keep their file's word."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    origin: Array
+    axis: Array
+    lower: float
+    upper: float
+    velocity: float
+    effort: float
+    friction: float
+    mimic: tuple[str, float, float] | None = None  # master, multiplier, offset
+    armature: float = 0.0
+    rest: float = 0.0  # where it stands beside the chain, as far as its limits allow
+
+    @property
+    def moving(self) -> bool:
+        """False for a joint that only says where its child sits."""
+        return self.type != "fixed"
+
+    def at(self, value: float) -> Array:
+        """(4, 4) pose of the child link in the parent link."""
+        motion = np.eye(4)
+        if self.type == "prismatic":
+            motion[:3, 3] = self.axis * value
+        elif self.type in ("revolute", "continuous"):
+            motion[:3, :3] = turn(self.axis, value)
+        return self.origin @ motion
+
+
+@dataclass
+class Tree:
+    """Links and the joints that carry them; refuses what is not one tree."""
+
+    name: str
+    bodies: dict[str, Link | None]
+    joints: dict[str, TreeJoint]
+    limits_required: bool = True  # the format wants limits of every revolute and prismatic joint
+    above: dict[str, TreeJoint] = field(default_factory=dict)  # link -> joint that carries it
+    below: dict[str, list[TreeJoint]] = field(default_factory=dict)  # link -> joints that hang on it
+
+    def __post_init__(self) -> None:
+        if not self.bodies:
+            raise ArmError("the robot has no <link>; it needs at least two links and a joint")
+        self.below = {link: [] for link in self.bodies}
+        for joint in self.joints.values():
+            for role, link in (("parent", joint.parent), ("child", joint.child)):
+                if link not in self.bodies:
+                    raise ArmError(f"joint '{joint.name}' names the {role} link '{link}', which the file does not define")
+            if joint.child in self.above:
+                other = self.above[joint.child].name
+                raise ArmError(
+                    f"link '{joint.child}' is the child of both '{other}' and '{joint.name}'; a tree gives each link one parent"
+                )
+            self.above[joint.child] = joint
+            self.below[joint.parent].append(joint)
+        roots = [link for link in self.bodies if link not in self.above]
+        if len(roots) > 1:
+            raise ArmError(f"the links {quoted(roots)} have no parent; a tree has one root, so connect them with joints")
+        reached = {link for root in roots for link in self.links_from(root)}
+        loop = [link for link in self.bodies if link not in reached]
+        if loop:
+            raise ArmError(f"the links {quoted(loop)} are joined in a loop; a URDF must be a tree")
+        self.root = roots[0]
+
+    def links_from(self, link: str) -> Iterator[str]:
+        """The link and all that hangs on it."""
+        waiting = [link]
+        while waiting:
+            here = waiting.pop()
+            yield here
+            waiting += [joint.child for joint in reversed(self.below[here])]
+
+    def path(self, base: str, tip: str) -> list[TreeJoint]:
+        """Joints from base down to tip.
+
+        Raises:
+            ArmError: The tip does not hang on the base.
+        """
+        joints: list[TreeJoint] = []
+        link = tip
+        while link != base:
+            if link not in self.above:
+                raise ArmError(f"tip link '{tip}' does not hang on base link '{base}'; choose a base on the way to the root")
+            joints.insert(0, self.above[link])
+            link = joints[0].parent
+        return joints
+
+    def leaves(self, link: str) -> list[str]:
+        """The links from here on that carry nothing."""
+        return [x for x in self.links_from(link) if not self.below[x]]
+
+
+def quoted(names: Sequence[str]) -> str:
+    """Names for a sentence, not too many of them."""
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return ", ".join(f"'{x}'" for x in names[:MOST_NAMES]) + more
+
+
+def cos_sin(angle: float) -> tuple[float, float]:
+    """Cosine and sine, exact at quarter turns."""
+    quarters = round(angle / (np.pi / 2))
+    # Exact zeros make terms vanish from the generated code; the file's author meant them.
+    if abs(angle - quarters * np.pi / 2) < QUARTER_TURN_SLACK:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
+    return float(np.cos(angle)), float(np.sin(angle))
+
+
+def turn(axis: Array, angle: float) -> Array:
+    """(3, 3) rotation about a unit axis (Rodrigues)."""
+    c, s = cos_sin(angle)
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))
+
+
+# ---- the chain ---------------------------------------------------------------------------------------------------
+
+
+def check_ends(tree: Tree, base: str | None, tip: str | None) -> tuple[str, str]:
+    """Base and tip, those not named being the root and the only end.
+
+    Raises:
+        ArmError: There is no such link, or more than one end.
+    """
+    for role, link in (("base", base), ("tip", tip)):
+        if link is not None and link not in tree.bodies:
+            raise ArmError(f"there is no {role} link '{link}'; the links are {quoted(list(tree.bodies))}")
+    base = base or tree.root
+    return base, tip or _only_tip(tree, base)
+
+
+def chain(
+    tree: Tree,
+    base: str | None,
+    tip: str | None,
+    hold: Mapping[str, float],
+    name: str,
+    gravity: Sequence[float],
+    source: str,
+    stand: Array | None = None,
+) -> Arm:
+    """The arm from link ``base`` down to link ``tip``, with everything that does not move against a link folded into it.
+
+    Args:
+        tree: The links and joints of the file.
+        base: The root if not given.
+        tip: May be left out if there is only one end.
+        hold: Value, rad or m, at which joints beside the chain stand.
+        name: Name of the arm.
+        gravity: (3,) acceleration in the world, m/s^2.
+        source: Where the tree comes from.
+        stand: (4, 4) pose of the base link in the world; the identity if not given.
+
+    Raises:
+        ArmError: There is no single serial chain from base to tip.
+    """
+    base, tip = check_ends(tree, base, tip)
+    path = tree.path(base, tip)
+    moving = [joint for joint in path if joint.moving]
+    if not moving:
+        raise ArmError(f"no moving joint lies between '{base}' and '{tip}'; choose a base and tip with joints in between")
+    for joint in moving:
+        if joint.type not in MOVING:
+            raise ArmError(f"joint '{joint.name}' on the chain is {joint.type}; a serial arm needs {', '.join(MOVING)}")
+        if joint.mimic:
+            raise ArmError(
+                f"joint '{joint.name}' on the chain mimics '{joint.mimic[0]}', so it is not a degree of freedom; "
+                "choose a base and tip with independent joints in between"
+            )
+        # Beside the chain such a joint is harmless: it stands at 0.
+        if tree.limits_required and joint.type in LIMITED and not np.isfinite(joint.lower):
+            remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
+            raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
+    still = _Held(tree, {joint.name for joint in moving}, hold)
+
+    joints: list[Joint] = []
+    links: list[Link | None] = []
+    pending = np.eye(4)  # frame of the link reached so far, in the last joint's moving frame
+    on_path = {joint.name for joint in moving}
+    for joint in path:
+        pending = pending @ joint.origin
+        if joint.moving:
+            joints.append(_model_joint(joint, pending))
+            links.append(_folded(tree, joint.child, on_path, still))
+            pending = np.eye(4)
+    return Arm(
+        name,
+        tuple(joints),
+        tuple(links),
+        base=np.eye(4) if stand is None else stand,
+        tool=pending,
+        gravity=np.array(gravity, dtype=np.float64),
+        source=source,
+    )
+
+
+def _model_joint(joint: TreeJoint, origin: Array) -> Joint:
+    kind: JointType = "prismatic" if joint.type == "prismatic" else "revolute" if joint.type == "revolute" else "continuous"
+    limits = (joint.lower, joint.upper, joint.velocity, joint.effort)
+    return Joint(joint.name, kind, origin, joint.axis, *limits, joint.friction, joint.armature)
+
+
+def _only_tip(tree: Tree, base: str) -> str:
+    """The tip, if the arm can have only one."""
+    leaves = tree.leaves(base)
+    if len(leaves) == 1:
+        return leaves[0]
+    ends = [
+        link
+        for link in tree.links_from(base)
+        if link != base
+        and tree.above[link].moving
+        and not any(tree.above[below].moving for below in tree.links_from(link) if below != link)
+    ]
+    if not ends:
+        raise ArmError(f"no moving joint hangs on '{base}'; an arm needs at least one")
+    tips = [leaf for end in ends for leaf in tree.leaves(end)]
+    if len(tips) == 1:
+        return tips[0]
+    # Fixed frames on the way (a flange with a gripper behind it) are as good a tip as the ends.
+    candidates = [x for x in leaves if any(joint.moving for joint in tree.path(base, x))]
+    raise ArmError(f"the arm could end at {quoted(candidates)}; name one link as tip")
+
+
+def _folded(tree: Tree, link: str, on_path: set[str], still: _Held) -> Link | None:
+    """The link with all that hangs on it and does not move relative to it, in the link's frame."""
+    bodies: list[Link] = []
+    waiting = [(link, np.eye(4))]
+    while waiting:
+        here, pose = waiting.pop()
+        body = tree.bodies[here]
+        if body is not None:
+            bodies.append(body.moved(pose))
+        waiting += [(j.child, pose @ j.at(still.value(j))) for j in tree.below[here] if j.name not in on_path]
+    if len(bodies) == 1 and tree.bodies[link] is not None:
+        return tree.bodies[link]  # untouched, also where a mass of 0 would make the centre of mass meaningless
+    return Link.joined(bodies, link) if bodies else None
+
+
+class _Held:
+    """Where the joints beside the chain stand."""
+
+    def __init__(self, tree: Tree, on_path: set[str], hold: Mapping[str, float]) -> None:
+        free = [j.name for j in tree.joints.values() if j.type in MOVING and j.name not in on_path]
+        for name, value in hold.items():
+            if name not in free:
+                listed = f"those are {quoted(free)}" if free else "this file has none"
+                raise ArmError(f"hold names '{name}', which is not a moving joint beside the chain; {listed}")
+            joint = tree.joints[name]
+            if not (np.isfinite(value) and joint.lower <= value <= joint.upper):
+                raise ArmError(
+                    f"hold puts joint '{name}' at {value:g}; "
+                    f"it must be a finite number within its limits {joint.lower:g} to {joint.upper:g}"
+                )
+        self.tree, self.on_path, self.hold = tree, on_path, hold
+
+    def value(self, joint: TreeJoint, followers: tuple[str, ...] = ()) -> float:
+        """Value of a joint, rad or m; of no meaning for those that do not slide or turn about one axis."""
+        if joint.name in followers:
+            raise ArmError(f"the joints {quoted(followers)} mimic each other in a circle; one of them must be independent")
+        if joint.name in self.hold:
+            return float(self.hold[joint.name])
+        if joint.mimic:
+            master, multiplier, offset = joint.mimic
+            if master in self.on_path:
+                raise ArmError(
+                    f"joint '{joint.name}' mimics '{master}', which moves on the chain, so it cannot stand still; "
+                    "choose another tip, or name it in hold to freeze it all the same"
+                )
+            if master not in self.tree.joints:
+                raise ArmError(f"joint '{joint.name}' mimics '{master}', which the file does not define")
+            return multiplier * self.value(self.tree.joints[master], (*followers, joint.name)) + offset
+        return float(min(max(joint.rest, joint.lower), joint.upper))

@@ -1,0 +1,66 @@
+"""Arms with bodies, and Pinocchio's view of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pinocchio as pin
+
+import holdfast as hf
+import oracles
+
+
+def random_body(rng: np.random.Generator, reach: float = 0.3) -> hf.Link:
+    """Six point masses: a physically possible inertia."""
+    masses, points = rng.uniform(0.05, 1.0, 6), rng.uniform(-reach, reach, (6, 3))
+    return hf.Link.joined([hf.Link(m, p, np.zeros((3, 3))) for m, p in zip(masses, points, strict=True)])
+
+
+def with_bodies(arm: hf.Arm, rng: np.random.Generator, payload: bool = False) -> hf.Arm:
+    """The arm with random links, rotor inertias and gravity."""
+    joints = tuple(replace(j, armature=rng.uniform(0, 0.1)) for j in arm.joints)
+    links = tuple(random_body(rng) for _ in joints)
+    held = random_body(rng, 0.1) if payload else None
+    return replace(arm, joints=joints, links=links, payload=held, gravity=rng.uniform(-10, 10, 3))
+
+
+def to_pinocchio(arm: hf.Arm) -> tuple[pin.Model, pin.Data, int]:
+    """Model with inertias, armatures and gravity, its data, and the id of the tool frame."""
+    model, tool = oracles.to_pinocchio(arm)
+    for k, link in enumerate(arm.links):
+        for body in (link, arm.payload if k == arm.n - 1 else None):
+            if body is not None:
+                inertia = pin.Inertia(body.mass, np.array(body.com), np.array(body.inertia))
+                model.appendBodyToJoint(k + 1, inertia, pin.SE3.Identity())
+    model.gravity.linear = np.array(arm.gravity)
+    model.armature = np.array([j.armature for j in arm.joints])
+    return model, model.createData(), tool
+
+
+def gravity_torque(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """(n,) torques that hold the arm, N m or N."""
+    model, data, _ = to_pinocchio(arm)
+    return pin.computeGeneralizedGravity(model, data, q).copy()
+
+
+def mass_matrix(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """(n, n) joint-space inertia, rotors included."""
+    model, data, _ = to_pinocchio(arm)
+    made = pin.crba(model, data, q)
+    return np.triu(made) + np.triu(made, 1).T
+
+
+def swing_angle(arm: hf.Arm, q: np.ndarray, joint: int) -> float:
+    """Signed turn of the joint, in (-pi, pi], that brings the centre of mass of what it carries lowest."""
+    model, data, _ = to_pinocchio(arm)
+    pin.forwardKinematics(model, data, q)
+    placement = data.oMi[joint + 1]
+    axis = placement.rotation @ arm.joints[joint].axis
+    first = np.zeros(3)
+    for k in range(joint + 1, model.njoints):
+        body = model.inertias[k]
+        first += body.mass * (data.oMi[k].act(body.lever) - placement.translation)
+    across = first - axis * (axis @ first)
+    down = arm.gravity - axis * (axis @ arm.gravity)
+    return float(np.arctan2(axis @ np.cross(across, down), across @ down))
