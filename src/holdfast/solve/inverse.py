@@ -85,14 +85,19 @@ def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) 
     return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
 
 
+def hand_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
+    """World-frame error (6,) of the hand, of which a task takes its rows: the shortest turn that a task asks for."""
+    free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
+    return (pointing_error if free_spin else pose_error)(position, rotation, target, target_rotation)
+
+
 def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
     """Error (m,) of the task's rows in metres and radians, and their Jacobian (m, n).
 
     Whatever the characteristic length of the indices, errors of poses are in metres.
     """
     chain = kinematics.chain(arm, q)
-    free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
-    error = (pointing_error if free_spin else pose_error)(chain.position, chain.rotation, target, target_rotation)
+    error = hand_error(task, chain.position, chain.rotation, target, target_rotation)
     full = kinematics.jacobian_of(arm, chain, chain.position)
     j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
     return task.error(error, chain.rotation), j
