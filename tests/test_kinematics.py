@@ -114,6 +114,20 @@ def test_chain_is_the_same_in_every_frame(arm, rng):
             np.testing.assert_allclose(np.cross(off, moved[:, :3, :3] @ joint.axis), 0, atol=5e-14)
 
 
+def test_frames_of_bodies_and_joints_are_the_same_in_every_frame(arm, rng):
+    q = rng.uniform(-3, 3, (4, arm.n))
+    made = oracles.frames(arm, q)[:-1]
+    joints = [before @ joint.origin for before, joint in zip(made, arm.joints, strict=False)]
+    x = kinematics.joint_symbols(arm)
+    for frame in (None, *range(arm.n + 1)):
+        moving, still = kinematics.frames(arm, kinematics.joint_steps(arm, x), frame)
+        seen_from = np.broadcast_to(np.eye(4), made[0].shape) if frame is None else made[frame]
+        got = evaluate(ca.horzcat(*[ca.horzcat(*f) for f in moving + still]), x, q)
+        world = seen_from[:, :3, :3] @ got
+        world[:, :, 3::4] += seen_from[:, :3, 3, None]
+        np.testing.assert_allclose(world, np.concatenate([t[:, :3] for t in made + joints], axis=2), atol=4e-14)
+
+
 def test_single_configurations_and_batches_give_the_same_bits(arm, q):
     together = arm.jacobian(q)
     for k in (0, 11, 24):

@@ -17,7 +17,7 @@ from holdfast.kernels import Kernel
 TYPES = ["RRRR", "RPRPR", "PRRRRRR", "RRCRRRRRR"]
 
 
-def random_capsules(arm, rng, count=9):
+def random_capsules(arm, rng, count=7):
     """Capsules anywhere on any link, some of them spheres."""
     parts = []
     for link in sorted(rng.integers(-1, arm.n, count)):
