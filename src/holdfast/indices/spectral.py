@@ -31,6 +31,7 @@ Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 _MOST_SWEEPS = 30
 _CONVERGED = 1e-14
 _SWEEPS = 5  # in one straight-line program, for the scores
+_VANISHING = 1e-100  # added to a squared manipulability, so that its root has a slope
 _BLOCK = 1024  # with every failure some thousand small matrices: they stay in the cache
 
 _SOURCES = {
@@ -132,7 +133,7 @@ class SpectralIndex(Index):
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """The index for every failure, or a monotone function of it, and its derivatives; see :meth:`Index.scores`.
 
-        The geometric mean is scored by the squared manipulability, the condition number by its inverse. The others are not
+        The geometric mean comes from the manipulability, the condition number is scored by its inverse. The others are not
         invariant to the frame, so they take the task Jacobian whatever ``j`` is: one singular value decomposition of the
         healthy arm serves all failures.
 
@@ -140,7 +141,11 @@ class SpectralIndex(Index):
             TaskError: Several joints fail together, unless the formula is the geometric mean.
         """
         if self.formula == "geometric mean":
-            return Manipulability(self.arm, self.task, self.failures).scores(q, j, qr, directions)
+            squares, slopes = Manipulability(self.arm, self.task, self.failures).scores(q, j, qr, directions)
+            # Not the squares themselves: they are of the order of 1e-6 for a pose, which the ascent resolves poorly.
+            means = [(s + _VANISHING) ** (0.5 / self.task.m) for s in squares]
+            factors = [g / (2 * self.task.m * (s + _VANISHING)) for g, s in zip(means, squares, strict=True)]
+            return means, [[f * x for x in row] for f, row in zip(factors, slopes, strict=True)]
         if any(len(s) != 1 for s in self.failures):
             raise TaskError(
                 f"{self.name} cannot be optimised yet for joints that fail together; use single failures, "
