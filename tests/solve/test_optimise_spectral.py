@@ -68,7 +68,9 @@ def scores_kernel(index):
 
 
 @pytest.mark.parametrize("formula", FORMULAS)
-@pytest.mark.parametrize(("name", "task", "length"), [("mixed8", "pose", 0.4), ("pa10", "pose", 1.0), ("mixed5", "position", 0.7)])
+@pytest.mark.parametrize(
+    ("name", "task", "length"), [("mixed8", "pose", 0.4), ("pa10", "pose", 1.0), ("mixed5", "position", 0.7)]
+)
 def test_scores_and_slopes(formula, name, task, length, request, rng):
     arm = request.getfixturevalue(name)
     index = SpectralIndex(formula, arm, task, length=length)
@@ -81,7 +83,9 @@ def test_scores_and_slopes(formula, name, task, length, request, rng):
     for row in range(len(q)):
         for c in range(free):
             v = directions[row, :, c]
-            along = oracles.slope(lambda x, v=v, row=row: score(formula, arm, q[row] + x * v, task, length), np.zeros(1), 1e-4)[0]
+            along = oracles.slope(lambda x, v=v, row=row: score(formula, arm, q[row] + x * v, task, length), np.zeros(1), 1e-4)[
+                0
+            ]
             np.testing.assert_allclose(slopes[row, :, c], along, rtol=1e-3, atol=2e-4 * np.abs(along).max())
 
 
@@ -171,39 +175,40 @@ def slsqp(formula, arm, pose, starts):
     return found
 
 
-@pytest.mark.parametrize("formula", ["minimum"])
-def test_as_good_as_slsqp_on_the_panda(formula, rng):
+def test_as_good_as_slsqp_on_the_panda(rng):
+    formula = "minimum"
     arm = arms.load("panda")
-    poses = oracles.forward(arm, oracles.inside(arm, rng, 20))
-    best = optimise(arm, poses, SpectralIndex(formula, arm), starts=200).require_ok()
+    poses = oracles.forward(arm, oracles.inside(arm, rng, 12))
+    best = optimise(arm, poses, SpectralIndex(formula, arm), starts=128).require_ok()
     mine = score(formula, arm, best.q).min(axis=1)
     np.testing.assert_allclose(oracles.forward(arm, best.q), poses, atol=3e-6)
     np.testing.assert_allclose(best.value, mine, rtol=1e-9)
     assert (best.value >= best.start_value).all()
-    draws = 60
-    some = hf.inverse_kinematics(arm, np.repeat(poses, draws, axis=0), seed=5, restarts=3)
+    draws = 40
+    some = hf.solve_ik(arm, np.repeat(poses, draws, axis=0), seed=5, restarts=3)
     q, ok = some.q.reshape(len(poses), draws, -1), some.success.reshape(len(poses), draws)
     reference = []
     for k, pose in enumerate(poses):
         mine_q = q[k][ok[k]]
         values = score(formula, arm, mine_q).min(axis=1)
-        reference.append(slsqp(formula, arm, pose, mine_q[np.argsort(-values)[:2]]))
+        reference.append(slsqp(formula, arm, pose, mine_q[np.argsort(-values)[:1]]))
     short = np.array(reference) - mine
-    assert (short <= 1e-3).mean() >= 0.95
+    assert (short <= 1e-3).mean() >= 0.9  # one of twelve
     assert np.median(np.abs(short)) < 1e-3  # and the reference is one
 
 
 # ---- what can and cannot be optimised ----------------------------------------------------------------------------------
 
 
-def test_pairs_of_failures(mixed5, rng):
-    poses = oracles.forward(mixed5, oracles.inside(mixed5, rng, 6))
-    best = optimise(mixed5, poses, SpectralIndex("geometric mean", mixed5, "position", "pairs")).require_ok()
+def test_joints_that_fail_together(planar4, rng):
+    failures = [(0, 2), (3,)]
+    poses = oracles.forward(planar4, oracles.inside(planar4, rng, 6))
+    best = optimise(planar4, poses, SpectralIndex("geometric mean", planar4, "planar", failures)).require_ok()
     assert (best.value >= best.start_value).all()
     assert (best.value > best.start_value).mean() > 0.5
-    index = SpectralIndex("minimum", mixed5, "position", "pairs")
+    index = SpectralIndex("minimum", planar4, "planar", failures)
     with pytest.raises(TaskError, match="minimum singular value cannot be optimised yet for joints that fail together; use"):
-        optimise(mixed5, poses, index)
+        optimise(planar4, poses, index)
 
 
 def test_an_index_without_scores(mixed5, rng):
