@@ -18,6 +18,7 @@ MODULES = [
     "holdfast",
     "holdfast.arm",
     "holdfast.assess",
+    "holdfast.clearance",
     "holdfast.cli",
     "holdfast.indices",
     "holdfast.kernels",

@@ -4,6 +4,7 @@ from holdfast import arms, indices, paths
 from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Region, assess, load
+from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
@@ -20,6 +21,8 @@ __all__ = [
     "ArmError",
     "Assessment",
     "BrakedDrop",
+    "Capsules",
+    "Clearance",
     "FreeSwing",
     "HoldfastError",
     "InputError",

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.check import require_masses
-from holdfast.arm.kinematics import Frame, compose, constant, eye, joint_steps, split
+from holdfast.arm.kinematics import constant, eye, frames, joint_steps, split
 from holdfast.arm.model import Arm, Link
 from holdfast.kernels import SX
 
@@ -61,7 +61,8 @@ def composite(arm: Arm, q: SX) -> Composite:
     require_masses(arm)
     n = arm.n
     steps = joint_steps(arm, q)
-    rotations, points = _frames(arm, steps)
+    moving, still = frames(arm, steps)
+    rotations, points = [rotation for rotation, _ in moving[1:]], [position for _, position in still]
     gravity: list[SX] = []
     up = constant(-arm.base[:3, :3].T @ arm.gravity)  # in the base's axes, so that a tilted base costs nothing
     for joint, step in zip(arm.joints, steps, strict=True):
@@ -164,17 +165,6 @@ def inertia_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
         return 2 * ca.dot(ca.cross(z, zj), ca.cross(z, h))
     turning = ca.dot(ca.cross(z, zj), w.inertias[j] @ z)
     return 2 * turning + 2 * ca.dot(ca.cross(z, d), ca.cross(z, first_moment_rate(arm, w, j)))
-
-
-def _frames(arm: Arm, steps: list[Frame]) -> tuple[list[SX], list[SX]]:
-    rotations, points = [], []
-    at = split(arm.base)
-    for joint, step in zip(arm.joints, steps, strict=True):
-        at = compose(at, split(joint.origin))
-        points.append(at[1])
-        at = compose(at, step)
-        rotations.append(at[0])
-    return rotations, points
 
 
 def _spread(r: Array) -> Array:

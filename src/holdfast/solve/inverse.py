@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
@@ -26,7 +27,6 @@ Array = NDArray[np.float64]
 STEPS = 40  # per start; most starts that arrive do so within 15
 _WAVE = 8192  # rows of starts that run side by side when poses are left over
 _BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
-_FREE_RANGE = np.pi  # start interval of a joint without limits: +-pi rad, or +-1 m for a sliding one
 
 
 @dataclass(frozen=True)
@@ -131,9 +131,7 @@ class InverseKinematics:
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
         back = ca.SX(ca.DM(task.rows)).T @ e
         self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
-        bounded = np.where(arm.prismatic, 1.0, _FREE_RANGE)
-        self._low = np.where(np.isfinite(arm.lower), arm.lower, -bounded)
-        self._high = np.where(np.isfinite(arm.upper), arm.upper, bounded)
+        self._low, self._high = finite_limits(arm)
 
     def starts(self, rows: int, generator: np.random.Generator) -> Array:
         """Random configurations (rows, n), uniform within the limits."""

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.indices.index import configurations
 from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
