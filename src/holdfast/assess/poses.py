@@ -113,7 +113,11 @@ class PoseList:
     def from_dict(cls, data: dict[str, Any]) -> PoseList:
         """What :meth:`to_dict` wrote."""
         weights = data.get("weights")
-        return cls(np.array(data["poses"], dtype=np.float64), None if weights is None else np.array(weights))
+        try:
+            rows = np.array(data["poses"], dtype=np.float64)
+        except ValueError as error:
+            raise InputError(f"poses must be rows of {', '.join(COLUMNS)}") from error
+        return cls(rows, None if weights is None else np.asarray(weights))
 
     @classmethod
     def read(cls, path: Path) -> PoseList:
