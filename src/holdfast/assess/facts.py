@@ -138,6 +138,13 @@ class Facts:
         kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
         return f"With probability {interval(self.answer)} a {noun} of the region {kept}"
 
+    @property
+    def drawn(self) -> str:
+        """How poses were chosen."""
+        listed = self.a.region.listed
+        each = listed is not None and self.a.poses == len(listed)
+        return "each pose of the list once" if each else f"{self.a.sampling} poses of the region"
+
     def share(self, count: int) -> str:
         """A count of poses as a share of all, with its interval if all count alike."""
         d = self.d

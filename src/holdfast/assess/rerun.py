@@ -19,7 +19,7 @@ from holdfast.indices import BY_NAME
 from holdfast.report.page import Block, Code, Text
 
 _POSES_FILE = "poses.csv"
-_MOST_POSES = 200  # of a list in a report; a results folder holds any number
+_MOST_POSES = 50  # of a list in a report; a results folder holds any number
 
 
 def command_line(a: Assessment) -> tuple[str | None, str]:

@@ -380,7 +380,7 @@ def method(f: Facts) -> list[Block]:
         facts += [
             (
                 "Method",
-                f"{a.sampling} poses of the region; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
+                f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
             ),
             (
                 "Not optimised",

@@ -11,7 +11,7 @@ from holdfast.assess.plan import LOCK_RESTARTS
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.report.scenes import View
-from holdfast.report.words import as_given, interval, percent
+from holdfast.report.words import as_given, fixed, interval, percent
 
 Array = NDArray[np.float64]
 
@@ -66,7 +66,7 @@ def _whole(f: Facts) -> float:
 
 def _angle(f: Facts, joint: int, angle: float) -> str:
     """In degrees, or metres."""
-    return f"at {as_given(angle)} m" if f.a.arm.prismatic[joint] else f"at {as_given(np.rad2deg(angle))} deg"
+    return f"at {as_given(angle)} m" if f.a.arm.prismatic[joint] else f"at {fixed(np.rad2deg(angle), 1)} deg"
 
 
 def _rule(f: Facts, joint: int, angle: float | None) -> str:
