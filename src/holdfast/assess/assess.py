@@ -176,11 +176,7 @@ class Assessment:
         Raises:
             InputError: A negative rate, or none above 0, or the run did not ask (for a joint with a rate above 0).
         """
-        weights = np.zeros(self.arm.n)
-        for joint, rate in rates.items():
-            weights[self.arm.joint_index(joint)] = rate
-        if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
-            raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
+        weights = check_rates(self.arm, rates)
         some = np.flatnonzero(weights)
         shares = np.array([self.survival(int(k))[self.arm.joint_names[k]].value for k in some])
         return float(shares @ weights[some] / weights.sum())
@@ -326,6 +322,16 @@ def assess(
             take(rows)
     merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
     return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
+
+
+def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
+    """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
+    weights = np.zeros(arm.n)
+    for joint, rate in rates.items():
+        weights[arm.joint_index(joint)] = rate
+    if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
+        raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
+    return weights
 
 
 def load(path: str | Path) -> Assessment:

@@ -65,6 +65,8 @@ class PoseList:
 
         try:
             t = check_poses(poses)
+        except InputError:
+            raise
         except (TypeError, ValueError) as error:
             raise InputError("poses must be an (N, 4, 4) array of numbers") from error
         if not len(t):

@@ -87,6 +87,7 @@ def assess(
     """
     from holdfast.assess import assess as run
     from holdfast.assess import explain, structures
+    from holdfast.assess.assess import check_rates
     from holdfast.assess.structure import structure
     from holdfast.indices import by_name
     from holdfast.kernels import set_threads
@@ -97,6 +98,8 @@ def assess(
     model = read_arm(arm, base, tip)
     chosen = read_region(region, arm, model)
     locks, rates = read_by_joint(model, lock_at, "--lock-at"), read_by_joint(model, failure_rate, "--failure-rate")
+    if rates:
+        check_rates(model, rates)
     for k in rates:
         if not after_lock and k not in locks:
             name = model.joint_names[k]
