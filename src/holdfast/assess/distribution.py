@@ -166,7 +166,7 @@ class Distribution:
         """Weight of the first k values, or of the first k bins."""
         parts = self.counts if self.values is None else self.weights
         assert parts is not None
-        return np.r_[0, np.cumsum(parts)]
+        return np.asarray(np.r_[0, np.cumsum(parts)])
 
     @property
     def _finite_weight(self) -> float:
@@ -404,7 +404,7 @@ class Collector:
             place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
-        self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)
+        self._counts = np.asarray(self._counts + np.bincount(place.clip(0, last), weights, minlength=last + 1))
 
     def finish(self) -> Distribution:
         """The distribution of everything added."""
@@ -414,6 +414,7 @@ class Collector:
                 weights = np.concatenate(self._weights)
                 return Distribution._weighted(values, weights, self._better, self._unreached, self._singular, self._sums[2])
             return Distribution.of(values, self._better, self._unreached, self._singular)
+        finite, found, lost = self._sums or (None, None, None)
         return Distribution(
             self._better,
             edges=self._edges,
@@ -425,5 +426,7 @@ class Collector:
             lowest=self._low,
             highest=self._high,
             _reached=self._reached,
-            **({} if self._sums is None else dict(zip(("_finite", "_found", "_lost"), self._sums, strict=True))),
+            _finite=finite,
+            _found=found,
+            _lost=lost,
         )

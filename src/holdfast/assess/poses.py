@@ -83,8 +83,9 @@ class PoseList:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PoseList):
             return NotImplemented
-        same = np.array_equal(self.rows, other.rows) and (self.weights is None) == (other.weights is None)
-        return same and (self.weights is None or np.array_equal(self.weights, other.weights))
+        if self.weights is None or other.weights is None:
+            return self.weights is other.weights and np.array_equal(self.rows, other.rows)
+        return np.array_equal(self.rows, other.rows) and np.array_equal(self.weights, other.weights)
 
     def __hash__(self) -> int:
         return hash(self.rows.tobytes())

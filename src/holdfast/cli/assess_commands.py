@@ -100,9 +100,8 @@ def assess(
     locks, rates = read_by_joint(model, lock_at, "--lock-at"), read_by_joint(model, failure_rate, "--failure-rate")
     if rates:
         check_rates(model, rates)
-    for k in rates:
-        if not after_lock and k not in locks:
-            name = model.joint_names[k]
+    for name in rates:
+        if not after_lock and name not in locks:
             raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock-at {name}=ANGLE")
     measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
     if sampling not in ("random", "sobol"):
@@ -154,7 +153,7 @@ def report(
     result = load(folder)
     rates = read_by_joint(result.arm, failure_rate, "--failure-rate")
     if rates and result.distribution.samples:
-        result.expected_survival({**rates})  # before anything is written
+        result.expected_survival(rates)  # before anything is written
     page = result.report(to or folder / "report.html", at_least[0] if at_least else None)
     if json_:
         print_json({**_summary(result, at_least, rates), "report": str(page)})
@@ -208,7 +207,7 @@ class _progress:
             self._bar.stop()
 
 
-def _summary(result: Assessment, at_least: list[float] | None, rates: dict[int, float]) -> dict[str, Any]:
+def _summary(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> dict[str, Any]:
     d = result.distribution
     names = result.index.failure_names
     reached = d.reached > 0
@@ -241,7 +240,7 @@ def _summary(result: Assessment, at_least: list[float] | None, rates: dict[int, 
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
         "optimised": _optimised(result, at_least),
         "after_lock": _after_lock(result),
-        "expected_survival": result.expected_survival({**rates}) if rates and d.samples else None,
+        "expected_survival": result.expected_survival(rates) if rates and d.samples else None,
         "seconds": result.seconds,
     }
 
@@ -284,7 +283,7 @@ def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[
     return {key: h, "value": p.value, "low": p.low, "high": p.high, "confidence": p.confidence}
 
 
-def _print(result: Assessment, at_least: list[float] | None, rates: dict[int, float]) -> None:
+def _print(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> None:
     from rich.markup import escape
     from rich.table import Table
 
@@ -345,7 +344,7 @@ def _print(result: Assessment, at_least: list[float] | None, rates: dict[int, fl
             table.add_row(escape(name), where, f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
         out.print(table)
         if rates:
-            left = result.expected_survival({**rates})
+            left = result.expected_survival(rates)
             out.print(f"after a failure, by how often each joint fails: {left:.4f} of the poses still reached", soft_wrap=True)
 
 

@@ -259,7 +259,7 @@ def bar_figure(
     names: Sequence[str],
     counts: Sequence[float],
     xlabel: str,
-    total: int | None = None,
+    total: float | None = None,
     stress: Literal["most", "least"] = "most",
 ) -> Figure:
     """Horizontal bars, first one on top, each with its count and share.
