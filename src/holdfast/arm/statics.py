@@ -18,7 +18,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.check import require_masses
+from holdfast.arm.check import require_masses, require_possible_inertia
 from holdfast.arm.kinematics import Frame, compose, constant, eye, joint_steps, split
 from holdfast.arm.model import Arm, Link
 from holdfast.kernels import SX
@@ -114,7 +114,12 @@ def first_moment_rate(arm: Arm, c: Composite, i: int) -> SX:
 
 
 def inertia_diagonal(arm: Arm, c: Composite) -> SX:
-    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28)."""
+    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28).
+
+    Raises:
+        ArmError: A link whose inertia no body has.
+    """
+    require_possible_inertia(arm)
     entries = []
     for i, joint in enumerate(arm.joints):
         z = c.axes[i]
@@ -183,7 +188,7 @@ def _spread(r: Array) -> Array:
 
 
 def _turned(inertia: SX, r: SX) -> SX:
-    """``R I R'``, its lower triangle only computed once."""
+    """``R I R'``, each entry off the diagonal computed once."""
     half = r @ inertia
     out = ca.SX(3, 3)
     for a in range(3):
