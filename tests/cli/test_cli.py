@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 
@@ -12,55 +11,10 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import arms, load
-from holdfast.cli import main
-from holdfast.kernels import set_threads
 
 COMMANDS = ["arms", "describe", "index", "susceptibility", "assess", "report"]
 HOME9 = "0 30 0 90 0 18 0 36 0"
 RHO9 = (0.61245, 0.12725, 0.67622, 0.47972, 0.66629, 0.76427, 0.79161, 0.41179, 0.31151)
-
-
-@pytest.fixture
-def cli(monkeypatch, capsys):
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["holdfast", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        out, err = capsys.readouterr()
-        return end.value.code, out, err
-
-    yield call
-    set_threads(None)
-
-
-@pytest.fixture
-def ask(cli):
-    """A call that must succeed and print one JSON document without NaN or Infinity."""
-
-    def call(*arguments):
-        code, out, err = cli(*arguments, "--json")
-        assert code == 0, err
-        assert err == ""
-        return json.loads(out, parse_constant=lambda x: pytest.fail(f"{x} in JSON"))
-
-    return call
-
-
-@pytest.fixture
-def refused(cli):
-    """A call that must fail with exit code 2 and one sentence on stderr."""
-
-    def call(*arguments):
-        code, out, err = cli(*arguments)
-        assert code == 2, (code, out, err)
-        assert out == ""
-        assert err.startswith("holdfast: ")
-        assert err.count("\n") == 1, err
-        assert "Traceback" not in err
-        assert len(err) < 600
-        return err
-
-    return call
 
 
 @pytest.fixture
