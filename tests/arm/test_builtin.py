@@ -168,7 +168,9 @@ def test_resolve(tmp_path: Path) -> None:
         arms.resolve("panda", tip="panda_link8")
     with pytest.raises(ArmError, match="is not a URDF or MJCF file"):
         arms.resolve(str(path), base="x")
-    with pytest.raises(ArmError, match=r"did you mean 'xarm7'.*see 'holdfast arms'.*a \.urdf file, an \.mjcf file or a \.yaml DH table"):
+    with pytest.raises(
+        ArmError, match=r"did you mean 'xarm7'.*see 'holdfast arms'.*a \.urdf file, an \.mjcf file or a \.yaml DH table"
+    ):
         arms.resolve("xarm")
     with pytest.raises(ArmError, match="the file cannot be read"):
         arms.resolve(str(tmp_path / "none.urdf"))

@@ -56,7 +56,7 @@ def swing(
         bool, typer.Option("--limits", help="The joint's limits stop it (those of sliding joints always do).")
     ] = False,
     duration: Annotated[
-        float | None, typer.Option("--duration", help="Seconds to simulate. Default: until at rest.", show_default=False)
+        float | None, typer.Option("--duration", help="At most so many seconds. Default: until at rest.", show_default=False)
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
@@ -71,12 +71,17 @@ def swing(
 
     Example: holdfast swing panda --q "0 -45 0 -135 0 90 45" --degrees --joint 4 --brake 50 --brake 100
     """
-    from holdfast.simulate import free_swing
+    from holdfast.simulate.free_swing import BRAKES, free_swing
 
     model = read_arm(arm, base, tip)
-    brakes = {} if brake is None else {"brake_after": tuple(brake)}
     result = free_swing(
-        model, read_configuration(model, q, degrees), read_joint(model, joint), damping, duration, limits=limits, **brakes
+        model,
+        read_configuration(model, q, degrees),
+        read_joint(model, joint),
+        damping,
+        duration,
+        brake_after=tuple(brake) if brake else BRAKES,
+        limits=limits,
     )
     if csv is not None:
         _write(result, csv)
