@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 ENDS = {
     "rest": "hangs at rest",
     "stop": "lies against its stop",
-    "balanced": "does not move: gravity has no pull about it here",
+    "balanced": "does not move: gravity pulls it neither way here",
     "moving": "was still moving at the end; give more --duration or --damping",
 }
 CLOSE_UP = 1.5  # times the last brake time, in the figure
@@ -188,10 +188,10 @@ def _draw(result: FreeSwing, path: Path) -> None:
         Panel(result.time, height, "tool height above its start, m", "Tool"),
     ]
     last = max((d.after_ms for d in result.drops), default=0.0) / 1000
-    if last > 0:
+    if last > 0 and result.outcome != "balanced":
         early = result.time <= max(CLOSE_UP * last, result.time[1])
         moments = tuple(
-            (d.after_ms / 1000, -1000 * d.drop, f"{d.after_ms:g} ms: {-1000 * d.drop:.3g} mm") for d in result.drops
+            (d.after_ms / 1000, -1000 * d.drop, f"{d.after_ms:g} ms: {0.0 - 1000 * d.drop:.3g} mm") for d in result.drops
         )
         first = Panel(
             result.time[early], 1000 * height[early], "tool height above its start, mm", "Tool, when brakes act", None, moments

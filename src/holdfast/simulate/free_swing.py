@@ -111,15 +111,16 @@ def free_swing(
     """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast[physics]``).
 
     The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
-    exactly. Nothing is in the way, and no limit unless ``limits``; a sliding joint always falls to its limit. A stop
+    exactly. Standing exactly
+    upright it falls to whichever side rounding tips it, so its rest angle may have either sign. Nothing is in the way, and
+    no limit unless ``limits``; a sliding joint always falls to its limit. A stop
     takes the impact without rebound.
 
     Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
     small oscillation about its rest (less is a placeholder in many files, and the joint would swing for minutes); else 10 %
     of it, so that the joint swings widely (each swing loses about 27 % of its amplitude) and still comes to rest; for a
-    sliding joint its own, or none. It changes the peak and a little the drops, but neither
-    the rest angle nor the initial acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where
-    friction is too stiff for that.
+    sliding joint its own, or none. It changes the peak and a little the drops, but neither the rest angle nor the initial
+    acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where friction is too stiff for that.
 
     Args:
         arm: With inertial data for every link; a link may be massless.
