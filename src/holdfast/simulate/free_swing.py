@@ -111,10 +111,9 @@ def free_swing(
     """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast[physics]``).
 
     The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
-    exactly. Standing exactly
-    upright it falls to whichever side rounding tips it, so its rest angle may have either sign. Nothing is in the way, and
-    no limit unless ``limits``; a sliding joint always falls to its limit. A stop
-    takes the impact without rebound.
+    exactly. Nothing is in the way, and no limit unless ``limits``; a sliding joint always falls to its limit. A stop takes the
+    impact without rebound. From exactly upright, rounding decides to which side it falls, so its rest angle may have either
+    sign.
 
     Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
     small oscillation about its rest (less is a placeholder in many files, and the joint would swing for minutes); else 10 %
