@@ -392,7 +392,8 @@ class Collector:
             edges = np.unique(np.r_[even, dense, np.finfo(np.float64).max])
         self._edges = np.r_[edges, np.inf]
         weights = np.concatenate(self._weights) if self._weights else None
-        self._counts = np.zeros(len(self._edges) - 1, dtype=np.int64 if weights is None else np.float64)
+        bins = len(self._edges) - 1
+        self._counts = np.zeros(bins, dtype=np.int64) if weights is None else np.zeros(bins)
         self._parts, self._weights = [], []
         self._count(seen, weights)
 

@@ -61,7 +61,7 @@ class PoseList:
         """
         from scipy.spatial.transform import Rotation
 
-        from holdfast.solve.inverse import check_poses
+        from holdfast.arm.poses import check_poses
 
         try:
             t = check_poses(poses)

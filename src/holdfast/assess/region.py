@@ -273,7 +273,7 @@ class Region:
 
     def _checked(self, found: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> Array:
         """What a sampler drew as samples (count, 13)."""
-        from holdfast.solve.inverse import check_poses
+        from holdfast.arm.poses import check_poses
 
         assert self.draw is not None
         what = f"region '{self.name}': its sampler"

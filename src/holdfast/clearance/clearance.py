@@ -159,7 +159,8 @@ class Clearance:
         q = kinematics.joint_symbols(self.arm)
         made = self._segments(q)
         held = ca.SX.sym("feet", 2 * len(self.pairs))
-        values, places = [], []
+        values: list[SX] = []
+        places: list[SX] = []
         for k, (a, b) in enumerate(self.pairs):
             values.append(distance(made[a], made[b], held[2 * k], held[2 * k + 1]) - self._reach((a, b)))
             places += feet(made[a], made[b])

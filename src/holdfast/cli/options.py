@@ -21,11 +21,14 @@ if TYPE_CHECKING:
     from holdfast.failures import FailureSpec
 
 ArmArgument = Annotated[
-    str, typer.Argument(metavar="ARM", help="Built-in name, URDF file, or DH table (YAML).", show_default=False)
+    str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
 ]
-BaseOption = Annotated[str | None, typer.Option("--base", help="URDF: base link. Default: the root.", show_default=False)]
+BaseOption = Annotated[
+    str | None, typer.Option("--base", help="URDF, MJCF: base link or body. Default: the root.", show_default=False)
+]
 TipOption = Annotated[
-    str | None, typer.Option("--tip", help="URDF: tip link. Default: the only end there is.", show_default=False)
+    str | None,
+    typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end there is.", show_default=False),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TaskOption = Annotated[

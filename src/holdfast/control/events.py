@@ -14,7 +14,7 @@ Source: English and Maciejewski 1998, section VI-B, Figs. 6 to 8.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 
 import casadi as ca
 import numpy as np
@@ -138,10 +138,12 @@ def events(
         ),
     )
     for name, flags in at_limit.items():
-        found += _spans(
-            "joint limit", time, flags, lambda a, b, name=name: f"'{name}' is at its limit from {a:.4g} s to {b:.4g} s"
-        )
+        found += _spans("joint limit", time, flags, partial(_at_limit, name))
     return tuple(sorted(found, key=lambda e: (e.start, e.kind)))
+
+
+def _at_limit(name: str, start: float, end: float) -> str:
+    return f"'{name}' is at its limit from {start:.4g} s to {end:.4g} s"
 
 
 def _algorithmic(
