@@ -218,5 +218,5 @@ def test_an_index_without_scores(mixed5, rng):
             raise NotImplementedError
 
     poses = oracles.forward(mixed5, oracles.inside(mixed5, rng, 1))
-    with pytest.raises(TaskError, match="bare cannot be optimised yet; use "):
+    with pytest.raises(TaskError, match="bare cannot be optimised: it has no scores"):
         optimise(mixed5, poses, Bare("bare", mixed5, "position"))
