@@ -21,6 +21,7 @@ MODULES = [
     "holdfast.cli",
     "holdfast.indices",
     "holdfast.kernels",
+    "holdfast.paths",
     "holdfast.report",
     "holdfast.solve",
     "holdfast.study",

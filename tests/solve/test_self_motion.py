@@ -8,6 +8,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import InputError, TaskError, arms
+from holdfast.paths import line
 from holdfast.solve import fibres, self_motion, solve_ik
 from holdfast.solve.self_motion import distance_to_curve
 from holdfast.status import Status
@@ -164,6 +165,19 @@ def test_two_degrees_of_redundancy_are_sampled_evenly(flat4, rng):
     away = np.linalg.norm(wrapped(known[:, None] - motion.q[None]), axis=2).min(axis=1)
     assert away.max() < 1.2 * 0.3
     assert "a manifold of dimension 2" in motion.describe()
+
+
+def test_curves_that_no_start_found_are_found_from_the_neighbours_on_a_path():
+    arm = arms.load("panda")
+    start = arm.forward_kinematics(np.array(arms.about("panda").home))
+    end = start @ oracles.pose(None, [0.0, -0.15, 0.1])
+    poses = line(start, end).pose(np.linspace(0, 1, 21))
+    few, many = (fibres(arm, poses, starts=k, follow=k < 100) for k in (3, 200))
+    assert [len(m.components) for m in few] == [len(m.components) for m in many]
+    lost = fibres(arm, poses, starts=3)
+    assert sum(len(m.components) for m in lost) < sum(len(m.components) for m in many)
+    for motion in few:
+        check_points(arm, motion)
 
 
 def test_limits_hold_in_samples(mixed5, rng):
