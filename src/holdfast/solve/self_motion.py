@@ -28,7 +28,7 @@ from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-STARTS = 64
+STARTS = 128
 TOLERANCE = 1e-10  # m and rad: how far from the pose a point may be
 _NEWTON = 5  # corrector steps before a step counts as too long
 _SHORTEST = 2.0**-10  # of the spacing: shorter steps are not tried, the curve ends there
