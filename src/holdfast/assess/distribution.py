@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,7 +41,7 @@ class Distribution:
     better: Literal["larger", "smaller"]
     values: Array | None = None
     edges: Array | None = None
-    counts: NDArray[np.int64] | Array | None = None
+    counts: NDArray[Any] | None = None
     unreached: int = 0
     singular: int = 0
     infinite: int = 0
@@ -333,7 +333,7 @@ class Collector:
         self._parts: list[Array] = []
         self._kept = 0
         self._edges: Array | None = None
-        self._counts: NDArray[np.int64] | Array | None = None
+        self._counts: NDArray[Any] | None = None
         self._weights: list[Array] = []
         self._sums: tuple[Sums, Sums, Sums] | None = None  # of finite values, of reached poses, of the others
         self._unreached = self._singular = self._infinite = self._reached = 0
@@ -405,7 +405,7 @@ class Collector:
             place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
-        self._counts = np.asarray(self._counts + np.bincount(place.clip(0, last), weights, minlength=last + 1))
+        self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)
 
     def finish(self) -> Distribution:
         """The distribution of everything added."""
