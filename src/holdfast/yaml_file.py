@@ -101,8 +101,9 @@ def _keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
     """The keys of the block that the last entry of a trail stands in."""
     for step in trail[:-1]:
         if isinstance(step, str):
-            field = next(f for name, f in model.model_fields.items() if step in (name, f.alias))
-            model = next(_blocks(field.annotation))
+            field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
+            if field is not None:  # else a key that people choose, as the name of a link
+                model = next(_blocks(field.annotation))
     return [field.alias or name for name, field in model.model_fields.items()]
 
 

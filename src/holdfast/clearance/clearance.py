@@ -15,10 +15,10 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations, finite_limits
 from holdfast.arm.model import Arm
 from holdfast.clearance.capsules import Capsules, link_name
-from holdfast.clearance.segments import Segment, distance, feet
+from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
 from holdfast.kernels import SX, Kernel
-from holdfast.linalg import Vector, slopes_along, smallest
+from holdfast.linalg import Vector, dot, smallest
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -42,16 +42,6 @@ class IgnoredPair:
     reason: str
 
 
-@dataclass(frozen=True)
-class _Gaps:
-    """Distances as functions of q and of feet that are symbols of their own."""
-
-    q: SX
-    feet: SX
-    values: list[SX]
-    feet_of_q: SX
-
-
 class Clearance:
     """Distance in m between the capsules of an arm that come closest; below 0 where two of them overlap.
 
@@ -69,7 +59,7 @@ class Clearance:
 
     Attributes:
         arm, capsules: As given.
-        pairs: Positions in ``capsules.parts`` of the capsules that are checked.
+        pairs: Positions in ``capsules.parts`` of the capsules that are checked, the one nearer to the base first.
         pair_names: Their links, ``base & joint3``, by the joints that move them, with the number of the capsule where a
             link has several.
         ignored: The pairs on different links that are not checked, and why.
@@ -98,9 +88,10 @@ class Clearance:
     def _choose_pairs(self) -> None:
         reasons: dict[Pair, str] = {}
         links = self._links
-        different = [(a, b) for a, b in combinations(range(len(links)), 2) if links[a] != links[b]]
+        by_link = sorted(range(len(links)), key=links.__getitem__)
+        different = [(a, b) for a, b in combinations(by_link, 2) if links[a] != links[b]]
         for a, b in different:
-            low, high = sorted((links[a], links[b]))
+            low, high = links[a], links[b]
             if high - low == 1:
                 reasons[a, b] = "adjacent links"
             elif (low, high) in self.capsules.ignore:
@@ -123,7 +114,7 @@ class Clearance:
         q = low + (high - low) * qmc.Sobol(self.arm.n, scramble=False).random_base2(_SAMPLES_LOG2)
         x = kinematics.joint_symbols(self.arm)
         # Used once: the virtual machine needs no compilation.
-        values = Kernel("overlaps", [x], [ca.vertcat(*self._distances(x, pairs))], backend="casadi").rows(q)
+        values = Kernel("overlaps", [x], [ca.vertcat(*self._distances(self._segments(x), pairs))], backend="casadi").rows(q)
         return np.asarray((values < 0).mean(axis=0))
 
     def _name(self, pair: Pair) -> str:
@@ -136,9 +127,14 @@ class Clearance:
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
+    @property
+    def _frame(self) -> int:
+        """Everything is seen from a link in the middle: distances do not mind, and the code is short."""
+        return self.arm.n // 2
+
     def _segments(self, q: SX) -> list[Segment]:
-        """The axes of the capsules, all seen from a link in the middle: distances do not mind, and the code is short."""
-        moving, _ = kinematics.frames(self.arm, kinematics.joint_steps(self.arm, q), (self.arm.n + 1) // 2)
+        """The axes of the capsules."""
+        moving, _ = kinematics.frames(self.arm, kinematics.joint_steps(self.arm, q), self._frame)
         out = []
         for part in self.capsules:
             rotation, position = moving[part.link + 1]
@@ -147,24 +143,20 @@ class Clearance:
             out.append(Segment(start, rotation @ kinematics.constant(span), float(span @ span)))
         return out
 
-    def _distances(self, q: SX, pairs: list[Pair]) -> list[SX]:
-        made = self._segments(q)
-        return [distance(made[a], made[b], *feet(made[a], made[b])) - self._reach((a, b)) for a, b in pairs]
+    def _distances(self, made: list[Segment], pairs: list[Pair]) -> list[SX]:
+        reach = [sum(self.capsules.parts[k].radius for k in pair) for pair in pairs]
+        return [distance(made[a], made[b], *feet(made[a], made[b])) - r for (a, b), r in zip(pairs, reach, strict=True)]
 
-    def _reach(self, pair: Pair) -> float:
-        return sum(self.capsules.parts[k].radius for k in pair)
+    def _wrenches(self, made: list[Segment]) -> list[SX]:
+        return [wrench(made[a], made[b], *feet(made[a], made[b])) for a, b in self.pairs]
 
-    @cached_property
-    def _gaps(self) -> _Gaps:
-        q = kinematics.joint_symbols(self.arm)
-        made = self._segments(q)
-        held = ca.SX.sym("feet", 2 * len(self.pairs))
-        values: list[SX] = []
-        places: list[SX] = []
-        for k, (a, b) in enumerate(self.pairs):
-            values.append(distance(made[a], made[b], held[2 * k], held[2 * k + 1]) - self._reach((a, b)))
-            places += feet(made[a], made[b])
-        return _Gaps(q, held, values, ca.vertcat(*places))
+    def _screws(self, q: SX) -> list[SX]:
+        """What each joint does, (6,): its product with a wrench is the power of the wrench per unit of joint speed."""
+        c = kinematics.chain(self.arm, q, self._frame)
+        return [
+            ca.vertcat(ca.SX(3, 1), z) if joint.prismatic else ca.vertcat(z, ca.cross(p, z))
+            for joint, z, p in zip(self.arm.joints, c.axes, c.points, strict=True)
+        ]
 
     def distances(self, q: SX) -> list[SX]:
         """The distance of every checked pair, m, for use in other programs; their smallest is the clearance.
@@ -172,21 +164,21 @@ class Clearance:
         Args:
             q: (n,) symbols or expressions, rad and m.
         """
-        return self._distances(q, self.pairs)
+        return self._distances(self._segments(q), self.pairs)
 
     def slopes(self, q: SX, directions: Sequence[SX]) -> list[Vector]:
         """Derivatives of :meth:`distances` along each direction (n,), one list per pair.
 
-        The closest points are held still, which is exact (envelope theorem), short, and free of the huge numbers that
-        cancel when the closest points of nearly parallel capsules are differentiated.
+        Only the joints between two links move one against the other. Exact, and shorter and better behaved than the
+        derivative of the code of the distances, where the feet of nearly parallel capsules give huge numbers that cancel.
         """
-        g = self._gaps
-        if not self.pairs:
-            return []
-        rows = slopes_along(g.values, g.q, directions)
-        flat = ca.substitute(ca.substitute(ca.vertcat(*[x for row in rows for x in row]), g.feet, g.feet_of_q), g.q, q)
-        entries = ca.vertsplit(flat)
-        return [entries[k : k + len(directions)] for k in range(0, len(entries), len(directions))]
+        screws = self._screws(q)
+        out = []
+        for (a, b), push in zip(self.pairs, self._wrenches(self._segments(q)), strict=True):
+            between = range(self._links[a] + 1, self._links[b] + 1)
+            row = [ca.dot(screws[k], push) for k in between]
+            out.append([dot(row, [v[k] for k in between]) for v in directions])
+        return out
 
     @cached_property
     def _value_kernel(self) -> Kernel:
@@ -200,9 +192,19 @@ class Clearance:
 
     @cached_property
     def _gradient_kernel(self) -> Kernel:
-        g = self._gaps
-        slope = ca.gradient(smallest(g.values), g.q)
-        return Kernel("clearance gradient", [g.q], [ca.substitute(slope, g.feet, g.feet_of_q)])
+        q = kinematics.joint_symbols(self.arm)
+        made = self._segments(q)
+        rows = zip(self._distances(made, self.pairs), self._wrenches(made), self.pairs, strict=True)
+        best, push, (a, b) = next(rows)
+        low, high = ca.SX(self._links[a]), ca.SX(self._links[b])
+        for value, other, (a, b) in rows:
+            closer = value < best
+            best, push = ca.if_else(closer, value, best), ca.if_else(closer, other, push)
+            low, high = ca.if_else(closer, self._links[a], low), ca.if_else(closer, self._links[b], high)
+        slopes = [
+            ca.if_else(ca.logic_and(low < k, k <= high), ca.dot(screw, push), 0.0) for k, screw in enumerate(self._screws(q))
+        ]
+        return Kernel("clearance gradient", [q], [ca.vertcat(*slopes)])
 
     # ---- what a user asks --------------------------------------------------------------------------------------
 
@@ -240,8 +242,8 @@ class Clearance:
     def gradient(self, q: ArrayLike) -> Array:
         """Exact gradient of the clearance, (N, n) or (n,), m per rad and m.
 
-        Where two pairs tie it is that of the first. It is 0 where the two axes cross, which is a kink, and if there is no
-        pair to check, and NaN where q is.
+        Where two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two
+        axes cross, which is a kink, and NaN where q is.
         """
         rows, single = configurations(self.arm, q)
         g = self._gradient_kernel.rows(rows) if self.pairs else np.repeat(_constant(rows, 0.0)[:, None], self.arm.n, axis=1)

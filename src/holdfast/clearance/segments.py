@@ -26,6 +26,10 @@ class Segment:
     span: SX
     square: float
 
+    def at(self, s: SX) -> SX:
+        """The point (3,) at s."""
+        return self.start + s * self.span
+
 
 def feet(a: Segment, b: Segment) -> tuple[SX, SX]:
     """Where the two segments come closest: s on a, t on b, each from 0 to 1.
@@ -49,13 +53,21 @@ def feet(a: Segment, b: Segment) -> tuple[SX, SX]:
 
 
 def distance(a: Segment, b: Segment, s: SX, t: SX) -> SX:
-    """Distance of the points at s on a and t on b, at least 1e-12 m; with the :func:`feet`, that of the segments.
-
-    The feet minimise it, so its derivative is that with the feet held still (envelope theorem).
-    """
-    r = a.start - b.start + s * a.span - t * b.span
+    """Distance of the points at s on a and t on b, at least 1e-12 m; with the :func:`feet`, that of the segments."""
+    r = b.at(t) - a.at(s)
     square = ca.dot(r, r)
     return ca.sqrt(ca.if_else(square > _TOUCHING, square, _TOUCHING))
+
+
+def wrench(a: Segment, b: Segment, s: SX, t: SX) -> SX:
+    """A unit force that pushes b away from a along the line through their closest points: moment about 0, force, (6,).
+
+    The feet minimise the distance, so its derivative is that with the feet held still (envelope theorem): what the force
+    does on the way of its point. Where the axes cross there is no direction, and the force fades to 0 within 1e-12 m.
+    """
+    point = b.at(t)
+    force = (point - a.at(s)) / distance(a, b, s, t)
+    return ca.vertcat(ca.cross(point, force), force)
 
 
 def _clipped(x: SX) -> SX:
