@@ -20,9 +20,13 @@ MODULES = [
     "holdfast.assess",
     "holdfast.clearance",
     "holdfast.cli",
+    "holdfast.control",
     "holdfast.indices",
+    "holdfast.indices.susceptibility",
     "holdfast.kernels",
+    "holdfast.paths",
     "holdfast.report",
+    "holdfast.simulate",
     "holdfast.solve",
     "holdfast.study",
 ]
@@ -52,8 +56,31 @@ def test_everything_public_is_documented(name):
 
 
 def test_the_names_a_user_needs():
-    needed = {"Arm", "DH", "Joint", "Link", "Task", "Region", "Assessment", "Status", "HoldfastError"}
-    needed |= {"assess", "load", "solve_ik", "arms", "indices", "set_threads"}
+    needed = {
+        "Arm",
+        "DH",
+        "Joint",
+        "Link",
+        "Task",
+        "Region",
+        "Assessment",
+        "Status",
+        "HoldfastError",
+        "FreeSwing",
+        "Trajectory",
+    }
+    needed |= {
+        "assess",
+        "load",
+        "solve_ik",
+        "arms",
+        "indices",
+        "susceptibility",
+        "paths",
+        "set_threads",
+        "free_swing",
+        "follow",
+    }
     assert needed <= set(hf.__all__)
 
 
@@ -68,7 +95,7 @@ def test_one_family_of_errors():
 
 
 def test_importing_is_light():
-    heavy = "{'matplotlib', 'xarray', 'zarr', 'jinja2', 'rich', 'typer', 'pinocchio'}"
+    heavy = "{'matplotlib', 'xarray', 'zarr', 'jinja2', 'rich', 'typer', 'pinocchio', 'mujoco'}"
     code = f"import sys, holdfast; print(sorted({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True)
     assert (done.stdout.strip(), done.stderr) == ("[]", "")

@@ -61,7 +61,7 @@ def _outermost(path: str) -> str:
 
     try:
         for _, element in ElementTree.iterparse(path, events=("start",)):
-            return element.tag
+            return str(element.tag)
     except (OSError, ElementTree.ParseError, LookupError, ValueError):
         pass
     return ""

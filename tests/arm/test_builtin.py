@@ -162,15 +162,21 @@ def test_resolve(tmp_path: Path) -> None:
         path = tmp_path / f"two.{ending}"
         path.write_text("rows: [{a: 1, alpha: 0}, {a: 1, alpha: 0}]")
         assert arms.resolve(str(path)).n == 2
-    with pytest.raises(ArmError, match="'panda' is not a URDF file, so it has no links to choose; leave out base and tip"):
+    with pytest.raises(
+        ArmError, match="'panda' is not a URDF or MJCF file, so it has no links to choose; leave out base and tip"
+    ):
         arms.resolve("panda", tip="panda_link8")
-    with pytest.raises(ArmError, match="is not a URDF file"):
+    with pytest.raises(ArmError, match="is not a URDF or MJCF file"):
         arms.resolve(str(path), base="x")
-    with pytest.raises(ArmError, match=r"did you mean 'xarm7'.*see 'holdfast arms'.*a \.urdf file or a \.yaml DH table"):
+    with pytest.raises(
+        ArmError, match=r"did you mean 'xarm7'.*see 'holdfast arms'.*a \.urdf file, an \.mjcf file or a \.yaml DH table"
+    ):
         arms.resolve("xarm")
     with pytest.raises(ArmError, match="the file cannot be read"):
         arms.resolve(str(tmp_path / "none.urdf"))
     other = tmp_path / "arm.sdf"
     other.write_text("")
-    with pytest.raises(ArmError, match=r"is neither a URDF file \(.urdf, .xml\) nor a DH table \(.yaml, .yml\)"):
+    with pytest.raises(
+        ArmError, match=r"is neither a URDF file \(.urdf, .xml\), an MJCF file \(.mjcf, .xml\) nor a DH table \(.yaml, .yml\)"
+    ):
         arms.resolve(str(other))

@@ -18,6 +18,7 @@ import holdfast as hf
 from holdfast.arm.task import as_task, rows_task
 from holdfast.assess import facts, report, rerun, sections
 from holdfast.assess.region import rotation_from_rpy
+from holdfast.assess.weights import Density
 from holdfast.cli.options import read_failures, read_task
 from holdfast.failures import failure_sets
 from holdfast.report import save_png
@@ -28,6 +29,8 @@ from wellformed import check
 NINE, SEVEN, PANDA = hf.arms.load("pa10-9dof"), hf.arms.load("pa10-7dof"), hf.arms.load("panda")
 PAPER = hf.Region.box([0.968, 0, 0.041], 0.5, np.deg2rad([0, 174, 0]), np.deg2rad([90, 90, 90]), name="the paper's")
 JOINTS = hf.Region.joints(NINE.lower, NINE.upper)
+LIST = hf.Region.from_poses(PAPER.poses(next(PAPER.blocks(0, 0))[:60]), np.arange(60.0))
+HEAVY = Density.of({"x": [(0.7, 1), (1.2, 4)], "roll": [(0, 1), (1, 2)]})
 NASTY = replace(NINE, name='<script>alert("1")</script> $\\x$ 臂', source='"><img src=http://example.org/x.png>')
 
 
@@ -55,6 +58,11 @@ CASES: dict[str, Callable[[], hf.Assessment]] = {
     "one failure": lambda: hf.assess(
         NINE, PAPER, hf.indices.manipulability(NINE, "position", ["joint2"], length=0.5), poses=50
     ),
+    "weighted": lambda: hf.assess(
+        NINE, replace(PAPER, weight=HEAVY), poses=210, optimise=True, after_lock=True, lock_at={1: 0.5}
+    ),
+    "weighted, condition number": lambda: hf.assess(SEVEN, LIST, "condition-number"),
+    "list, no rows": lambda: hf.assess(NINE, LIST, poses=100, keep=False),
     "nasty": lambda: hf.assess(NASTY, replace(PAPER, name="<i>&$x$"), poses=50),
 }
 

@@ -18,7 +18,7 @@ G, LENGTH, MASS = 9.81, 0.7, 2.0
 
 
 def pendulum(inertia: float = 0.0, **joint) -> hf.Arm:
-    """A heavy point on a light rod along x, turning about -y: q = 0 is level and q = pi/2 points up... against gravity."""
+    """A heavy point on a light rod along x, turning about -y: level at q = 0, upright at pi/2."""
     link = hf.Link(MASS, np.array([LENGTH, 0, 0]), inertia * np.eye(3))
     return hf.Arm(
         "pendulum",
@@ -130,7 +130,7 @@ def test_what_gravity_does_not_move_is_balanced(arm, why):
 # ---- against Pinocchio and scipy -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("case", range(12))
+@pytest.mark.parametrize("case", range(8))
 def test_random_arms_rest_where_the_centre_of_mass_is_lowest_and_start_as_statics_say(rng, case):
     arm, q = drawn(rng)
     k = int(rng.integers(arm.n))

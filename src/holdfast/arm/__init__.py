@@ -1,4 +1,4 @@
-"""The machine: joints, links, limits, tool, gravity; from DH tables, URDF files or built in; symbolic kinematics."""
+"""The machine: joints, links, limits, tool, gravity; from DH tables, URDF or MJCF files or built in; symbolic kinematics."""
 
 from holdfast.arm.dh import DH
 from holdfast.arm.model import GRAVITY, Arm, Joint, Link

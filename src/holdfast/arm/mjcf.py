@@ -147,7 +147,7 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
             joint = replace(joint, parent=link, child=child, origin=pending @ anchor)
             joints[joint.name] = replace(joint, origin=joint.at(-joint.rest))
             links[child] = Link(0.0, np.zeros(3), np.zeros((3, 3)), child)
-            link, pending = child, np.linalg.inv(anchor)
+            link, pending = child, np.asarray(np.linalg.inv(anchor), dtype=np.float64)
         links[body] = _body(model, b, body)
         if link != body:
             joints[f"{body} (fixed)"] = _fixed(body, link, pending)

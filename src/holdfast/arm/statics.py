@@ -3,7 +3,7 @@
 Joint i carries a *composite body*: the links after it and the payload, as if they were welded together. English and
 Maciejewski 1998 give its mass, first and second moment by a recursion from the tip, eq. (9), (10), (26), (27), each in
 the axes of its own link, where joint axes and link data are constant numbers. Measured for the Panda: all three
-susceptibilities with their gradients take 1,400 operations that way and 3,900 as sums in one common frame.
+susceptibilities with their gradients take 1,600 operations that way and 3,900 as sums in one common frame.
 
 The paper's closed-form derivatives, eq. (14)-(17) and (31)-(35), need all vectors in one frame: :func:`in_world`.
 
@@ -18,7 +18,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.check import require_masses
+from holdfast.arm.check import require_masses, require_possible_inertia
 from holdfast.arm.kinematics import constant, eye, frames, joint_steps, split
 from holdfast.arm.model import Arm, Link
 from holdfast.kernels import SX
@@ -115,7 +115,12 @@ def first_moment_rate(arm: Arm, c: Composite, i: int) -> SX:
 
 
 def inertia_diagonal(arm: Arm, c: Composite) -> SX:
-    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28)."""
+    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28).
+
+    Raises:
+        ArmError: A link whose inertia no body has.
+    """
+    require_possible_inertia(arm)
     entries = []
     for i, joint in enumerate(arm.joints):
         z = c.axes[i]
@@ -173,7 +178,7 @@ def _spread(r: Array) -> Array:
 
 
 def _turned(inertia: SX, r: SX) -> SX:
-    """``R I R'``, its lower triangle only computed once."""
+    """``R I R'``, each entry off the diagonal computed once."""
     half = r @ inertia
     out = ca.SX(3, 3)
     for a in range(3):

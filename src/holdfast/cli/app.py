@@ -14,7 +14,7 @@ from holdfast.errors import HoldfastError
 app = typer.Typer(
     name="holdfast",
     help="Fault tolerance of redundant robot arms: what happens to the task when a joint fails.\n\n"
-    "ARM is a built-in name (see 'holdfast arms'), a URDF file, or a DH table in YAML. "
+    "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
     "Joints are given by name, or by number from 1.",
     no_args_is_help=True,
     add_completion=False,

@@ -21,11 +21,14 @@ if TYPE_CHECKING:
     from holdfast.failures import FailureSpec
 
 ArmArgument = Annotated[
-    str, typer.Argument(metavar="ARM", help="Built-in name, URDF file, or DH table (YAML).", show_default=False)
+    str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
 ]
-BaseOption = Annotated[str | None, typer.Option("--base", help="URDF: base link. Default: the root.", show_default=False)]
+BaseOption = Annotated[
+    str | None, typer.Option("--base", help="URDF, MJCF: base link or body. Default: the root.", show_default=False)
+]
 TipOption = Annotated[
-    str | None, typer.Option("--tip", help="URDF: tip link. Default: the only end there is.", show_default=False)
+    str | None,
+    typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end there is.", show_default=False),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TaskOption = Annotated[
@@ -109,6 +112,20 @@ def read_failures(arm: Arm, text: str) -> FailureSpec:
     if text.isdecimal():
         return int(text)
     return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]
+
+
+def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | int, float]:
+    """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1."""
+    found: dict[str | int, float] = {}
+    for text in texts or []:
+        joint, equals, value = text.rpartition("=")
+        if not equals or not _is_number(value):
+            raise InputError(f"{option} '{text}' is not joint=number; write for example {option} {arm.joint_names[0]}=0.3")
+        name = arm.joint_names[read_joint(arm, joint)]
+        if name in found:
+            raise InputError(f"{option} gives joint '{name}' twice; give each joint once")
+        found[name] = float(value)
+    return found
 
 
 def read_configuration(arm: Arm, text: str, degrees: bool) -> NDArray[np.float64]:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 ENDS = {
     "rest": "hangs at rest",
     "stop": "lies against its stop",
-    "balanced": "does not move: gravity has no pull about it here",
+    "balanced": "does not move: gravity pulls it neither way here",
     "moving": "was still moving at the end; give more --duration or --damping",
 }
 CLOSE_UP = 1.5  # times the last brake time, in the figure
@@ -56,7 +56,7 @@ def swing(
         bool, typer.Option("--limits", help="The joint's limits stop it (those of sliding joints always do).")
     ] = False,
     duration: Annotated[
-        float | None, typer.Option("--duration", help="Seconds to simulate. Default: until at rest.", show_default=False)
+        float | None, typer.Option("--duration", help="At most so many seconds. Default: until at rest.", show_default=False)
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
@@ -71,12 +71,17 @@ def swing(
 
     Example: holdfast swing panda --q "0 -45 0 -135 0 90 45" --degrees --joint 4 --brake 50 --brake 100
     """
-    from holdfast.simulate import free_swing
+    from holdfast.simulate.free_swing import BRAKES, free_swing
 
     model = read_arm(arm, base, tip)
-    brakes = {} if brake is None else {"brake_after": tuple(brake)}
     result = free_swing(
-        model, read_configuration(model, q, degrees), read_joint(model, joint), damping, duration, limits=limits, **brakes
+        model,
+        read_configuration(model, q, degrees),
+        read_joint(model, joint),
+        damping,
+        duration,
+        brake_after=tuple(brake) if brake else BRAKES,
+        limits=limits,
     )
     if csv is not None:
         _write(result, csv)
@@ -183,10 +188,10 @@ def _draw(result: FreeSwing, path: Path) -> None:
         Panel(result.time, height, "tool height above its start, m", "Tool"),
     ]
     last = max((d.after_ms for d in result.drops), default=0.0) / 1000
-    if last > 0:
+    if last > 0 and result.outcome != "balanced":
         early = result.time <= max(CLOSE_UP * last, result.time[1])
         moments = tuple(
-            (d.after_ms / 1000, -1000 * d.drop, f"{d.after_ms:g} ms: {-1000 * d.drop:.3g} mm") for d in result.drops
+            (d.after_ms / 1000, -1000 * d.drop, f"{d.after_ms:g} ms: {0.0 - 1000 * d.drop:.3g} mm") for d in result.drops
         )
         first = Panel(
             result.time[early], 1000 * height[early], "tool height above its start, mm", "Tool, when brakes act", None, moments

@@ -14,7 +14,7 @@ Source: English and Maciejewski 1998, section VI-B, Figs. 6 to 8.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 
 import casadi as ca
 import numpy as np
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.task import Task
-from holdfast.control.resolution import stationarity
+from holdfast.control.resolution import slope_along
 from holdfast.control.trajectory import Event
 from holdfast.indices import Objective
 from holdfast.kernels import Kernel
@@ -31,27 +31,45 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 FLAT = 1e-3  # of the largest curvature along a path: at most this is singular
+_DIFFERENCE = 1e-5  # rad
 NOTHING = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little
 
 
 class Curvature:
-    """Slope and curvature of an objective along the self-motion of a task, in batches."""
+    """Slope and curvature of an objective along the self-motion of a task, in batches.
+
+    The curvature is the central difference of the projected gradient: exact derivatives through the null space take
+    seconds to compile, and 9 digits are enough to say where it vanishes.
+    """
 
     def __init__(self, objective: Objective, task: Task) -> None:
         self.objective, self.task = objective, task
+        self.free = objective.arm.n - task.m
 
     @cached_property
     def _kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.objective.arm)
-        null, slope, rows = stationarity(self.objective, self.task, q)
-        return Kernel("curvature along the self-motion", [q], [slope, ca.densify(rows @ null)])
+        null, slope = slope_along(self.objective, self.task, q)
+        return Kernel("slope along the self-motion", [q], [slope, ca.densify(null)])
+
+    def _at(self, q: Array) -> tuple[Array, Array]:
+        """Slopes (N, r) and null-space bases (N, n, r)."""
+        out = self._kernel.rows(q)
+        return out[:, : self.free], out[:, self.free :].reshape(len(q), -1, self.free)
 
     def __call__(self, q: Array) -> tuple[Array, Array]:
         """Norm of the slope (N,) and curvature matrices (N, r, r), positive definite at a local best."""
-        free = self.objective.arm.n - self.task.m
-        out = self._kernel.rows(q)
-        matrices = -out[:, free:].reshape(-1, free, free)
-        return np.linalg.norm(out[:, :free], axis=1), (matrices + matrices.transpose(0, 2, 1)) / 2
+        slope, null = self._at(q)
+        matrices = np.empty((len(q), self.free, self.free))
+        for k in range(self.free):
+            move = _DIFFERENCE * null[:, :, k]
+            ends = []
+            for near in (q + move, q - move):
+                there, basis = self._at(near)
+                # The basis at either end may be turned or reflected: carried back, the slopes can be compared.
+                ends.append(np.einsum("nij,nik,nk->nj", null, basis, there))
+            matrices[:, :, k] = (ends[1] - ends[0]) / (2 * _DIFFERENCE)
+        return np.linalg.norm(slope, axis=1), (matrices + matrices.transpose(0, 2, 1)) / 2
 
     def smallest(self, q: Array) -> Array:
         """Smallest eigenvalue (N,) of the curvature matrix; NaN at a singular configuration."""
@@ -120,10 +138,12 @@ def events(
         ),
     )
     for name, flags in at_limit.items():
-        found += _spans(
-            "joint limit", time, flags, lambda a, b, name=name: f"'{name}' is at its limit from {a:.4g} s to {b:.4g} s"
-        )
+        found += _spans("joint limit", time, flags, partial(_at_limit, name))
     return tuple(sorted(found, key=lambda e: (e.start, e.kind)))
+
+
+def _at_limit(name: str, start: float, end: float) -> str:
+    return f"'{name}' is at its limit from {start:.4g} s to {end:.4g} s"
 
 
 def _algorithmic(

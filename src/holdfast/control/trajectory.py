@@ -118,7 +118,7 @@ class Trajectory:
         return table
 
     def save(self, path: str | Path) -> Path:
-        """Write the table as CSV, or as Parquet if the name ends in ``.parquet`` (needs pandas and pyarrow).
+        """Write the table as CSV, or as Parquet if the name ends in ``.parquet`` (needs pyarrow).
 
         Raises:
             StoreError: The file cannot be written, or what Parquet needs is not installed.
@@ -127,9 +127,10 @@ class Trajectory:
         table = self.columns()
         try:
             if target.suffix.lower() == ".parquet":
-                import pandas as pd
+                import pyarrow
+                from pyarrow import parquet
 
-                pd.DataFrame(table).to_parquet(target, index=False)
+                parquet.write_table(pyarrow.table(table), target)
             else:
                 with target.open("w", newline="", encoding="utf-8") as file:
                     writer = csv.writer(file)

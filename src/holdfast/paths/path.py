@@ -69,7 +69,7 @@ class Path:
         """(C,) values of s, inside the path, at which the twist jumps."""
         inner = self.bounds[1:-1]
         before, after = self._twist(inner, np.arange(inner.size)), self._twist(inner, np.arange(1, inner.size + 1))
-        return inner[np.linalg.norm(after - before, axis=1) > _SMOOTH * np.linalg.norm(before, axis=1)]
+        return np.asarray(inner[np.linalg.norm(after - before, axis=1) > _SMOOTH * np.linalg.norm(before, axis=1)])
 
     def pose(self, s: ArrayLike) -> Array:
         """Pose of the hand in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is NaN.

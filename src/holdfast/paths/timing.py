@@ -91,8 +91,8 @@ class Trapezoid:
     def acceleration(self, t: Array) -> Array:
         """d2s/dt2 (N,), 1/s^2."""
         rise, steady, fall = self._parts()
-        up = np.where((t >= 0) & (t < rise), 1 / rise, 0.0) if rise else 0.0
-        down = np.where((t >= steady) & (t < self.duration), 1 / fall, 0.0) if fall else 0.0
+        up = np.where((t >= 0) & (t < rise), 1 / rise if rise else 0.0, 0.0)
+        down = np.where((t >= steady) & (t < self.duration), 1 / fall if fall else 0.0, 0.0)
         return _kept(t, self.peak * (up - down))
 
     def _parts(self) -> tuple[float, float, float]:

@@ -17,6 +17,7 @@ from holdfast.simulate.mujoco_model import mujoco_model
 Array = NDArray[np.float64]
 Outcome = Literal["rest", "stop", "balanced", "moving"]
 
+BRAKES = (50.0, 100.0, 200.0)  # ms
 DAMPING_SHARE = 0.1  # of critical damping, where the arm states no friction to speak of
 LEAST_SHARE = 0.02  # of critical damping; files carry less as a placeholder, and the joint would swing for minutes
 AT_REST = 1e-4  # rad: amplitude of the oscillation that is left
@@ -103,30 +104,30 @@ def free_swing(
     joint: str | int,
     damping: float | None = None,
     duration: float | None = None,
-    brake_after: Sequence[float] = (50.0, 100.0, 200.0),
+    brake_after: Sequence[float] = BRAKES,
     step: float = 1e-3,
     limits: bool = False,
 ) -> FreeSwing:
     """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast[physics]``).
 
     The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
-    exactly. Nothing is in the way, and no limit unless ``limits``; a sliding joint always falls to its limit. A stop
-    takes the impact without rebound.
+    exactly. Nothing is in the way, and no limit unless ``limits``; a sliding joint always falls to its limit. A stop takes the
+    impact without rebound. From exactly upright, rounding decides to which side it falls, so its rest angle may have either
+    sign.
 
     Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
     small oscillation about its rest (less is a placeholder in many files, and the joint would swing for minutes); else 10 %
     of it, so that the joint swings widely (each swing loses about 27 % of its amplitude) and still comes to rest; for a
-    sliding joint its own, or none. It changes the peak and a little the drops, but neither
-    the rest angle nor the initial acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where
-    friction is too stiff for that.
+    sliding joint its own, or none. It changes the peak and a little the drops, but neither the rest angle nor the initial
+    acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where friction is too stiff for that.
 
     Args:
         arm: With inertial data for every link; a link may be massless.
         q: (n,) configuration at the failure, rad or m.
         joint: Name, or index from 0, of the failed joint.
         damping: Viscous friction, N m s/rad or N s/m.
-        duration: s; if not given, until it is at rest (an amplitude below 1e-4 rad is left), or up to 60 s, and up to 300 s
-            where it swings slowly.
+        duration: Longest time, s; it ends sooner where the joint has come to rest (an amplitude below 1e-4 rad is left). If not
+            given, 60 s, and up to 300 s where it swings slowly.
         brake_after: Times from the failure to the brakes, ms.
         step: Time step, s.
         limits: Whether the arm's limits stop the joint.
@@ -297,10 +298,11 @@ class _Swing:
             rows.append((data.qpos[0], data.qvel[0], *data.site_xpos[tool]))
             if k % CHECK_EVERY == 0 and k * step >= at_least and (outcome := self._outcome()) != "moving":
                 break
-        table = np.array(rows)
+        table: Array = np.array(rows, dtype=np.float64)
         if np.abs(table[:, 0]).max() < STILL and outcome == "moving":
             outcome = "balanced"
-        return np.arange(len(table)) * step, table[:, 0].copy(), table[:, 1].copy(), table[:, 2:].copy(), outcome
+        time = step * np.arange(len(table), dtype=np.float64)
+        return time, table[:, 0].copy(), table[:, 1].copy(), table[:, 2:].copy(), outcome
 
     def _outcome(self) -> Outcome:
         """How it is now: moving unless nothing can move it any more."""

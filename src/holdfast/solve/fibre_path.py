@@ -98,7 +98,7 @@ def best_path(
     """
     if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
         raise InputError(f"poses have shape {np.shape(poses)}; a path needs (T, 4, 4) with T of 2 or more")
-    found = fibres(arm, poses, task, spacing, seed, starts)
+    found = fibres(arm, poses, task, spacing, seed, starts, follow=True)
     return best_path_over(arm, found, objective_value, rate_limit, cost, motion)
 
 
@@ -155,12 +155,11 @@ class _Step:
         self.size, self.reach = np.empty(0), np.nan
         if not len(a) or not len(b):
             return
-        there = joint_space.tree(arm, b)
         if limit is None:
-            needed, _ = there.query(joint_space.folded(arm, a))
-            self.reach = 3 * spacing + 2 * float(np.median(needed))
+            self.reach = 3 * spacing + 2 * float(np.median(joint_space.nearest(arm, b, a)[0]))
         else:
             self.reach = float(np.linalg.norm(limit + spacing))
+        there = joint_space.tree(arm, b)
         pairs = joint_space.tree(arm, a).sparse_distance_matrix(there, self.reach, output_type="ndarray")
         self.source, self.target = pairs["i"].astype(np.int64), pairs["j"].astype(np.int64)
         self.size = pairs["v"] / self.reach
@@ -251,7 +250,7 @@ def _limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
 def _continued(arm: Arm, q: Array) -> Array:
     """Joints that turn without limits take the short way from one pose to the next, whatever the pi they pass."""
     moved = np.nan_to_num(joint_space.difference(arm, q[1:], q[:-1]))
-    unbroken = np.isfinite(q).all(axis=1)
+    unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
     out = q.copy()
     for t in range(1, len(q)):
         if unbroken[t] and unbroken[t - 1]:

@@ -27,10 +27,16 @@ def difference(arm: Arm, a: Array, b: Array) -> Array:
 
 
 def tree(arm: Arm, q: Array) -> KDTree:
-    """For neighbours of configurations (N, n) in that distance. Ask it with configurations from :func:`folded`."""
+    """For neighbours of configurations (N, n) in that distance."""
     from scipy.spatial import KDTree
 
     return KDTree(folded(arm, q), boxsize=np.where(turning(arm), 2 * np.pi, 0.0))
+
+
+def nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.intp]]:
+    """Distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and which one that is."""
+    distance, index = tree(arm, points).query(folded(arm, q))
+    return np.asarray(distance), np.asarray(index)
 
 
 def folded(arm: Arm, q: Array) -> Array:

@@ -28,7 +28,7 @@ from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-STARTS = 64
+STARTS = 128
 TOLERANCE = 1e-10  # m and rad: how far from the pose a point may be
 _NEWTON = 5  # corrector steps before a step counts as too long
 _SHORTEST = 2.0**-10  # of the spacing: shorter steps are not tried, the curve ends there
@@ -36,7 +36,7 @@ _STRAIGHT = 0.9  # least cosine between the null vectors at the two ends of a st
 _ON_CURVE = 0.15  # of the spacing: a configuration nearer than this to a traced curve lies on it
 _FARTHEST = 400.0  # rad: longer curves are cut
 _MOST_POINTS = 4000  # of a sample
-_WAVE = 64  # curves traced side by side; no result depends on it
+_WAVE = 16  # curves traced side by side; no result depends on it
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +117,7 @@ def fibres(
     spacing: float = 0.05,
     seed: int = 0,
     starts: int = STARTS,
+    follow: bool = False,
 ) -> list[SelfMotion]:
     """The self-motion manifold of each pose, within the joint limits.
 
@@ -133,6 +134,8 @@ def fibres(
             shortened where the curve bends.
         seed: Of the starts; start k of pose i does not depend on the number of poses behind it.
         starts: Random starts of inverse kinematics per pose.
+        follow: The poses follow each other along a path: each curve of a pose is also looked for at the poses before and
+            behind it. Only with one degree of redundancy.
 
     Returns:
         One :class:`SelfMotion` per pose; every point meets its pose to 1e-9 m and rad.
@@ -155,19 +158,21 @@ def fibres(
         raise InputError(f"spacing is {spacing:g}; it must be above 0 and at most 0.5 rad")
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
-    finite = np.isfinite(targets).all(axis=(1, 2))
+    finite: NDArray[np.bool_] = np.asarray(np.isfinite(targets).all(axis=(1, 2)))
     tracer = _tracer(arm, tuple(map(tuple, rows.rows.tolist())), rows.frame)
     owner, q = tracer.seeds(targets, np.flatnonzero(finite), seed, starts)
-    components: list[tuple[Component, ...]] = [()] * len(targets)
+    components: list[list[Component]] = [[] for _ in targets]
     if redundancy == 1:
-        components = tracer.curves(targets, owner, q, spacing)
+        tracer.curves(targets, owner, q, spacing, components)
+        if follow:
+            tracer.passed_on(targets, spacing, components)
         points = [np.concatenate([c.q for c in found]) if found else np.empty((0, arm.n)) for found in components]
     else:
         points = [tracer.sample(t, q[owner == i], spacing) for i, t in enumerate(targets)]
     found_any = [Status.OK if len(p) else Status.NOT_FOUND for p in points]
     status = [s if ok else Status.BAD_INPUT for s, ok in zip(found_any, finite, strict=True)]
     return [
-        SelfMotion(t, rows, redundancy, c, p, spacing, s)
+        SelfMotion(t, rows, redundancy, tuple(c), p, spacing, s)
         for t, c, p, s in zip(targets, components, points, status, strict=True)
     ]
 
@@ -221,22 +226,48 @@ class Tracer:
 
     # ---- curves ----------------------------------------------------------------------------------------------------
 
-    def curves(self, poses: Array, owner: NDArray[np.intp], q: Array, spacing: float) -> list[tuple[Component, ...]]:
-        """Every curve that a seed q (S, n) of pose ``owner`` (S,) lies on, in order of seeds."""
-        found: list[list[Component]] = [[] for _ in poses]
-        while owner.size:
+    def curves(
+        self, poses: Array, owner: NDArray[np.intp], q: Array, spacing: float, found: list[list[Component]]
+    ) -> list[list[Component]]:
+        """Adds to what is ``found`` of each pose every other curve that a seed q (S, n) of pose ``owner`` (S,) lies on."""
+        left = np.ones(owner.size, dtype=bool)
+        for i in np.unique(owner):
+            for component in found[i]:
+                self._drop(left, component, i, owner, q, spacing)
+        while left.any():
+            owner, q = owner[left], q[left]
+            left = np.ones(owner.size, dtype=bool)
             # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
             each = max(1, _WAVE // np.unique(owner).size)
             first = np.flatnonzero(_rank(owner) < each)
-            left = np.ones(owner.size, dtype=bool)
             for k, component in zip(first, self._both_ways(q[first], poses[owner[first]], spacing), strict=True):
                 if component is not None and left[k]:
                     found[owner[k]].append(component)
-                    mine = np.flatnonzero((owner == owner[k]) & left)
-                    left[mine] = distance_to_curve(self.arm, component, q[mine]) > _ON_CURVE * spacing
+                    self._drop(left, component, owner[k], owner, q, spacing)
                 left[k] = False
-            owner, q = owner[left], q[left]
-        return [tuple(c) for c in found]
+        return found
+
+    def _drop(
+        self, left: NDArray[np.bool_], component: Component, pose: np.intp, owner: NDArray[np.intp], q: Array, spacing: float
+    ) -> None:
+        """Takes the seeds of a pose that lie on a component out of those that are left."""
+        mine = np.flatnonzero((owner == pose) & left)
+        if mine.size:
+            left[mine] = distance_to_curve(self.arm, component, q[mine]) > _ON_CURVE * spacing
+
+    def passed_on(self, poses: Array, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
+        """Adds the curves at which inverse kinematics arrives from the middle of a curve of the pose before or behind."""
+        fresh = [(i, c) for i, curves in enumerate(found) for c in curves]
+        while fresh:
+            starts = [(i + to, c.q[len(c.q) // 2]) for i, c in fresh for to in (-1, 1) if 0 <= i + to < len(poses)]
+            if not starts:
+                break
+            owner = np.array([i for i, _ in starts])
+            q, ok = self.engine.attempt(np.array([x for _, x in starts]), poses[owner], TOLERANCE)
+            known = [len(curves) for curves in found]
+            self.curves(poses, owner[ok], q[ok], spacing, found)
+            fresh = [(i, c) for i, curves in enumerate(found) for c in curves[known[i] :]]
+        return found
 
     def _both_ways(self, q: Array, poses: Array, spacing: float) -> list[Component | None]:
         q, sound, null = self.corrected(q, poses)
@@ -336,22 +367,21 @@ class Tracer:
     def _thinned(self, points: Array, q: Array, spacing: float) -> Array:
         """Those of q (N, n), in order, that are ``spacing`` away from the points and from those of q kept before."""
         if len(points) and len(q):
-            distance, _ = joint_space.tree(self.arm, points).query(joint_space.folded(self.arm, q))
-            q = q[distance >= spacing]
+            q = q[joint_space.nearest(self.arm, points, q)[0] >= spacing]
         if not len(q):
             return q
         keep = np.ones(len(q), dtype=bool)
-        near = joint_space.tree(self.arm, q).query_ball_point(joint_space.folded(self.arm, q), spacing * (1 - 1e-12))
-        for k, neighbours in enumerate(near):
+        pairs = joint_space.tree(self.arm, q).query_pairs(spacing * (1 - 1e-12), output_type="ndarray")  # each k < m
+        for k, m in pairs[np.lexsort(pairs.T[::-1])]:
             if keep[k]:
-                keep[[m for m in neighbours if m > k]] = False
+                keep[m] = False
         return q[keep]
 
 
 def distance_to_curve(arm: Arm, component: Component, q: Array) -> Array:
     """Distance (N,) of configurations (N, n) from the polygon of a component, near it; rad (and m)."""
     points, segments = component.q, _segments(arm, component.q, component.closed)
-    _, nearest = joint_space.tree(arm, points).query(joint_space.folded(arm, q))
+    _, nearest = joint_space.nearest(arm, points, q)
     away = joint_space.difference(arm, q, points[nearest])
     behind = segments[nearest - 1] if component.closed else np.where(nearest[:, None] > 0, segments[nearest - 1], 0.0)
     return np.minimum(_distance_to_segment(away, segments[nearest]), _distance_to_segment(away, -behind))
