@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, plane_normal
 from holdfast.assess.distribution import Distribution, Interval
 from holdfast.assess.plan import Plan, Rows, read_locks
 from holdfast.assess.region import Region, Sampling
-from holdfast.assess.run import Progress, Tally, blocks, fill, provenance, stored
+from holdfast.assess.run import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
+from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
 from holdfast.study import Store
@@ -45,6 +46,7 @@ class Assessment:
         optimised_worst_counts: As ``worst_counts``, at the best configurations.
         survivors: (n,) poses that can still be reached once the joint has locked, or their weights; 0 for joints that were
             not asked for, None if none was.
+        collisions: Configurations that run the arm through itself, or None if its clearance was not looked at.
         store: The results folder, if one was written.
         seconds: Time it took, or None if that is not known.
         complete: False if the run was stopped before all poses were done.
@@ -56,6 +58,7 @@ class Assessment:
     optimised: Distribution | None
     optimised_worst_counts: NDArray[Any] | None
     survivors: NDArray[Any] | None
+    collisions: SelfCollisions | None
     store: Store | None
     seconds: float | None
     complete: bool
@@ -255,6 +258,8 @@ def assess(
     optimise: bool = False,
     after_lock: bool = False,
     lock_at: Mapping[str | int, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    margin: float = 0.0,
 ) -> Assessment:
     """The distribution of an index over a region.
 
@@ -278,9 +283,13 @@ def assess(
         after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
         lock_at: Angles, rad or m, by joint name or index from 0, at which these joints lock. The others lock where they were
             at another pose if ``after_lock``, and are left out if not.
+        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
+            of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may run through itself.
+            Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
+        margin: Smallest clearance of the best configurations, m.
 
     Raises:
-        InputError: Options out of range, or an index of another arm.
+        InputError: Options out of range, or an index or clearance of another arm.
         TaskError: The arm is not redundant for the task, or the index cannot be optimised.
         StoreError: The folder cannot be used; nothing committed is lost.
         KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call goes on.
@@ -293,7 +302,19 @@ def assess(
         raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
     if poses is None:
         poses = _POSES if region.listed is None else len(region.listed)
-    plan = Plan(region, index, poses, seed, sampling, restarts, optimise, after_lock, read_locks(arm, lock_at or {}))
+    plan = Plan(
+        region,
+        index,
+        poses,
+        seed,
+        sampling,
+        restarts,
+        optimise,
+        after_lock,
+        read_locks(arm, lock_at or {}),
+        _apart(arm, clearance, optimise),
+        margin,
+    )
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else _open_store(Path(store), plan)
@@ -364,11 +385,20 @@ def _finished(
         None if best is None else best.finish(),
         None if best is None else best.worst,
         tally.survivors,
+        tally.collisions,
         store,
         seconds,
         complete,
         rows,
     )
+
+
+def _apart(arm: Arm, clearance: Clearance | bool | None, optimise: bool) -> Clearance | None:
+    if clearance is None:
+        clearance = optimise and plane_normal(arm) is None
+    if clearance is True:
+        return Clearance(arm)
+    return clearance or None
 
 
 def _open_store(path: Path, plan: Plan) -> Store:

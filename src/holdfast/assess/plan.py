@@ -14,10 +14,11 @@ from holdfast.arm.model import Arm
 from holdfast.arm.serial import from_dict, to_dict
 from holdfast.arm.task import Task
 from holdfast.assess.region import Region, Sampling
+from holdfast.clearance import Capsules, Clearance
 from holdfast.errors import InputError
 from holdfast.indices import BY_NAME, Evaluation, Index, by_name
 from holdfast.solve import solver
-from holdfast.solve.optimise import default_starts, objective_ascent
+from holdfast.solve.optimise import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
 from holdfast.study import Column
 
@@ -49,6 +50,8 @@ class Plan:
         restarts: Random starts per pose before it counts as not found.
         optimise: Also look for the best configuration of each pose.
         after_lock: Also ask for each pose and joint whether the pose can still be reached once the joint has locked.
+        clearance: Of the arm from itself: looked at in every configuration, and kept by the best ones; None: not looked at.
+        margin: Smallest clearance of the best configurations, m.
         lock_at: Joints, indices from 0, that lock at a given angle (rad or m) instead of one in use. They are asked for with
             or without ``after_lock``.
     """
@@ -62,6 +65,8 @@ class Plan:
     optimise: bool
     after_lock: bool = False
     lock_at: tuple[tuple[int, float], ...] = ()
+    clearance: Clearance | None = None
+    margin: float = 0.0
 
     def __post_init__(self) -> None:
         for what, least in (("poses", 1), ("seed", 0), ("restarts", 1)):
@@ -70,6 +75,12 @@ class Plan:
             raise InputError(f"sampling '{self.sampling}' is not known; use 'random' or 'sobol'")
         if self.region.kind == "sampler" and self.sampling != "random":
             raise InputError(f"region '{self.region.name}' draws its poses itself; use sampling 'random'")
+        if self.clearance is not None and self.clearance.arm.fingerprint != self.arm.fingerprint:
+            raise InputError(
+                f"the clearance belongs to '{self.clearance.arm.name}', not to '{self.arm.name}'; make it with the same arm"
+            )
+        if not np.isfinite(self.margin):
+            raise InputError(f"margin is {self.margin:g}; it must be a finite number of metres")
         if self.region.kind == "joints":
             if len(self.region.center) != self.arm.n:
                 raise InputError(
@@ -126,6 +137,8 @@ class Plan:
         if self.lock_at:
             angles = {self.arm.joint_names[k]: angle for k, angle in self.lock_at}
             data["lock_at"] = {"angles": angles, "restarts": LOCK_RESTARTS}
+        if self.clearance is not None:
+            data["clearance"] = {"capsules": self.clearance.capsules.to_dict(self.arm), "margin": self.margin}
         return data
 
     @property
@@ -141,6 +154,7 @@ class Plan:
         task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
         index = by_name(data["index"], arm, task, [list(f) for f in data["failures"]])
         region = Region.from_dict(data["region"])
+        apart = data.get("clearance")
         return cls(
             region,
             index,
@@ -151,6 +165,8 @@ class Plan:
             "optimise" in data,
             "after_lock" in data,
             read_locks(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
+            None if apart is None else Clearance(arm, Capsules.from_dict(apart["capsules"], arm)),
+            0.0 if apart is None else apart["margin"],
         )
 
     def columns(self) -> list[Column]:
@@ -166,6 +182,22 @@ class Plan:
             Column("optimised_worst", "int16", (), "1", "position of the worst failure there; -1 if there is none"),
             Column("agreeing", "float64", (), "1", "share of the starts followed to the end that reached the best value"),
         ]
+        apart = [
+            Column("clearance", "float64", (), "m", "smallest distance between links; below 0: the arm runs through itself")
+        ]
+        if self.optimise:
+            apart += [
+                Column(
+                    "optimised_status", "uint8", (), "1", "as status; 4: every configuration found runs the arm through itself"
+                ),
+                Column(
+                    "blocked",
+                    "int8",
+                    (),
+                    "1",
+                    "1 if the best configuration without regard to itself runs the arm through itself",
+                ),
+            ]
         survives = _SURVIVES_AT if self.lock_at else _SURVIVES
         return [
             *(pose if self.region.kind != "joints" else []),
@@ -176,6 +208,7 @@ class Plan:
             Column("by_failure", "float64", (("failure", f),), unit, f"{self.index.name} for each failure"),
             Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
             *(best if self.optimise else []),
+            *(apart if self.clearance is not None else []),
             *([Column("survives", "int8", (("lock", n),), "1", survives)] if self.locks else []),
         ]
 
@@ -187,7 +220,12 @@ class Plan:
         if self.region.kind != "joints":
             solver(self.arm, self.index.task)
         if self.optimise:
-            objective_ascent(self.index)
+            self._ascent()
+        if self.clearance is not None:
+            self.clearance(np.zeros((1, self.arm.n)))
+
+    def _ascent(self) -> Ascent:
+        return objective_ascent(self.index, None, self.clearance, self.margin)
 
     def evaluate(self, samples: Array, number: int) -> Rows:
         """The rows of block ``number``."""
@@ -196,13 +234,16 @@ class Plan:
         count = len(samples)
         if self.region.kind == "joints":
             result = self.index.evaluate(samples)
-            return {
+            direct: Rows = {
                 "q": samples,
                 "status": result.status,
                 "index": result.value,
                 "by_failure": result.by_failure,
                 "worst": _worst(result),
             }
+            if self.clearance is not None:
+                direct["clearance"] = self.clearance(samples)
+            return direct
         poses = self.region.poses(samples)
         reach = solver(self.arm, self.index.task).solve(
             poses, np.random.SeedSequence(self.seed, spawn_key=(1, number)), self.restarts, TOLERANCE
@@ -225,16 +266,21 @@ class Plan:
         if self.optimise:
             others = np.random.SeedSequence(self.seed, spawn_key=(2, number))
             starts = default_starts(self.arm, self.index.task)
-            best = objective_ascent(self.index).solve(poses, reach, others, starts, TOLERANCE)
+            best = self._ascent().solve(poses, reach, others, starts, TOLERANCE)
             best_worst = np.full(count, -1, dtype=np.int16)
-            if ok.size:
-                best_worst[ok] = _worst(self.index.evaluate(best.q[ok]))
+            good = np.flatnonzero(best.success)
+            if good.size:
+                best_worst[good] = _worst(self.index.evaluate(best.q[good]))
             rows |= {
                 "optimised_q": best.q,
                 "optimised_index": best.value,
                 "optimised_worst": best_worst,
                 "agreeing": best.agreeing,
             }
+            if self.clearance is not None:
+                rows |= {"optimised_status": best.status, "blocked": best.blocked.astype(np.int8)}
+        if self.clearance is not None:
+            rows["clearance"] = self.clearance(rows["q"])
         if self.weighted:
             rows["weight"] = self.region.weights(samples)
         if self.locks:

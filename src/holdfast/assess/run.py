@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future
 from contextlib import closing
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
 from typing import Any
@@ -95,17 +96,23 @@ def _lost(rows: Rows, locks: list[int]) -> str | None:
     if (status == Status.NOT_COMPUTED).any():
         return "status"
     reached = (status == Status.OK) | (status == Status.SINGULAR)
+    best = reached
+    if "optimised_status" in rows:
+        if (rows["optimised_status"] == Status.NOT_COMPUTED).any() or (rows["blocked"] < 0).any():
+            return "optimised_status" if (rows["optimised_status"] == Status.NOT_COMPUTED).any() else "blocked"
+        best = reached & (rows["optimised_status"] != Status.INFEASIBLE)
     for name, values in rows.items():
-        if (
-            values.dtype.kind == "f"
-            and np.isnan(values if name in ("position", "quaternion", "weight") else values[reached]).any()
-        ):
+        if name in ("position", "quaternion", "weight"):
+            there = values
+        else:
+            there = values[best if name.startswith("optimised_") else reached]
+        if values.dtype.kind == "f" and np.isnan(there).any():
             return name
     # Whole numbers are -1 where there is nothing; at an ordinary configuration, which the best one never undercuts, there is.
     for name in ("worst", "optimised_worst", "survives"):
         if name in rows:
             values = rows[name][:, locks] if name == "survives" else rows[name]  # joints not asked for have -1 everywhere
-            if (values[status == Status.OK] < 0).any():
+            if (values[(status == Status.OK) & (best if name == "optimised_worst" else reached)] < 0).any():
                 return name
     return None
 
@@ -131,16 +138,38 @@ class Count:
         return self._collector.finish()
 
 
+@dataclass(frozen=True)
+class SelfCollisions:
+    """Configurations that run the arm through itself, counted without weights.
+
+    Attributes:
+        found: Of those that inverse kinematics found.
+        blocked: Poses whose best configuration, if one does not look, would; a clear one was taken instead where there is one.
+        hopeless: Of these, poses for which every configuration found does: they count as not reached when optimised.
+        reached: Poses with a configuration.
+        margin: Smallest clearance asked of the best configurations, m.
+    """
+
+    found: int
+    blocked: int
+    hopeless: int
+    reached: int
+    margin: float
+
+
 class Tally:
     """What is counted over all rows of a plan, added one block at a time.
 
     Attributes:
         found: At the configurations that inverse kinematics found.
         optimised: At the best configurations, if the plan asks for them.
+        collisions: Of the arm with itself, if the plan has a clearance.
         survivors: (n,) poses still reached once each joint has locked, or their weights, if the plan asks for them.
     """
 
     def __init__(self, plan: Plan) -> None:
+        self._margin = plan.margin
+        self._collisions = None if plan.clearance is None else np.zeros(4, dtype=np.int64)
         self.found = Count(plan, "index", "worst")
         self.optimised = Count(plan, "optimised_index", "optimised_worst") if plan.optimise else None
         self.survivors: NDArray[Any] | None = None
@@ -152,10 +181,25 @@ class Tally:
         reached = (rows["status"] == Status.OK) | (rows["status"] == Status.SINGULAR)
         self.found.add(rows, reached)
         if self.optimised is not None:
-            self.optimised.add(rows, reached)
+            hopeless = np.zeros(reached.size, dtype=bool)
+            if "optimised_status" in rows:
+                hopeless = rows["optimised_status"] == Status.INFEASIBLE
+            self.optimised.add(rows, reached & ~hopeless)
+            if self._collisions is not None:
+                self._collisions[1:3] += [(rows["blocked"][reached] == 1).sum(), hopeless[reached].sum()]
+        if self._collisions is not None:
+            self._collisions[[0, 3]] += [(rows["clearance"][reached] < 0).sum(), reached.sum()]
         if self.survivors is not None:
             left = rows["survives"] == 1
             self.survivors += rows["weight"] @ left if "weight" in rows else left.sum(axis=0)
+
+    @property
+    def collisions(self) -> SelfCollisions | None:
+        """What was counted of collisions, or None if the plan has no clearance."""
+        if self._collisions is None:
+            return None
+        found, blocked, hopeless, reached = self._collisions.tolist()
+        return SelfCollisions(found, blocked, hopeless, reached, self._margin)
 
 
 def provenance(seconds: float | None) -> dict[str, Any]:

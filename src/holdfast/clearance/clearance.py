@@ -180,6 +180,19 @@ class Clearance:
             out.append([dot(row, [v[k] for k in between]) for v in directions])
         return out
 
+    def smallest_with_slopes(self, q: SX, directions: Sequence[SX]) -> tuple[SX, Vector]:
+        """The clearance and its derivatives along each direction (n,): those of the pair that is closest."""
+        best: SX = None
+        chosen: Vector = []
+        for value, row in zip(self.distances(q), self.slopes(q, directions), strict=True):
+            if best is None:
+                best, chosen = value, row
+                continue
+            closer = value < best
+            chosen = [ca.if_else(closer, x, y) for x, y in zip(row, chosen, strict=True)]
+            best = ca.if_else(closer, value, best)
+        return best, chosen
+
     @cached_property
     def _value_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)

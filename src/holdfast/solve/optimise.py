@@ -23,7 +23,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
-from holdfast.linalg import damped_least_norm, dot, householder, slopes_along, smallest
+from holdfast.linalg import damped_least_norm, dot, householder
 from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solve.maximin import maximin_step
 from holdfast.status import Status, require_ok
@@ -119,9 +119,9 @@ class Ascent:
                 above = high - q[k] - back[k] if np.isfinite(high) else ca.SX(big)
                 rows_kept.append(rows[k])
                 room.append((below, above))
-        if clearance is not None:
-            gap = smallest(clearance.distances(q))
-            rows_kept.append(slopes_along([gap], q, directions)[0])
+        if clearance is not None and clearance.pairs:
+            gap, slope = clearance.smallest_with_slopes(q, directions)
+            rows_kept.append(slope)
             room.append((self.margin - gap, ca.SX(big)))
         z = maximin_step(parts, rows_kept, [below for below, _ in room], [above for _, above in room], radius)
         move = [dot(rows[k], z) for k in range(arm.n)]
@@ -240,7 +240,9 @@ class Ascent:
                 best_q[owner[top]], best[owner[top]] = q[top], value[top]
                 scale = np.maximum(np.abs(best), np.abs(best - sign * start_value))
                 close = value >= best[owner] - 1e-3 * scale[owner]
-                agreeing[chosen] = np.bincount(owner, close, count)[chosen] / np.bincount(owner, minlength=count)[chosen]
+                agreeing[chosen] = np.bincount(owner, close, count)[chosen] / np.maximum(
+                    np.bincount(owner, minlength=count)[chosen], 1
+                )
 
             choose(*self._followed(self._step, owner, q, poses, tolerance, clear=False), reached)
             if self.clearance is not None:
