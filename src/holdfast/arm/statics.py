@@ -77,7 +77,7 @@ def composite(arm: Arm, q: SX) -> Composite:
             moment, inertia = _shifted(mass, moment, inertia, shift)
         mass = mass + link.mass
         moment = moment + constant(link.mass * link.com)
-        inertia = inertia + constant(link.inertia + link.mass * _spread(link.com))
+        inertia = inertia + constant(link.inertia + link.mass * spread(link.com))
         moment, inertia = _shifted(mass, moment, inertia, steps[i][1])  # a sliding joint's link has left O
         masses[i], moments[i], inertias[i] = mass, moment, inertia
     axes = [constant(joint.axis) for joint in arm.joints]
@@ -177,7 +177,7 @@ def _frames(arm: Arm, steps: list[Frame]) -> tuple[list[SX], list[SX]]:
     return rotations, points
 
 
-def _spread(r: Array) -> Array:
+def spread(r: Array) -> Array:
     """``-[r][r]``: the second moment of a unit mass at r."""
     return np.asarray(r @ r * np.eye(3) - np.outer(r, r))
 
