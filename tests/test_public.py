@@ -18,8 +18,10 @@ MODULES = [
     "holdfast",
     "holdfast.arm",
     "holdfast.assess",
+    "holdfast.clearance",
     "holdfast.cli",
     "holdfast.indices",
+    "holdfast.indices.susceptibility",
     "holdfast.kernels",
     "holdfast.report",
     "holdfast.solve",
@@ -52,7 +54,7 @@ def test_everything_public_is_documented(name):
 
 def test_the_names_a_user_needs():
     needed = {"Arm", "DH", "Joint", "Link", "Task", "Region", "Assessment", "Status", "HoldfastError"}
-    needed |= {"assess", "load", "solve_ik", "arms", "indices", "set_threads"}
+    needed |= {"assess", "load", "solve_ik", "arms", "indices", "susceptibility", "set_threads"}
     assert needed <= set(hf.__all__)
 
 

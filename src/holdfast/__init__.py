@@ -1,9 +1,11 @@
 """holdfast: what happens to the task when a joint of a redundant arm fails, and what can be done about it beforehand."""
 
-from holdfast import arms, indices
+from holdfast import arms, indices, paths
 from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Region, assess, load
+from holdfast.clearance import Capsules, Clearance
+from holdfast.control import Trajectory, follow
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -19,6 +21,8 @@ __all__ = [
     "ArmError",
     "Assessment",
     "BrakedDrop",
+    "Capsules",
+    "Clearance",
     "FreeSwing",
     "HoldfastError",
     "InputError",
@@ -32,13 +36,16 @@ __all__ = [
     "StoreError",
     "Task",
     "TaskError",
+    "Trajectory",
     "__version__",
     "arms",
     "assess",
+    "follow",
     "free_swing",
     "indices",
     "load",
     "optimise",
+    "paths",
     "set_threads",
     "solve_ik",
     "susceptibility",

@@ -46,9 +46,9 @@ def pinocchio(arm, q, qd, qdd):
     return bare + [j.armature for j in arm.joints] * qdd + [j.friction for j in arm.joints] * qd
 
 
-@pytest.mark.parametrize("types", [None, None, None, None, "R", "P", "PP", "RPRPR", "PRRPRR"])
+@pytest.mark.parametrize("types", [None, "R", "P", "PP", "RPRPR", "PRRPRR"])
 def test_random_arms_against_pinocchio(types, rng):
-    for payload in (False, True):
+    for payload in (False, True, False, True):
         arm = random_arm(rng, payload, types=types)
         q, qd, qdd = state(arm, rng, 6)
         close(compiled(arm).rows(q, qd, qdd), pinocchio(arm, q, qd, qdd))
@@ -132,7 +132,7 @@ def test_bad_states_and_bad_arms(panda_states):
     with pytest.raises(hf.ArmError, match="no inertial data"):
         arms.load("pa10-7dof").inverse_dynamics(q, qd, qdd)
     bad = replace(arm, payload=hf.Link(1.0, np.zeros(3), np.diag([1.0, 1, 3])))
-    with pytest.raises(hf.ArmError, match="payload: .*triangle"):
+    with pytest.raises(hf.ArmError, match=r"payload: .*triangle"):
         bad.inverse_dynamics(q, qd, qdd)
 
 

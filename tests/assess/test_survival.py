@@ -7,6 +7,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arm.task import as_task
+from holdfast.assess import rerun
 from holdfast.assess.distribution import Interval
 from holdfast.solve import solver
 
@@ -126,3 +127,91 @@ def test_a_lost_column_is_a_sentence_and_not_a_result(arm, region, tmp_path, los
     shutil.rmtree(tmp_path / "run" / "samples.zarr" / lost / "c")
     with pytest.raises(hf.StoreError, match=f"'{lost}' is lost"):
         hf.load(tmp_path / "run")
+
+
+# ---- locks at given angles -----------------------------------------------------------------------------------------
+
+WIDE = hf.Region.box([0, 0, 0], [7.0, 7.0, 0.0])
+
+
+@pytest.mark.parametrize("angle", [-2.0, 0.3, 1.7])
+def test_locks_at_given_angles_leave_the_area_of_their_annuli(arm, angle):
+    run = hf.assess(arm, WIDE, poses=2000, seed=7, task="planar", lock_at={"joint1": angle, 1: angle, "joint3": angle})
+    data = run.dataset
+    left, position = data["survives"].values, data["position"].values[:, :2]
+    for joint in range(3):
+        inner, distance, outer = np.array([annulus(p, joint, angle) for p in position]).T
+        truth = (inner < distance) & (distance < outer)
+        clear = (np.abs(distance - inner) > 1e-3) & (np.abs(distance - outer) > 1e-3)
+        found = left[:, joint] == 1
+        assert not found[clear & ~truth].any()
+        assert found[clear & truth].mean() > 0.99
+        area = np.pi * (outer[0] ** 2 - inner[0] ** 2) / 49
+        interval = run.survival(joint, confidence=0.9999)[f"joint{joint + 1}"]
+        assert interval.low - 0.005 < area < interval.high + 0.005
+    assert run.locks == {"joint1": angle, "joint2": angle, "joint3": angle}
+
+
+def test_poses_of_configurations_with_the_joint_there_are_found(rng):
+    """Brute force: whatever the failed arm can stand at is a pose that survives."""
+    nine = hf.arms.load("pa10-9dof")
+    q = rng.uniform(nine.lower, nine.upper, (150, nine.n))
+    q[:, 3] = 1.9
+    job = hf.Region.from_poses(nine.forward_kinematics(q))
+    run = hf.assess(nine, job, lock_at={"joint4": 1.9, "joint2": nine.lower[1]})
+    assert run.survival("joint4")["joint4"].value > 0.9  # of 20 starts; a lower bound
+    assert run.survival("joint2")["joint2"].value < 0.6
+    assert run.distribution.reached >= int(run.survivors[3])
+
+
+def test_joints_not_named_keep_their_rule_or_are_left_out(arm, region, tmp_path):
+    plain = hf.assess(arm, region, poses=1100, seed=2, task="planar", after_lock=True)
+    mixed = hf.assess(arm, region, poses=1100, seed=2, task="planar", after_lock=True, lock_at={1: 0.5})
+    some = hf.assess(arm, region, poses=1100, seed=2, task="planar", lock_at={"joint2": 0.5}, store=tmp_path / "run")
+    a, b, c = (r.dataset["survives"].values for r in (plain, mixed, some))
+    np.testing.assert_array_equal(a[:, [0, 2]], b[:, [0, 2]])
+    assert (a[:, 1] != b[:, 1]).any()
+    np.testing.assert_array_equal((c[:, 1] == -1), plain.dataset["status"].values != 0)
+    assert (c[:, [0, 2]] == -1).all()
+    assert list(some.survival()) == ["joint2"]
+    assert mixed.locks == {"joint1": None, "joint2": 0.5, "joint3": None}
+    again = hf.load(tmp_path / "run")
+    assert again.plan.lock_at == some.plan.lock_at == ((1, 0.5),)
+    assert again.survival() == some.survival()
+    assert some.expected_survival({"joint2": 3.0}) == some.survival()["joint2"].value
+    for ask in (lambda: again.survival("joint1"), lambda: again.expected_survival({0: 1.0, 1: 1.0})):
+        with pytest.raises(hf.InputError, match="did not look at a lock of 'joint1'"):
+            ask()
+    with pytest.raises(hf.StoreError, match="its lock_at is"):
+        hf.assess(arm, region, poses=1100, seed=2, task="planar", lock_at={"joint2": 0.6}, store=tmp_path / "run")
+
+
+@pytest.mark.parametrize("after_lock", [False, True])
+def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_lock):
+    run = hf.assess(arm, region, poses=210, task="planar", after_lock=after_lock, lock_at={2: -1.25})
+    html = run.report(tmp_path / "report.html").read_text()
+    assert "−71.6 deg (−1.25 rad)" in html
+    assert ("where it stood at another pose" in html) == after_lock
+    assert "Right: with joint" in html
+    assert "--lock-at joint3=-1.25" in html
+    command, _ = rerun.command_line(run)
+    assert ("--after-lock" in command) == after_lock
+
+
+def test_sentences_about_given_angles(arm, region):
+    limited = hf.arms.load("pa10-9dof")
+    for given, sentence in (
+        ({"joint2": 9.0}, "'joint2' cannot lock at 9 rad: its limits are"),
+        ({"elbow": 0.0}, "no joint 'elbow'"),
+        ({7: 0.0}, "joint index 7 is out of range"),
+        ({"joint2": np.nan}, "'joint2' is nan"),
+        ({"joint2": "x"}, "'joint2' is 'x'"),
+        ({"joint2": 0.1, 1: 0.1}, "'joint2' twice"),
+        (0.3, "must be angles by joint"),
+    ):
+        with pytest.raises(hf.InputError, match=sentence):
+            hf.assess(arm, region, poses=10, task="planar", lock_at=given)
+    with pytest.raises(hf.InputError, match=r"its limits are -0\.785398 to 0\.785398 rad"):
+        hf.assess(limited, hf.Region.around(limited), poses=10, lock_at={0: 1.0})
+    with pytest.raises(hf.InputError, match="give a box"):
+        hf.assess(arm, hf.Region.joints([-1, -1, -1], [1, 1, 1]), poses=10, task="planar", lock_at={0: 1.0})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 
@@ -12,55 +11,10 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import arms, load
-from holdfast.cli import main
-from holdfast.kernels import set_threads
 
 COMMANDS = ["arms", "describe", "index", "susceptibility", "assess", "report"]
 HOME9 = "0 30 0 90 0 18 0 36 0"
 RHO9 = (0.61245, 0.12725, 0.67622, 0.47972, 0.66629, 0.76427, 0.79161, 0.41179, 0.31151)
-
-
-@pytest.fixture
-def cli(monkeypatch, capsys):
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["holdfast", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        out, err = capsys.readouterr()
-        return end.value.code, out, err
-
-    yield call
-    set_threads(None)
-
-
-@pytest.fixture
-def ask(cli):
-    """A call that must succeed and print one JSON document without NaN or Infinity."""
-
-    def call(*arguments):
-        code, out, err = cli(*arguments, "--json")
-        assert code == 0, err
-        assert err == ""
-        return json.loads(out, parse_constant=lambda x: pytest.fail(f"{x} in JSON"))
-
-    return call
-
-
-@pytest.fixture
-def refused(cli):
-    """A call that must fail with exit code 2 and one sentence on stderr."""
-
-    def call(*arguments):
-        code, out, err = cli(*arguments)
-        assert code == 2, (code, out, err)
-        assert out == ""
-        assert err.startswith("holdfast: ")
-        assert err.count("\n") == 1, err
-        assert "Traceback" not in err
-        assert len(err) < 600
-        return err
-
-    return call
 
 
 @pytest.fixture
@@ -312,6 +266,42 @@ def test_assess_out_then_report(ask, tmp_path, box):
     assert {k: data[k] for k in same} == {k: first[k] for k in same}
 
 
+def test_assess_locks_at_given_angles_and_failure_rates(cli, ask, tmp_path):
+    folder = tmp_path / "run"
+    common = ("assess", "planar-3r", "--poses", 100, "--seed", 2)
+    rates = ("--failure-rate", "joint2=1", "--failure-rate", "3=3")
+    data = ask(*common, "--lock-at", "2=0.5", "--lock-at", "joint3=-1", *rates, "--out", folder)
+    arm = arms.load("planar-3r")
+    run = hf.assess(arm, hf.Region.from_dict(data["region"]), task="planar", poses=100, seed=2, lock_at={1: 0.5, 2: -1.0})
+    shares = run.survival()
+    assert data["after_lock"]["joint2"] == {
+        "value": shares["joint2"].value,
+        "low": shares["joint2"].low,
+        "high": shares["joint2"].high,
+        "locked_at": 0.5,
+    }
+    assert data["expected_survival"] == run.expected_survival({"joint2": 1, "joint3": 3})
+    assert ask("report", folder, *rates)["expected_survival"] == data["expected_survival"]
+    assert ask("report", folder)["expected_survival"] is None
+    code, out, _ = cli(*common, "--after-lock", "--lock-at", "2=0.5", *rates)
+    assert code == 0
+    for part in ("28.65 deg", "as at another pose", "after a failure, by how often each joint fails"):
+        assert part in " ".join(out.split()), part
+
+
+def test_assess_a_weighted_list(cli, ask, tmp_path):
+    (tmp_path / "job.csv").write_text("x,y,z,qx,qy,qz,qw,weight\n1,0.2,0,0,0,0,1,1\n9,9,0,0,0,0,1,3\n")
+    (tmp_path / "job.yaml").write_text("poses: job.csv")
+    data = ask("assess", "planar-3r", "--region", tmp_path / "job.yaml")
+    assert (data["poses"], data["reached"], data["effective_sample_size"]) == (2, 1, 1.6)
+    code, out, _ = cli("assess", "planar-3r", "--region", tmp_path / "job.yaml")
+    assert code == 0
+    text = " ".join(out.split())
+    for part in ("75.0% of the weight", "effective sample size 1.6", "a list of 2 poses, with weights"):
+        assert part in text, part
+    assert ask("assess", "planar-3r", "--region", tmp_path / "job.yaml", "--poses", 10)["effective_sample_size"] is None
+
+
 def test_report_of_a_run_that_was_stopped(cli, ask, tmp_path):
     def stop(done, _):
         if done:
@@ -402,6 +392,12 @@ BAD = {
     "the same set twice": (["assess", "pa10-9dof", "--failures", "1; joint1"], ["twice"]),
     "too many together": (["assess", "panda", "--failures", "pairs"], ["locking 2 of the 7 joints"]),
     "0 together": (["assess", "panda", "--failures", "0"], ["cannot fail together", "1 to 6"]),
+    "lock beyond the limits": (["assess", "planar-3r", "--lock-at", "joint2=9"], ["'joint2' cannot lock at 9 rad", "limits"]),
+    "lock nowhere": (["assess", "planar-3r", "--lock-at", "joint2"], ["--lock-at 'joint2' is not joint=number"]),
+    "lock of nobody": (["assess", "planar-3r", "--lock-at", "4=0"], ["joint 4 is out of range"]),
+    "lock twice": (["assess", "planar-3r", "--lock-at", "2=0", "--lock-at", "joint2=1"], ["'joint2' twice"]),
+    "rate without a lock": (["assess", "planar-3r", "--failure-rate", "2=1"], ["needs its lock", "--after-lock"]),
+    "negative rate": (["assess", "planar-3r", "--after-lock", "--failure-rate", "2=-1"], ["failure rates must be"]),
     "negative poses": (["assess", "pa10-9dof", "--poses", "-3"], ["poses is -3; it must be 1 or more"]),
     "no poses": (["assess", "pa10-9dof", "--poses", "0"], ["poses is 0"]),
     "poses in words": (["assess", "pa10-9dof", "--poses", "many"], ["--poses"]),

@@ -71,11 +71,14 @@ def test_weights_in_words_numbers_and_files(ask, tmp_path, rng):
     square, row = tmp_path / "w.csv", tmp_path / "row.CSV"
     np.savetxt(square, root @ root.T, delimiter=",")
     row.write_text("1,2,3,4,5,6,7\n")
+    column = tmp_path / "column.csv"
+    column.write_text("1\n2\n3\n4\n5\n6\n7\n")
     for given, weights in (
         ("effort", "effort"),
         ("worst-case", "worst-case"),
         ("1,2,3,4,5,6,7", np.arange(1.0, 8)),
         (str(row), np.arange(1.0, 8)),
+        (str(column), np.arange(1.0, 8)),
         (str(square), root @ root.T),
     ):
         data = ask("susceptibility", "panda", *texts, "--weights", given)
@@ -108,7 +111,11 @@ def test_bad_input_is_one_sentence(arguments, words, refused):
 
 def test_a_weights_file_that_is_no_table(refused, tmp_path):
     file = tmp_path / "w.csv"
-    file.write_text("a,b\n1\n")
-    assert "not a table of numbers" in refused("susceptibility", "panda", "--q", HOME, "--weights", file)
-    file.write_text("")
-    assert "weights" in refused("susceptibility", "panda", "--q", HOME, "--weights", file)
+    for content, words in (
+        (b"a,b\n1\n", "'a' is not a number"),
+        (b"", "lines of equally many numbers"),
+        (b"1,2\n3\n", "lines of equally many numbers"),
+        (b"\xff\xfe1", "is not text"),
+    ):
+        file.write_bytes(content)
+        assert words in refused("susceptibility", "panda", "--q", HOME, "--weights", file)

@@ -89,3 +89,18 @@ def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
         wanted = [(total(x + 1e-6 * d) - total(x - 1e-6 * d)) / 2e-6 for d in null.T]
         np.testing.assert_allclose(mine, wanted, rtol=1e-5, atol=1e-6 * max(1.0, np.abs(wanted).max()))
     assert checked
+
+
+@pytest.mark.parametrize("name", [*hf.indices.BY_NAME, "torque", "acceleration", "swing-angle"])
+def test_parts_of_every_objective_give_its_value(name, rng):
+    arm = hf.arms.load("panda")
+    objective = hf.indices.by_name(name, arm) if name in hf.indices.BY_NAME else hf.susceptibility.by_name(name, arm)
+    q = kinematics.joint_symbols(arm)
+    j = kinematics.invariant_jacobian(arm, q)
+    qr = householder(j)
+    directions = [ca.vertcat(*[row[0] for row in qr.null_rows()])]
+    (part,) = objective.exact_parts(q, j, qr, directions)
+    function = ca.Function("value", [q], [part.weight * ca.mmin(ca.vertcat(*part.values))])
+    sign = 1 if objective.better == "larger" else -1
+    for x in oracles.inside(arm, rng, 5):
+        np.testing.assert_allclose(sign * float(function(x)), objective(x), rtol=1e-5)

@@ -52,24 +52,33 @@ def chain(arm: Arm, q: SX, frame: int | None = None, steps: list[Frame] | None =
             code gets.
         steps: :func:`joint_steps` of the same q, where several chains are made.
     """
-    n = arm.n
-    steps = joint_steps(arm, q) if steps is None else steps
-    axes: list[SX] = [None] * n
-    points: list[SX] = [None] * n
-    rotation, position = split(arm.base) if frame is None else (eye(), ca.SX(3, 1))
-    start = 0 if frame is None else frame
+    moving, still = frames(arm, joint_steps(arm, q) if steps is None else steps, frame)
+    axes = [_column(rotation, joint.axis) for (rotation, _), joint in zip(still, arm.joints, strict=True)]
+    return Chain(axes, [position for _, position in still], *compose(moving[-1], split(arm.tool)))
+
+
+def frames(arm: Arm, steps: list[Frame], frame: int | None = None) -> tuple[list[Frame], list[Frame]]:
+    """Where the bodies and the joints are: rotation (3, 3) and origin (3,) of each.
+
+    Args:
+        arm: The arm.
+        steps: :func:`joint_steps`.
+        frame: The frame in which they are given; see :func:`chain`.
+
+    Returns:
+        The n + 1 frames of the base and of what moves with each joint; the n joint frames, which their own joint leaves
+        where they are.
+    """
+    n, start = arm.n, 0 if frame is None else frame
+    moving: dict[int, Frame] = {start: split(arm.base) if frame is None else (eye(), ca.SX(3, 1))}
+    still: dict[int, Frame] = {}
     for k in range(start, n):
-        rotation, position = compose((rotation, position), split(arm.joints[k].origin))
-        axes[k], points[k] = _column(rotation, arm.joints[k].axis), position
-        rotation, position = compose((rotation, position), steps[k])
-    rotation, position = compose((rotation, position), split(arm.tool))
-    tool = rotation, position
-    rotation, position = eye(), ca.SX(3, 1)
+        still[k] = compose(moving[k], split(arm.joints[k].origin))
+        moving[k + 1] = compose(still[k], steps[k])
     for k in reversed(range(start)):
-        rotation, position = compose((rotation, position), _inverse(steps[k]))
-        axes[k], points[k] = _column(rotation, arm.joints[k].axis), position
-        rotation, position = compose((rotation, position), _inverse(split(arm.joints[k].origin)))
-    return Chain(axes, points, *tool)
+        still[k] = compose(moving[k + 1], _inverse(steps[k]))
+        moving[k] = compose(still[k], _inverse(split(arm.joints[k].origin)))
+    return [moving[k] for k in range(n + 1)], [still[k] for k in range(n)]
 
 
 def tool_pose(arm: Arm, q: SX) -> SX:

@@ -374,9 +374,7 @@ class Arm:
     @cached_property
     def _inertia_diagonal_kernel(self) -> Kernel:
         from holdfast.arm import statics
-        from holdfast.arm.check import require_possible_inertia
 
-        require_possible_inertia(self)
         return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
 
     @cached_property
@@ -404,9 +402,7 @@ class Arm:
         return self._jacobian_derivative_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n, 6, self.n))
 
     def gravity_torque(self, q: ArrayLike) -> Array:
-        """Torques and forces that hold the arm still against gravity, payload included, (n,) or (N, n); N m and N.
-
-        Source: English and Maciejewski 1998, eq. (8), (12).
+        """Torques and forces, N m and N, that hold the arm and its payload still against gravity, (n,) or (N, n).
 
         Raises:
             ArmError: A link of which nothing is known.
@@ -416,8 +412,6 @@ class Arm:
 
     def inertia_diagonal(self, q: ArrayLike) -> Array:
         """Diagonal of the joint-space inertia matrix, payload and armature included, (n,) or (N, n); kg m^2 and kg.
-
-        Source: English and Maciejewski 1998, eq. (25), (28).
 
         Raises:
             ArmError: A link of which nothing is known, or whose inertia no body has.

@@ -3,7 +3,7 @@
 Joint i carries a *composite body*: the links after it and the payload, as if they were welded together. English and
 Maciejewski 1998 give its mass, first and second moment by a recursion from the tip, eq. (9), (10), (26), (27), each in
 the axes of its own link, where joint axes and link data are constant numbers. Measured for the Panda: all three
-susceptibilities with their gradients take 1,400 operations that way and 3,900 as sums in one common frame.
+susceptibilities with their gradients take 1,600 operations that way and 3,900 as sums in one common frame.
 
 The paper's closed-form derivatives, eq. (14)-(17) and (31)-(35), need all vectors in one frame: :func:`in_world`.
 
@@ -18,8 +18,8 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.check import require_masses
-from holdfast.arm.kinematics import Frame, compose, constant, eye, joint_steps, split
+from holdfast.arm.check import require_masses, require_possible_inertia
+from holdfast.arm.kinematics import constant, eye, frames, joint_steps, split
 from holdfast.arm.model import Arm, Link
 from holdfast.kernels import SX
 
@@ -61,7 +61,8 @@ def composite(arm: Arm, q: SX) -> Composite:
     require_masses(arm)
     n = arm.n
     steps = joint_steps(arm, q)
-    rotations, points = _frames(arm, steps)
+    moving, still = frames(arm, steps)
+    rotations, points = [rotation for rotation, _ in moving[1:]], [position for _, position in still]
     gravity: list[SX] = []
     up = constant(-arm.base[:3, :3].T @ arm.gravity)  # in the base's axes, so that a tilted base costs nothing
     for joint, step in zip(arm.joints, steps, strict=True):
@@ -114,7 +115,12 @@ def first_moment_rate(arm: Arm, c: Composite, i: int) -> SX:
 
 
 def inertia_diagonal(arm: Arm, c: Composite) -> SX:
-    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28)."""
+    """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28).
+
+    Raises:
+        ArmError: A link whose inertia no body has.
+    """
+    require_possible_inertia(arm)
     entries = []
     for i, joint in enumerate(arm.joints):
         z = c.axes[i]
@@ -166,24 +172,13 @@ def inertia_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
     return 2 * turning + 2 * ca.dot(ca.cross(z, d), ca.cross(z, first_moment_rate(arm, w, j)))
 
 
-def _frames(arm: Arm, steps: list[Frame]) -> tuple[list[SX], list[SX]]:
-    rotations, points = [], []
-    at = split(arm.base)
-    for joint, step in zip(arm.joints, steps, strict=True):
-        at = compose(at, split(joint.origin))
-        points.append(at[1])
-        at = compose(at, step)
-        rotations.append(at[0])
-    return rotations, points
-
-
 def spread(r: Array) -> Array:
     """``-[r][r]``: the second moment of a unit mass at r."""
     return np.asarray(r @ r * np.eye(3) - np.outer(r, r))
 
 
 def _turned(inertia: SX, r: SX) -> SX:
-    """``R I R'``, its lower triangle only computed once."""
+    """``R I R'``, each entry off the diagonal computed once."""
     half = r @ inertia
     out = ca.SX(3, 3)
     for a in range(3):

@@ -20,7 +20,7 @@ from holdfast.errors import InputError
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene, View
-from holdfast.report.words import article, as_given, either, interval, number, percent
+from holdfast.report.words import article, as_given, either, interval, number, percent, share
 from holdfast.solve import solver
 from holdfast.status import Status
 
@@ -44,6 +44,7 @@ class Rows:
     value: Array
     by_failure: Array
     worst: NDArray[np.int64]
+    weight: Array | None
 
 
 class Facts:
@@ -125,7 +126,7 @@ class Facts:
                 "move the region, widen the joint limits or give more restarts."
             )
         lost = (
-            f"; for {percent(d.unreached / d.samples)} of poses no configuration within the joint limits was found"
+            f"; for {percent(d.unreached_share)} of poses no configuration within the joint limits was found"
             if d.unreached
             else ""
         )
@@ -136,6 +137,27 @@ class Facts:
         bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
         kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
         return f"With probability {interval(self.answer)} a {noun} of the region {kept}"
+
+    @property
+    def drawn(self) -> str:
+        """How poses were chosen."""
+        listed = self.a.region.listed
+        each = listed is not None and self.a.poses == len(listed)
+        return "each pose of the list once" if each else f"{self.a.sampling} poses of the region"
+
+    def share(self, count: int) -> str:
+        """A count of poses as a share of all, with its interval if all count alike."""
+        d = self.d
+        return f"{count:,} of {d.samples:,} {self.noun}s, not weighted" if d.weighted else share(count, d.samples)
+
+    @property
+    def weights(self) -> str:
+        """What weights do to the numbers."""
+        return (
+            f"poses count by weight: {percent(1 - self.d.unreached_share)} of the weight is reached. Effective sample size "
+            f"{self.d.effective():,.0f} of {self.d.samples:,} (Kish): intervals and bands are those of so many equal poses, "
+            "approximately"
+        )
 
     @property
     def unit(self) -> str:
@@ -183,6 +205,7 @@ class Facts:
             data["index"].values[keep],
             data["by_failure"].values[keep],
             data["worst"].values[keep].astype(np.int64),
+            data["weight"].values[keep] if "weight" in data else None,
         )
 
     @cached_property
@@ -207,7 +230,7 @@ class Facts:
         center = np.array(a.region.center)
         if a.region.kind == "joints":
             return center, "in the middle of the region"
-        if self.d.reached:
+        if self.d.reached and a.region.kind == "box":
             reach = solver(a.arm, self.index.task).solve(
                 a.region.poses(center[None]), np.random.SeedSequence(a.seed), a.restarts, 1e-6
             )

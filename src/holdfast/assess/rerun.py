@@ -6,19 +6,27 @@ import shlex
 
 import numpy as np
 import yaml
+from markupsafe import Markup
 
 from holdfast import arms
 from holdfast.arm.model import Arm
 from holdfast.arm.task import NAMES, ROWS, Task, as_task
 from holdfast.assess.assess import Assessment
 from holdfast.assess.region import Region
+from holdfast.assess.weights import Density
 from holdfast.failures import FailureSets, failure_sets
 from holdfast.indices import BY_NAME
+from holdfast.report.page import Block, Code, Text
+
+_POSES_FILE = "poses.csv"
+_MOST_POSES = 50  # of a list in a report; a results folder holds any number
 
 
 def command_line(a: Assessment) -> tuple[str | None, str]:
     """The command that makes the run again from ``region.yaml``, or None, and a remark."""
     index, task = a.index, a.index.task
+    if not a.region.storable:
+        return None, "The region has a function of your own, so no command line makes this run again; keep the script."
     if index.slug not in BY_NAME:
         return None, "The index is a function of your own, so no command line makes this run again; keep the script."
     asked = _task_option(a.arm, task)
@@ -38,11 +46,13 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     if index.failures != failure_sets(a.arm, "single"):
         options["failures"] = _failures_option(a.arm, index.failures)
     options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
-    if a.region.kind == "box":
+    if a.region.kind != "joints":
         options["restarts"] = str(a.restarts)
+    locks = [f"--lock-at {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
     lines = [f"holdfast assess {shlex.quote(spec)}"]
     words = [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
-    for word in [*words, *(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]:
+    flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
+    for word in [*words, *flags, *locks]:
         if len(lines[-1]) + len(word) > 90:
             lines[-1] += " \\"
             lines.append("    " + word)
@@ -74,10 +84,26 @@ def region_file(region: Region) -> str:
     """The region as the YAML text that :meth:`Region.load` reads, with every digit."""
     center, size = list(region.center), list(region.size)
     data: dict[str, object] = {"name": region.name, "angles": "rad"}
-    if region.kind == "box":
-        data["box"] = {"center": center[:3], "size": size[:3], "rpy_center": center[3:], "rpy_size": size[3:]}
+    if region.listed is not None:
+        data["poses"] = _POSES_FILE
+    elif region.kind == "box":
+        box: dict[str, object] = {"center": center[:3], "size": size[:3], "rpy_center": center[3:], "rpy_size": size[3:]}
+        data["box"] = box
+        if isinstance(region.weight, Density):
+            box["density"] = region.weight.to_dict()
     else:
         low = [c - s / 2 for c, s in zip(center, size, strict=True)]
         data["joints"] = {"lower": low, "upper": [c + s / 2 for c, s in zip(center, size, strict=True)]}
     text: str = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
     return text.rstrip()
+
+
+def region_files(region: Region) -> list[Block]:
+    """The files that the command needs, to copy."""
+    blocks: list[Block] = [Code(region_file(region), Markup("with <code>region.yaml</code>:"))]
+    if region.listed is not None and len(region.listed) <= _MOST_POSES:
+        blocks.append(Code(region.listed.table(), Markup("and <code>{}</code>:").format(_POSES_FILE)))
+    elif region.listed is not None:
+        where = Markup("and <code>{}</code>, the list of poses; the results folder holds it in <code>run.json</code>.")
+        blocks.append(Text(where.format(_POSES_FILE)))
+    return blocks

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -11,13 +12,13 @@ from numpy.typing import NDArray
 from holdfast.assess.assess import Assessment
 from holdfast.assess.facts import Facts, Rows
 from holdfast.assess.region import Region, rpy_from_rotation
-from holdfast.assess.rerun import command_line, region_file
+from holdfast.assess.rerun import command_line, region_files
 from holdfast.assess.structure import explain
 from holdfast.failures import failure_sets
-from holdfast.report import figures, scenes
+from holdfast.report import figures, maps, scenes
 from holdfast.report.page import Block, Callout, Code, Picture, Table, Text
 from holdfast.report.scenes import View
-from holdfast.report.words import as_given, counted, fixed, interval, number, percent, share
+from holdfast.report.words import as_given, counted, fixed, interval, number, percent
 
 Array = NDArray[np.float64]
 
@@ -66,14 +67,14 @@ def key_numbers(f: Facts) -> list[Block]:
         ("Region", f"{a.region.name}: {a.region.describe()}"),
         (f"{f.noun.capitalize()}s drawn", f"{d.samples:,}" + ("" if a.complete else f" of {a.poses:,} planned")),
     ]
-    if a.region.kind == "box":
-        facts.append(("Reached", share(d.reached, d.samples)))
-        facts.append(("No configuration found", share(d.unreached, d.samples)))
-    facts.append(
-        ("Singular", share(d.singular, d.samples) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else ""))
-    )
+    if a.region.kind != "joints":
+        facts.append(("Reached", f.share(d.reached)))
+        facts.append(("No configuration found", f.share(d.unreached)))
+    if d.weighted and d.samples:
+        facts.append(("Weights", f.weights))
+    facts.append(("Singular", f.share(d.singular) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else "")))
     if d.infinite:
-        facts.append(("Infinite", share(d.infinite, d.samples) + ", of those with a configuration"))
+        facts.append(("Infinite", f.share(d.infinite) + ", of those with a configuration"))
     if d.samples and f.decided:
         facts.append((f"P({f.condition})", f"{interval(f.answer)}; {_why(f)}"))
         if d.unreached and d.reached:
@@ -132,7 +133,7 @@ def _quantiles(f: Facts) -> Table:
         ]
     ]
     if d.unreached:
-        mean = d.total / d.samples if f.larger else np.inf
+        mean = d.total / d.total_weight() if f.larger else np.inf
         label = f"all {d.samples:,}, not found counts as {'0' if f.larger else 'infinite'}"
         rows.append([label, *[number(float(x)) for x in d.quantile(steps, reachable_only=False)], number(mean), number(best)])
     return Table(rows, head, frozenset(range(1, 8)), wide=True)
@@ -173,7 +174,7 @@ def views(f: Facts) -> list[Block]:
     """The arm and the region, from the side and from above."""
     scene, drawn = f.scene
     d = f.d
-    dots = f"{f.noun} drawn" if f.a.region.kind == "box" else "tool position of a configuration drawn"
+    dots = f"{f.noun} drawn" if f.a.region.kind != "joints" else "tool position of a configuration drawn"
     legend = [("base", "base"), ("joint", "joints, numbered from the base"), ("tool", "tool")]
     if f.a.arm.prismatic.any():
         legend.insert(2, ("slide", "sliding joint"))
@@ -231,7 +232,8 @@ def worst_failures(f: Facts) -> list[Block]:
     if not f.d.reached:
         return []
     blocks: list[Block] = []
-    total = int(counts.sum())
+    weighted = f.d.weighted
+    total = float(counts.sum()) if weighted else int(counts.sum())
     chosen = np.arange(len(names))
     note = ""
     if len(names) > _MOST_ROWS // 2:
@@ -239,9 +241,13 @@ def worst_failures(f: Facts) -> list[Block]:
         note = f" The {len(chosen)} most frequent of {len(names)} failures are shown."
     if total:
         figure = figures.bar_figure(
-            [names[k] for k in chosen], [int(counts[k]) for k in chosen], f"{f.noun}s at which this failure is the worst", total
+            [names[k] for k in chosen],
+            counts[chosen].tolist(),
+            f"{'weight of ' if weighted else ''}{f.noun}s at which this failure is the worst",
+            total,
         )
-        text = f"Of {total:,} {f.reached} that are not singular; where several failures are equally bad, the first counts."
+        whole = f"the weight, {total:,.4g}, of the" if weighted else f"{total:,}"
+        text = f"Of {whole} {f.reached} that are not singular; where several failures are equally bad, the first counts."
         blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + note))
     else:
         blocks.append(Text(f"Every {f.noun} reached is singular, so no failure is worse than another."))
@@ -255,17 +261,18 @@ def _failure_labels(f: Facts) -> list[str]:
     return [f"{'+'.join(str(k + 1) for k in s)}  {name}" for s, name in pairs]
 
 
-def _failure_table(f: Facts, names: list[str], counts: NDArray[np.int64]) -> Block:
+def _failure_table(f: Facts, names: list[str], counts: NDArray[Any]) -> Block:
     rows = f.rows
-    total = max(int(counts.sum()), 1)
+    total = counts.sum() or 1
     if rows is None:
         return Text(
             "The values after each failure were not kept; assess again with a store or with keep=True for them.", quiet=True
         )
     values = rows.by_failure[rows.reached]
     bad = 0.05 if f.larger else 0.95
-    middle, low = np.quantile(values, [0.5, bad], axis=0, method="inverted_cdf")
-    met = (values >= f.threshold if f.larger else values <= f.threshold).mean(axis=0)
+    weight = None if rows.weight is None else rows.weight[rows.reached]
+    middle, low = np.quantile(values, [0.5, bad], axis=0, method="inverted_cdf", weights=weight)
+    met = np.average(values >= f.threshold if f.larger else values <= f.threshold, axis=0, weights=weight)
     chosen = np.arange(len(names))
     if len(chosen) > _MOST_ROWS:
         chosen = np.sort(np.argsort(-counts, kind="stable")[:_MOST_ROWS])
@@ -299,7 +306,7 @@ def places(f: Facts) -> list[Block]:
         return blocks
     average = "Mean" if f.larger else "Median"
     ok = rows.reached
-    figure = scenes.map_figure(
+    figure = maps.map_figure(
         rows.position[ok],
         rows.value[ok],
         rows.position[~ok],
@@ -314,6 +321,8 @@ def places(f: Facts) -> list[Block]:
     )
     if f.a.region.kind == "joints":
         text += " Positions are those of the tool."
+    if f.d.weighted:
+        text += " Within a cell all count alike."
     return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
 
 
@@ -363,7 +372,7 @@ def method(f: Facts) -> list[Block]:
             definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
     if index.source:
         definition += Markup(". Source: {}").format(index.source)
-    box = a.region.kind == "box"
+    box = a.region.kind != "joints"
     facts: list[tuple[str, str | Markup]] = []
     nothing = "0" if f.larger else "infinite"
     if box:
@@ -371,7 +380,7 @@ def method(f: Facts) -> list[Block]:
         facts += [
             (
                 "Method",
-                f"{a.sampling} poses of the region; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
+                f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
             ),
             (
                 "Not optimised",
@@ -419,8 +428,7 @@ def method(f: Facts) -> list[Block]:
     if command is None:
         return [*blocks, Text(note)]
     blocks.append(Code(command, "The same run again" + (f" ({note}):" if note else ":")))
-    blocks.append(Code(region_file(a.region), Markup("with <code>region.yaml</code>:")))
-    return blocks
+    return [*blocks, *region_files(a.region)]
 
 
 def _ranges(a: Assessment) -> str:

@@ -22,6 +22,7 @@ from holdfast.cli.options import (
     number,
     print_json,
     read_arm,
+    read_by_joint,
     read_failures,
     read_task,
 )
@@ -30,6 +31,16 @@ from holdfast.errors import InputError
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.assess import Assessment, Region
+
+
+FailureRateOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--failure-rate",
+        help="joint=how often it fails, for the share left after a failure; may be given again.",
+        show_default=False,
+    ),
+]
 
 
 def assess(
@@ -41,7 +52,10 @@ def assess(
     task: TaskOption = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    poses: Annotated[int, typer.Option("--poses", help="Number of poses.")] = 2000,
+    poses: Annotated[
+        int | None,
+        typer.Option("--poses", help="Number of poses. Default: 2000, or of a list of poses each once.", show_default=False),
+    ] = None,
     seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
     restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
@@ -49,6 +63,11 @@ def assess(
     after_lock: Annotated[
         bool, typer.Option("--after-lock", help="Also find which poses can still be reached once each joint has locked.")
     ] = False,
+    lock_at: Annotated[
+        list[str] | None,
+        typer.Option("--lock-at", help="joint=angle, rad or m, at which it locks; may be given again.", show_default=False),
+    ] = None,
+    failure_rate: FailureRateOption = None,
     at_least: Annotated[
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
@@ -68,6 +87,7 @@ def assess(
     """
     from holdfast.assess import assess as run
     from holdfast.assess import explain, structures
+    from holdfast.assess.assess import check_rates
     from holdfast.assess.structure import structure
     from holdfast.indices import by_name
     from holdfast.kernels import set_threads
@@ -77,6 +97,12 @@ def assess(
         set_threads(threads)
     model = read_arm(arm, base, tip)
     chosen = read_region(region, arm, model)
+    locks, rates = read_by_joint(model, lock_at, "--lock-at"), read_by_joint(model, failure_rate, "--failure-rate")
+    if rates:
+        check_rates(model, rates)
+    for name in rates:
+        if not after_lock and name not in locks:
+            raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock-at {name}=ANGLE")
     measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
     if sampling not in ("random", "sobol"):
         raise InputError(f"sampling '{sampling}' is not known; use 'random' or 'sobol'")
@@ -97,12 +123,13 @@ def assess(
             progress=progress,
             optimise=optimise,
             after_lock=after_lock,
+            lock_at=locks,
         )
     page = None if out is None else result.report(out / "report.html", at_least[0] if at_least else None)
     if json_:
-        print_json({**_summary(result, at_least), "report": None if page is None else str(page)})
+        print_json({**_summary(result, at_least, rates), "report": None if page is None else str(page)})
     else:
-        _print(result, at_least)
+        _print(result, at_least, rates)
         if page is not None:
             typer.echo(f"report: {page}")
 
@@ -113,6 +140,7 @@ def report(
     ],
     to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
     at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.")] = None,
+    failure_rate: FailureRateOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Write the report of a results folder again, also of a run that was stopped.
@@ -123,11 +151,14 @@ def report(
 
     check_thresholds(at_least)
     result = load(folder)
+    rates = read_by_joint(result.arm, failure_rate, "--failure-rate")
+    if rates and result.distribution.samples:
+        result.expected_survival(rates)  # before anything is written
     page = result.report(to or folder / "report.html", at_least[0] if at_least else None)
     if json_:
-        print_json({**_summary(result, at_least), "report": str(page)})
+        print_json({**_summary(result, at_least, rates), "report": str(page)})
     else:
-        _print(result, at_least)
+        _print(result, at_least, rates)
         typer.echo(f"report: {page}")
 
 
@@ -176,7 +207,7 @@ class _progress:
             self._bar.stop()
 
 
-def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]:
+def _summary(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> dict[str, Any]:
     d = result.distribution
     names = result.index.failure_names
     reached = d.reached > 0
@@ -199,6 +230,7 @@ def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]
         "reached": d.reached,
         "not_found": d.unreached,
         "singular": d.singular,
+        "effective_sample_size": d.effective() if d.weighted and d.samples else None,
         "mean": d.mean if reached else None,
         "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True))
         if reached
@@ -208,6 +240,7 @@ def _summary(result: Assessment, at_least: list[float] | None) -> dict[str, Any]
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
         "optimised": _optimised(result, at_least),
         "after_lock": _after_lock(result),
+        "expected_survival": result.expected_survival(rates) if rates and d.samples else None,
         "seconds": result.seconds,
     }
 
@@ -227,7 +260,11 @@ def _optimised(result: Assessment, at_least: list[float] | None) -> dict[str, An
 def _after_lock(result: Assessment) -> dict[str, Any] | None:
     if result.survivors is None or not result.distribution.samples:
         return None
-    return {name: {"value": p.value, "low": p.low, "high": p.high} for name, p in result.survival().items()}
+    locks = result.locks
+    return {
+        name: {"value": p.value, "low": p.low, "high": p.high, "locked_at": locks[name]}
+        for name, p in result.survival().items()
+    }
 
 
 def _thresholds(result: Assessment, given: list[float] | None) -> list[float]:
@@ -246,7 +283,7 @@ def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[
     return {key: h, "value": p.value, "low": p.low, "high": p.high, "confidence": p.confidence}
 
 
-def _print(result: Assessment, at_least: list[float] | None) -> None:
+def _print(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> None:
     from rich.markup import escape
     from rich.table import Table
 
@@ -259,13 +296,17 @@ def _print(result: Assessment, at_least: list[float] | None) -> None:
             f"[yellow]not finished: {d.samples} of {result.poses} poses; the same 'holdfast assess' command goes on[/]",
             soft_wrap=True,
         )
+    lost = f"{d.unreached_share if d.samples else 0:.1%}{' of the weight' if d.weighted else ''}"
     out.print(
         f"{d.samples} poses, seed {result.seed}: {d.reached} reached, {d.unreached} not found within the limits "
-        f"({d.unreached / max(d.samples, 1):.1%}, counted as failed), {d.singular} singular",
+        f"({lost}, counted as failed), {d.singular} singular",
         soft_wrap=True,
     )
     if not d.samples:
         return
+    if d.weighted:
+        text = f"poses count by weight: effective sample size {d.effective():.4g}, from which the intervals are approximated"
+        out.print(text, soft_wrap=True)
     both = [(result.distribution, "as inverse kinematics found them")]
     if result.optimised is not None:
         both.append((result.optimised, "best configurations found"))
@@ -288,16 +329,32 @@ def _print(result: Assessment, at_least: list[float] | None) -> None:
     out.print(table)
     columns = [result.worst_counts, *([] if result.optimised_worst_counts is None else [result.optimised_worst_counts])]
     if any(c.sum() for c in columns):
-        table = Table("failure", "is the worst in", *["optimised"][: len(columns) - 1], box=None, pad_edge=False)
+        head = "is the worst in" + (" weight" if d.weighted else "")
+        table = Table("failure", head, *["optimised"][: len(columns) - 1], box=None, pad_edge=False)
         for k, name in enumerate(result.index.failure_names):
             if any(c[k] for c in columns):
-                table.add_row(escape(name), *[f"{c[k]} ({c[k] / max(c.sum(), 1):.1%})" for c in columns])
+                table.add_row(
+                    escape(name), *[f"{c[k]:{'.4g' if d.weighted else 'd'}} ({c[k] / (c.sum() or 1):.1%})" for c in columns]
+                )
         out.print(table)
     if result.survivors is not None:
-        table = Table("once it has locked", "poses still reached", "95 % interval", box=None, pad_edge=False)
+        table = Table("once it has locked", "where", "poses still reached", "95 % interval", box=None, pad_edge=False)
         for name, share in result.survival().items():
-            table.add_row(escape(name), f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
+            where = _where(result, name)
+            table.add_row(escape(name), where, f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
         out.print(table)
+        if rates:
+            left = result.expected_survival(rates)
+            out.print(f"after a failure, by how often each joint fails: {left:.4f} of the poses still reached", soft_wrap=True)
+
+
+def _where(result: Assessment, joint: str) -> str:
+    """Where a joint locks, in degrees or metres."""
+    angle = result.locks[joint]
+    if angle is None:
+        return "as at another pose"
+    prismatic = result.arm.prismatic[result.arm.joint_index(joint)]
+    return f"{angle:.4g} m" if prismatic else f"{math.degrees(angle):.4g} deg"
 
 
 def add(app: typer.Typer) -> None:

@@ -111,6 +111,20 @@ def read_failures(arm: Arm, text: str) -> FailureSpec:
     return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]
 
 
+def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | int, float]:
+    """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1."""
+    found: dict[str | int, float] = {}
+    for text in texts or []:
+        joint, equals, value = text.rpartition("=")
+        if not equals or not _is_number(value):
+            raise InputError(f"{option} '{text}' is not joint=number; write for example {option} {arm.joint_names[0]}=0.3")
+        name = arm.joint_names[read_joint(arm, joint)]
+        if name in found:
+            raise InputError(f"{option} gives joint '{name}' twice; give each joint once")
+        found[name] = float(value)
+    return found
+
+
 def read_configuration(arm: Arm, text: str, degrees: bool) -> NDArray[np.float64]:
     """Joint values separated by commas or spaces; with degrees, of the turning joints (sliding ones stay in m)."""
     q = read_numbers("--q", text, f"{arm.n} numbers")

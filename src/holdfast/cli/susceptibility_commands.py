@@ -122,11 +122,16 @@ def _read_weights(text: str) -> Any:
     if file.suffix.lower() != ".csv":
         return read_numbers("--weights", text, "effort, worst-case, a .csv file, or one number per joint")
     try:
-        return np.loadtxt(file, delimiter=",")
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
     except OSError as error:
         raise InputError(f"--weights: cannot read {file}: {error.strerror or error}") from error
-    except ValueError as error:
-        raise InputError(f"--weights: {file} is not a table of numbers separated by commas: {error}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"--weights: {file} is not text; give numbers separated by commas") from error
+    rows = [read_numbers(f"--weights {file}", line, "numbers") for line in lines if line.strip()]
+    if len({len(row) for row in rows}) != 1:
+        raise InputError(f"--weights: {file} must hold lines of equally many numbers: one per joint, or a square matrix")
+    table = np.array(rows)
+    return table.ravel() if 1 in table.shape else table
 
 
 def _evaluate(measure: Susceptibility, q: Array) -> dict[str, Any]:

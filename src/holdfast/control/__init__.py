@@ -1,15 +1,21 @@
 """How to move: redundancy resolution that serves an objective while the hand does its task, and slowly enough."""
 
+from holdfast.control.follow import METHODS, follow
 from holdfast.control.resolution import AugmentedJacobian, ExtendedJacobian, GradientProjection, Rates, Resolution, Step
 from holdfast.control.slow_motion import SlowMotion, slow_enough
+from holdfast.control.trajectory import Event, Trajectory
 
 __all__ = [
+    "METHODS",
     "AugmentedJacobian",
+    "Event",
     "ExtendedJacobian",
     "GradientProjection",
     "Rates",
     "Resolution",
     "SlowMotion",
     "Step",
+    "Trajectory",
+    "follow",
     "slow_enough",
 ]

@@ -354,7 +354,8 @@ class ExtendedJacobian(Resolution):
         self.gain = gain
 
     def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        null, slope, rows = stationarity(self.objective, self.task, q)
+        null, slope = slope_along(self.objective, self.task, q)
+        rows = ca.jacobian(slope, q)
         return null @ damped_least_norm(rows @ null, -self.gain * slope - rows @ particular, _BLUNT)
 
 
@@ -422,17 +423,14 @@ def oriented_gradient(objective: Objective, q: SX, j: SX) -> SX:
     return total
 
 
-def stationarity(objective: Objective, task: Task, q: SX) -> tuple[SX, SX, SX]:
-    """Null-space basis N (n, r), the slope ``N' grad`` (r,) of the objective along it, and its derivatives by q (r, n).
+def slope_along(objective: Objective, task: Task, q: SX) -> tuple[SX, SX]:
+    """Null-space basis N (n, r), and the slope ``N' grad`` (r,) of :func:`oriented_value` along it.
 
-    The objective is best, or worst, along the self-motion where the slope is 0. The slope is that of
-    :func:`oriented_value`. The product of the derivatives with N is the curvature along the self-motion.
+    The objective is best, or worst, along the self-motion where the slope is 0.
     """
     j = task.jacobian(objective.arm, q)
-    rows = householder(j).null_rows()
-    null = ca.vertcat(*[ca.horzcat(*row) for row in rows])
-    slope = ca.densify(null.T @ oriented_gradient(objective, q, j))
-    return null, slope, ca.jacobian(slope, q)
+    null = ca.vertcat(*[ca.horzcat(*row) for row in householder(j).null_rows()])
+    return null, ca.densify(null.T @ oriented_gradient(objective, q, j))
 
 
 def _axes(q: SX) -> list[SX]:

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.errors import InputError, TaskError
+from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
 from holdfast.kernels import SX, Kernel
@@ -236,12 +237,3 @@ class Index(Objective):
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
-
-
-def configurations(arm: Arm, q: ArrayLike) -> tuple[Array, bool]:
-    """``q`` as (N, n), and whether it was a single configuration, which must then be finite."""
-    a = arm.check_configurations(q)
-    single = a.ndim == 1
-    if single and not np.isfinite(a).all():
-        raise InputError(f"q for '{arm.name}' holds NaN or infinity; give {arm.n} finite numbers")
-    return np.atleast_2d(a), single

@@ -97,12 +97,12 @@ def _largest(d: Vector, w: Vector) -> tuple[Vector, SX]:
     top, second = d[0], ca.SX(0)
     at_top, at_second = _one_hot(m, 0), [ca.SX(0)] * m
     for k in range(1, m):
+        here = _one_hot(m, k)
         first, next_best = d[k] > top, d[k] > second
         second = ca.if_else(first, top, ca.if_else(next_best, d[k], second))
-        at_second = [
-            ca.if_else(first, a, ca.if_else(next_best, e, b)) for a, b, e in zip(at_top, at_second, _one_hot(m, k), strict=True)
-        ]
-        at_top = [ca.if_else(first, e, a) for a, e in zip(at_top, _one_hot(m, k), strict=True)]
+        places = zip(at_top, at_second, here, strict=True)
+        at_second = [ca.if_else(first, a, ca.if_else(next_best, e, b)) for a, b, e in places]
+        at_top = [ca.if_else(first, e, a) for a, e in zip(at_top, here, strict=True)]
         top = ca.if_else(first, d[k], top)
     squares = [x * x for x in w]
     top_square, second_square = dot(at_top, squares), dot(at_second, squares)

@@ -31,7 +31,8 @@ Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 _MOST_SWEEPS = 30
 _CONVERGED = 1e-14
 _SWEEPS = 5  # in one straight-line program, for the scores
-_FLAT_SCORE = 1e-12  # below this a root or an inverse is drawn as a straight line, whose slope is finite
+_VANISHING = 1e-100  # added to a squared manipulability, so that its root has a slope
+_FLAT_SCORE = 1e-12
 _BLOCK = 1024  # with every failure some thousand small matrices: they stay in the cache
 
 _SOURCES = {
@@ -133,7 +134,7 @@ class SpectralIndex(Index):
     def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
         """The index for every failure, or a monotone function of it, and its derivatives; see :meth:`Index.scores`.
 
-        The geometric mean is scored by the squared manipulability, the condition number by its inverse. The others are not
+        The geometric mean comes from the manipulability, the condition number is scored by its inverse. The others are not
         invariant to the frame, so they take the task Jacobian whatever ``j`` is: one singular value decomposition of the
         healthy arm serves all failures.
 
@@ -141,7 +142,11 @@ class SpectralIndex(Index):
             TaskError: Several joints fail together, unless the formula is the geometric mean.
         """
         if self.formula == "geometric mean":
-            return Manipulability(self.arm, self.task, self.failures).scores(q, j, qr, directions)
+            squares, slopes = Manipulability(self.arm, self.task, self.failures).scores(q, j, qr, directions)
+            # Not the squares themselves: they are of the order of 1e-6 for a pose, which the ascent resolves poorly.
+            means = [(s + _VANISHING) ** (0.5 / self.task.m) for s in squares]
+            factors = [g / (2 * self.task.m * (s + _VANISHING)) for g, s in zip(means, squares, strict=True)]
+            return means, [[f * x for x in row] for f, row in zip(factors, slopes, strict=True)]
         if any(len(s) != 1 for s in self.failures):
             raise TaskError(
                 f"{self.name} cannot be optimised yet for joints that fail together; use single failures, "
@@ -175,13 +180,12 @@ class SpectralIndex(Index):
         return values, slopes
 
     def value_of_score(self, score: SX) -> SX:
-        """The index, negated for the condition number, with a finite slope at 0; see :meth:`Index.value_of_score`."""
-        if self.formula not in ("geometric mean", "condition number"):
+        """The score itself, of the condition number its negative inverse; see :meth:`Index.value_of_score`."""
+        if self.formula != "condition number":
             return score
-        positive = score > _FLAT_SCORE
+        positive = score > _FLAT_SCORE  # below, the inverse is drawn as a straight line, whose slope is finite
         safe = ca.if_else(positive, score, _FLAT_SCORE)
-        value = safe ** (1 / (2 * self.task.m)) if self.formula == "geometric mean" else -1 / safe
-        return value + ca.if_else(positive, 0, score - _FLAT_SCORE) / _FLAT_SCORE
+        return -1 / safe + ca.if_else(positive, 0, score - _FLAT_SCORE) / _FLAT_SCORE**2
 
     # ---- batches -----------------------------------------------------------------------------------------------------
 

@@ -257,22 +257,22 @@ def legend_below(figure: Figure, axes: Axes, columns: int = 2) -> None:
 
 def bar_figure(
     names: Sequence[str],
-    counts: Sequence[int],
+    counts: Sequence[float],
     xlabel: str,
-    total: int | None = None,
+    total: float | None = None,
     stress: Literal["most", "least"] = "most",
 ) -> Figure:
     """Horizontal bars, first one on top, each with its count and share.
 
     Args:
         names: One per bar.
-        counts: One per bar.
+        counts: One per bar; sums of weights are written with four digits.
         xlabel: What is counted.
         total: What the shares are of; the sum of the counts if not given.
         stress: Which bar is drawn darker.
     """
     whole = sum(counts) if total is None else total
-    most = max([1, *counts])
+    most = max(counts, default=0) or 1
     dark = most if stress == "most" else min(counts)
     with style():
         figure = Figure(figsize=(WIDTH * 0.8, 0.75 + 0.27 * len(names)))
@@ -282,12 +282,19 @@ def bar_figure(
         for row, count in zip(rows, counts, strict=True):
             share = f" ({percent(count / whole)})" if whole else ""
             axes.annotate(
-                f"{count:,}{share}", (count, row), (4, 0), textcoords="offset points", va="center", fontsize=9, color=INK
+                f"{count:{',' if isinstance(count, int) else ',.4g'}}{share}",
+                (count, row),
+                (4, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=9,
+                color=INK,
             )
         axes.set_yticks(rows, [plain(n, 40) for n in names])
         axes.set(xlabel=xlabel, xlim=(0, most * 1.18), ylim=(len(names) - 0.45, -0.55))
-        axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
-        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+        if all(isinstance(c, int) for c in counts):
+            axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
+            axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)

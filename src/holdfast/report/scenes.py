@@ -1,9 +1,9 @@
-"""Things in space, in projection: a chain with numbered nodes, coloured points, and maps of their average."""
+"""Things in space, in projection: a chain with numbered nodes and coloured points."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any, Literal
 
@@ -106,7 +106,7 @@ class Scene:
         return np.array([everything.min(axis=0), everything.max(axis=0)])
 
 
-_AXES = "xyz"
+AXES = "xyz"
 
 
 def draw_view(
@@ -140,7 +140,7 @@ def draw_view(
     axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
     axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
     axes.set_aspect("equal")
-    axes.set(xlabel=f"{_AXES[view.right]}, m", ylabel=f"{_AXES[view.up]}, m", title=view.title)
+    axes.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=view.title)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
 
@@ -267,10 +267,11 @@ def view_figure(scene: Scene, views: Sequence[View], scale: Scale, label: str, l
 def color_bar(figure: Figure, scene: Scene, scale: Scale, axes: list[Axes], label: str) -> None:
     """A colour bar to the right of the axes."""
     b = figure.colorbar(scale.mappable, ax=axes, extend=scale.extend(scene.values), shrink=0.85, aspect=26, pad=0.015)
-    _finish_bar(b, label, scale)
+    finish_bar(b, label, scale)
 
 
-def _finish_bar(b: Colorbar, label: str, scale: Scale) -> None:
+def finish_bar(b: Colorbar, label: str, scale: Scale) -> None:
+    """Label and ticks of a colour bar."""
     b.set_label(label)
     b.outline.set_visible(False)
     if scale.log:
@@ -335,102 +336,3 @@ def _key(kind: str, text: str) -> Any:
         "base": {"marker": "s", "color": INK, "linestyle": "", "markersize": 7.5},
     }
     return Line2D([], [], label=text, **looks[kind])
-
-
-def map_figure(
-    points: Array,
-    values: Array,
-    missing: Array,
-    views: Sequence[View],
-    log: bool,
-    smaller_is_better: bool,
-    label: str,
-    bins: int = 6,
-) -> Figure:
-    """The value over a projection: per cell the mean (the median if smaller is better), and how many points have one.
-
-    Args:
-        points: (N, 3) with a value each, m.
-        values: (N,)
-        missing: (M, 3) points without a value.
-        views: One panel each.
-        log: Colours on a log scale.
-        smaller_is_better: Reverses the colours; medians instead of means.
-        label: Of the colour bar.
-        bins: Cells along the longer edge.
-    """
-    everything = np.concatenate([points, missing])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    grids = [_grid(points, values, missing, v, low, high, bins, smaller_is_better) for v in views]
-    cells = np.concatenate([g[2].ravel() for g in grids])
-    scale = replace(Scale.of(cells[~np.isnan(cells)], log, smaller_is_better), pale=True)
-    with style():
-        tall = max(float((high - low)[v.up] / (high - low)[v.right]) for v in views)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
-        panels = figure.subplots(1, len(views), squeeze=False)[0]
-        for axes, view, (x, y, mean, reached, drawn) in zip(panels, views, grids, strict=True):
-            _draw_cells(axes, x, y, mean, reached, drawn, scale, len(missing) > 0)
-            axes.set(xlabel=f"{_AXES[view.right]}, m", ylabel=f"{_AXES[view.up]}, m", title=view.title)
-        b = figure.colorbar(scale.mappable, ax=list(panels), shrink=0.85, aspect=26, pad=0.015, extend=scale.extend(cells))
-        _finish_bar(b, label, scale)
-        return finished(figure)
-
-
-def _grid(
-    points: Array, values: Array, missing: Array, view: View, low: Array, high: Array, bins: int, median: bool
-) -> tuple[Array, Array, Array, Array, Array]:
-    pick = [view.right, view.up]
-    size = (high - low)[pick]
-    count = np.maximum(np.round(bins * size / size.max()), 1).astype(int)
-    x, y = (np.linspace(low[a], high[a], n + 1) for a, n in zip(pick, count, strict=True))
-
-    def place(p: Array) -> NDArray[np.int64]:
-        at = np.minimum(((p[:, pick] - low[pick]) / size * count).astype(np.int64), count - 1)
-        return np.asarray(at[:, 1] * count[0] + at[:, 0])
-
-    cell, lost = place(points), place(missing)
-    total = int(count.prod())
-    reached = np.bincount(cell, minlength=total)
-    drawn = reached + np.bincount(lost, minlength=total)
-    order = np.argsort(cell, kind="stable")
-    groups = np.split(values[order], np.cumsum(reached)[:-1])
-    average = np.array([np.nan if not len(g) else float(np.median(g) if median else np.mean(g)) for g in groups])
-    shape = (count[1], count[0])
-    return x, y, average.reshape(shape), reached.reshape(shape), drawn.reshape(shape)
-
-
-def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, drawn: Array, scale: Scale, lost: bool) -> None:
-    colors = scale.colors(np.nan_to_num(mean, nan=scale.low, posinf=scale.high))
-    colors[np.isnan(mean)] = (0.93, 0.94, 0.95, 1)
-    axes.pcolormesh(x, y, colors, edgecolors="white", linewidth=1.2)
-    axes.set_aspect("equal")
-    axes.grid(visible=False)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
-    axes.set_xticks(x, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in x])
-    axes.set_yticks(y, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in y])
-    axes.tick_params(length=0, pad=6)
-    for i, j in np.ndindex(mean.shape):
-        middle = ((x[j] + x[j + 1]) / 2, (y[i] + y[i + 1]) / 2)
-        luminance = float(colors[i, j, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722])
-        color = INK if luminance > 0.18 else "white"
-        if not np.isnan(mean[i, j]):
-            text = "∞" if np.isinf(mean[i, j]) else _short(float(mean[i, j]))
-            axes.annotate(text, middle, (0, 5), textcoords="offset points", ha="center", va="center", fontsize=9, color=color)
-        if drawn[i, j]:
-            text = f"{reached[i, j]}/{drawn[i, j]}" if lost else f"{drawn[i, j]}"
-            axes.annotate(text, middle, (0, -6), textcoords="offset points", ha="center", va="center", fontsize=7, color=color)
-
-
-def _short(value: float) -> str:
-    if abs(value) < 1e-9:
-        return "0"
-    return (
-        f"{value:.2f}"
-        if 0.01 <= abs(value) < 10
-        else f"{value:.2g}"
-        if abs(value) < 0.01
-        else f"{value:.0f}"
-        if abs(value) < 1e4
-        else f"{value:.0e}"
-    )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
@@ -26,7 +27,6 @@ Array = NDArray[np.float64]
 STEPS = 40  # per start; most starts that arrive do so within 15
 _WAVE = 8192  # rows of starts that run side by side when poses are left over
 _BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
-_FREE_RANGE = np.pi  # start interval of a joint without limits: +-pi rad, or +-1 m for a sliding one
 
 
 @dataclass(frozen=True)
@@ -85,14 +85,19 @@ def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) 
     return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
 
 
+def hand_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
+    """World-frame error (6,) of the hand, of which a task takes its rows: the shortest turn that a task asks for."""
+    free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
+    return (pointing_error if free_spin else pose_error)(position, rotation, target, target_rotation)
+
+
 def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
     """Error (m,) of the task's rows in metres and radians, and their Jacobian (m, n).
 
     Whatever the characteristic length of the indices, errors of poses are in metres.
     """
     chain = kinematics.chain(arm, q)
-    free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
-    error = (pointing_error if free_spin else pose_error)(chain.position, chain.rotation, target, target_rotation)
+    error = hand_error(task, chain.position, chain.rotation, target, target_rotation)
     full = kinematics.jacobian_of(arm, chain, chain.position)
     j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
     return task.error(error, chain.rotation), j
@@ -126,9 +131,7 @@ class InverseKinematics:
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
         back = ca.SX(ca.DM(task.rows)).T @ e
         self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
-        bounded = np.where(arm.prismatic, 1.0, _FREE_RANGE)
-        self._low = np.where(np.isfinite(arm.lower), arm.lower, -bounded)
-        self._high = np.where(np.isfinite(arm.upper), arm.upper, bounded)
+        self._low, self._high = finite_limits(arm)
 
     def starts(self, rows: int, generator: np.random.Generator) -> Array:
         """Random configurations (rows, n), uniform within the limits."""

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.indices.index import configurations
 from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
@@ -201,11 +201,15 @@ class Susceptibility(Objective):
 
     def __call__(self, q: ArrayLike) -> Array:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
-        return self.evaluate(q).value
+        rows, single = configurations(self.arm, q)
+        value = self._values.rows(rows)[:, 0].copy()
+        return value[0] if single else value
 
     def by_joint(self, q: ArrayLike) -> Array:
         """The measure f of each joint, signed, (N, n) or (n,), in :attr:`joint_unit`."""
-        return self.evaluate(q).by_joint
+        rows, single = configurations(self.arm, q)
+        f = self._values.rows(rows)[:, 1 : self.arm.n + 1].copy()
+        return f[0] if single else f
 
     def gradient(self, q: ArrayLike) -> Array:
         """Exact gradient of ``f' W f``, (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""

@@ -1,0 +1,226 @@
+"""Capsules on the links of an arm: by default, or from a file.
+
+A capsule is all that lies within ``radius`` of a line segment; a segment of no length makes a sphere. An example of a file
+with every key; lengths in m, at least ``radius`` or ``links`` must be there::
+
+    radius: 0.06              # of links that are not named below, and of capsules below without one of their own
+    links:                    # by the joint that moves them, or base; points in the frame that moves with that joint
+      base:
+        - {from: [0, 0, 0], to: [0, 0, 0.3], radius: 0.1}
+      panda_joint4:
+        - {from: [0, 0, 0], to: [-0.08, 0.1, 0]}
+        - {from: [-0.08, 0.12, 0], radius: 0.07}     # no to: a sphere
+      panda_joint6: []        # nothing here
+    ignore:                   # links whose capsules never meet, or meet by design
+      - [panda_joint5, panda_joint7]
+
+A link that is not named has the capsule of :meth:`Capsules.along` if ``radius`` is given, else none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, ValidationError
+
+from holdfast.arm.model import Arm
+from holdfast.errors import ArmError, InputError
+from holdfast.yaml_file import Number, Strict, Three, content, sentence
+
+Array = NDArray[np.float64]
+Point = tuple[float, float, float]
+
+BASE = -1
+"""The link that stands still, in ``Capsule.link``."""
+
+_SHARE = 1 / 20  # default radius over the sum of the link lengths: an assumption
+_POINT = 1e-9  # m: a link shorter than this has no length
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A cylinder with round ends that moves with a link.
+
+    Attributes:
+        link: Index from 0 of the joint that moves the link; -1 for the base.
+        start, end: (3,) ends of its axis, m, in the frame that moves with that joint, as ``arm.links``; for the base, in
+            the arm's base frame. Equal for a sphere.
+        radius: m, above 0.
+
+    Raises:
+        ArmError: A link, point or radius that is none.
+    """
+
+    link: int
+    start: Point
+    end: Point
+    radius: float
+
+    def __post_init__(self) -> None:
+        if self.link < BASE:
+            raise ArmError(f"a capsule sits on link {self.link}; give -1 for the base or the index of a joint from 0")
+        for name in ("start", "end"):
+            point = np.asarray(getattr(self, name), dtype=np.float64)
+            if point.shape != (3,) or not np.isfinite(point).all():
+                raise ArmError(f"{name} of a capsule is {point.tolist()}; it must be 3 finite numbers, m")
+            object.__setattr__(self, name, tuple(point.tolist()))
+        if not (np.isfinite(self.radius) and self.radius > 0):
+            raise ArmError(f"the radius of a capsule is {self.radius:g} m; it must be finite and above 0")
+        object.__setattr__(self, "radius", float(self.radius))
+
+    @property
+    def length(self) -> float:
+        """Length of its axis, m; 0 for a sphere."""
+        return float(np.linalg.norm(np.subtract(self.end, self.start)))
+
+
+@dataclass(frozen=True)
+class Capsules:
+    """The shape of an arm as far as collisions with itself go.
+
+    Attributes:
+        parts: Any number per link.
+        ignore: Pairs of links, the smaller index first, that are never checked against each other.
+    """
+
+    parts: tuple[Capsule, ...]
+    ignore: tuple[tuple[int, int], ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", tuple(self.parts))
+        object.__setattr__(self, "ignore", tuple(sorted({(min(a, b), max(a, b)) for a, b in self.ignore})))
+
+    def __iter__(self) -> Iterator[Capsule]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    @classmethod
+    def along(cls, arm: Arm, radius: float | None = None) -> Capsules:
+        """One capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
+
+        The base reaches from its own frame to the first joint. A link of no length lies within the round end of its
+        neighbour and has none, except on a sliding joint, which takes it away from there: that gets a sphere. The rod on
+        which a joint slides is not covered.
+
+        Args:
+            arm: The arm.
+            radius: m; if not given, 1/20 of the sum of the link lengths (0.07 m for a Panda), which is an assumption about
+                arms in general and no fact about this one.
+
+        Raises:
+            ArmError: The radius is not above 0, or the arm has no length.
+        """
+        lengths = [float(np.linalg.norm(end)) for end in _ends(arm)]
+        if sum(lengths) < _POINT:
+            raise ArmError(f"the links of '{arm.name}' have no length, so no capsule lies along them; give its capsules")
+        width = _SHARE * sum(lengths) if radius is None else radius
+        return cls(tuple(part for link in range(BASE, arm.n) for part in _along(arm, link, width)))
+
+    @classmethod
+    def load(cls, path: str | Path, arm: Arm) -> Capsules:
+        """The capsules in a YAML file; see :mod:`holdfast.clearance.capsules`.
+
+        Raises:
+            ArmError: The file cannot be read, or an entry is wrong or names no link of the arm; the sentence says where.
+        """
+        file = Path(path)
+        try:
+            return cls.from_dict(content(file, __name__, "radius or links"), arm)
+        except (ArmError, InputError) as error:
+            raise ArmError(f"capsule file '{file}': {error}") from error
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any], arm: Arm) -> Capsules:
+        """The capsules that :meth:`to_dict` wrote, or those of a file's keys and values.
+
+        Raises:
+            ArmError: An entry is wrong or names no link of the arm; the sentence says where.
+        """
+        try:
+            model = _File.model_validate(data)
+        except ValidationError as error:
+            raise ArmError(sentence(error, _File)) from error
+        if model.radius is None and model.links is None:
+            raise ArmError("it gives neither radius nor links, so there are no capsules; give one of them")
+        named = {_link(arm, name, "links"): (name, entries) for name, entries in (model.links or {}).items()}
+        parts: list[Capsule] = []
+        for link in range(BASE, arm.n):
+            if link in named:
+                name, entries = named[link]
+                parts += [_part(link, e, model.radius, f"links.{name}[{k}]") for k, e in enumerate(entries)]
+            elif model.radius is not None:
+                parts += _along(arm, link, model.radius)
+        pairs = [(_link(arm, a, f"ignore[{k}]"), _link(arm, b, f"ignore[{k}]")) for k, (a, b) in enumerate(model.ignore)]
+        return cls(tuple(parts), tuple(pairs))
+
+    def to_dict(self, arm: Arm) -> dict[str, Any]:
+        """Everything as JSON types, links by name: a file's keys and values."""
+        links: dict[str, list[dict[str, Any]]] = {}
+        for part in self.parts:
+            entry = {"from": list(part.start), "to": list(part.end), "radius": part.radius}
+            links.setdefault(link_name(arm, part.link), []).append(entry)
+        return {"links": links, "ignore": [[link_name(arm, a), link_name(arm, b)] for a, b in self.ignore]}
+
+
+def link_name(arm: Arm, link: int) -> str:
+    """``base``, or the name of the joint that moves the link."""
+    return "base" if link == BASE else arm.joint_names[link]
+
+
+# ---- the format --------------------------------------------------------------------------------------------------
+
+Positive = Annotated[Number, Field(gt=0)]
+
+
+class _Entry(Strict):
+    start: Three = Field(alias="from")
+    to: Three | None = None
+    radius: Positive | None = None
+
+
+class _File(Strict):
+    radius: Positive | None = None
+    links: dict[str, list[_Entry]] | None = None
+    ignore: list[Annotated[list[str], Field(min_length=2, max_length=2)]] = Field(default_factory=list)
+
+
+def _link(arm: Arm, name: str, place: str) -> int:
+    if name == "base":
+        if name in arm.joint_names:
+            raise ArmError(f"{place}: 'base' is the base here, but '{arm.name}' also has a joint 'base'; rename the joint")
+        return BASE
+    if name not in arm.joint_names:
+        raise ArmError(f"{place}: '{arm.name}' has no link '{name}'; its links are base, {', '.join(arm.joint_names)}")
+    return arm.joint_names.index(name)
+
+
+def _part(link: int, entry: _Entry, radius: float | None, place: str) -> Capsule:
+    own = radius if entry.radius is None else entry.radius
+    if own is None:
+        raise ArmError(f"{place}.radius: it is missing; give it here or for the whole file")
+    return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), own)
+
+
+def _point(values: list[float] | Array) -> Point:
+    x, y, z = (float(v) for v in values)
+    return x, y, z
+
+
+def _ends(arm: Arm) -> list[Array]:
+    """Where each link ends, (3,) in its own frame: the base first."""
+    return [joint.origin[:3, 3] for joint in arm.joints] + [arm.tool[:3, 3]]
+
+
+def _along(arm: Arm, link: int, radius: float) -> list[Capsule]:
+    end = _ends(arm)[link + 1]
+    if np.linalg.norm(end) >= _POINT:
+        return [Capsule(link, (0.0, 0.0, 0.0), _point(end), radius)]
+    slides = link != BASE and arm.joints[link].prismatic
+    return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius)] if slides else []
