@@ -197,7 +197,8 @@ class Opposite(Objective):
     """The same number, wanted the other way: for the worst configuration of a pose, to compare the best one with.
 
     Multiplying by -1 is something else: it turns the number and what is wanted of it, so that the same configuration stays
-    the best one.
+    the best one. The worst of an index often lies in a crease, where a failure leaves nothing at all; the optimiser
+    zigzags into it and finds it less surely than the best.
 
     Args:
         objective: What to make as bad as it gets.
