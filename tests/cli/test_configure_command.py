@@ -163,6 +163,7 @@ def test_poses_from_a_file_and_results_to_one(ask, cli, tmp_path, panda, rng):
     data = ask(*arguments, "--csv", out)
     assert [row["status"] for row in data["poses"]] == ["ok", "ok", "ok", "not_found"]
     assert data["poses"][3]["value"] is None
+    assert set(data["poses"][3]["q_before"].values()) == {None}
     assert list(data["poses"][0]["measures"]) == ["swing-angle", "torque"]
     with out.open(newline="") as stream:
         table = list(csv.DictReader(stream))

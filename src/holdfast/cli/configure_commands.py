@@ -60,7 +60,9 @@ def configure(
     maximise: Annotated[
         str | None,
         typer.Option(
-            "--maximise", help="The same. An index is to be large, the others small; not so: worst.", show_default=False
+            "--maximise",
+            help="The same objectives. What is better small is maximised, and what is better large minimised, for the worst.",
+            show_default=False,
         ),
     ] = None,
     pose: Annotated[
@@ -170,8 +172,10 @@ class _Result:
 
     @property
     def before(self) -> Array:
-        """(N, n) the configurations given, or the first that were found."""
-        return self.optimum.start_q if self.given is None else self.given
+        """(N, n) the configurations given, or the first that were found; NaN where none was."""
+        if self.given is not None:
+            return self.given
+        return np.where(self.optimum.success[:, None], self.optimum.start_q, np.nan)
 
     @property
     def values_before(self) -> Array:
