@@ -61,7 +61,7 @@ def configure(
         str | None,
         typer.Option(
             "--maximise",
-            help="The same objectives. What is better small is maximised, and what is better large minimised, for the worst.",
+            help="The same objectives. A small index, or a large torque, makes the worst configuration.",
             show_default=False,
         ),
     ] = None,
