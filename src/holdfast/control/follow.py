@@ -16,7 +16,7 @@ from holdfast.control.events import Curvature, events
 from holdfast.control.resolution import AugmentedJacobian, ExtendedJacobian, GradientProjection, Resolution
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
-from holdfast.indices import Objective
+from holdfast.indices import Objective, Opposite
 from holdfast.kernels import Kernel
 from holdfast.paths import TimedPath
 from holdfast.solve import optimise, solve_ik, solver
@@ -144,9 +144,9 @@ def _objective(minimise: Objective | None, maximise: Objective | None) -> Object
     if (minimise is None) == (maximise is None):
         raise InputError("give exactly one of minimise and maximise")
     if minimise is not None:
-        return minimise if minimise.better == "smaller" else -minimise
+        return minimise if minimise.better == "smaller" else Opposite(minimise)
     assert maximise is not None
-    return maximise if maximise.better == "larger" else -maximise
+    return maximise if maximise.better == "larger" else Opposite(maximise)
 
 
 def _task(arm: Arm, path: TimedPath, objective: Objective, task: str | Task | Sequence[str] | None) -> Task:
