@@ -1,0 +1,89 @@
+"""Pseudoinverse, weighted and damped inverse."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.control.law import Law
+from holdfast.errors import InputError
+from holdfast.kernels import SX
+from holdfast.linalg import damped_least_norm
+
+
+class Pseudoinverse(Law):
+    """Least-norm joint rates, ``J' (J J')^-1 v``; NaN at an exactly singular configuration, without hidden damping.
+
+    Source: Goel et al. 2005, eq. (5).
+    """
+
+    name, slug, source = "pseudoinverse", "pseudoinverse", "Goel et al. 2005, eq. (5)"
+
+    def inverse(self, j: SX, v: SX) -> SX:
+        """See :meth:`Law.inverse`."""
+        return damped_least_norm(j, v, 0.0)
+
+
+class Weighted(Law):
+    """Joint rates of least weighted norm, ``W^-1 J' (J W^-1 J')^-1 v``.
+
+    Source: Goel et al. 2005, eq. (10).
+    """
+
+    name, slug, source = "weighted inverse", "weighted", "Goel et al. 2005, eq. (10)"
+
+    def __init__(
+        self,
+        arm: Arm,
+        weights: ArrayLike,
+        task: str | Task | Sequence[str] = "pose",
+        gain: float = 1.0,
+        speed_limit: float | None = None,
+    ) -> None:
+        super().__init__(arm, task, gain, speed_limit)
+        w = np.asarray(weights, dtype=np.float64)
+        w = np.diag(w) if w.ndim == 1 else w
+        if w.shape != (arm.n, arm.n) or not np.isfinite(w).all():
+            raise InputError(
+                f"weights have shape {np.shape(weights)}; they must be ({arm.n},) or ({arm.n}, {arm.n}) finite numbers"
+            )
+        self.weights = (w + w.T) / 2
+        if not np.allclose(w, w.T) or np.linalg.eigvalsh(self.weights)[0] <= 0:
+            raise InputError("weights must be a symmetric positive definite matrix, or numbers above 0")
+
+    def inverse(self, j: SX, v: SX) -> SX:
+        """See :meth:`Law.inverse`."""
+        root = np.linalg.inv(np.linalg.cholesky(self.weights)).T  # W^-1 = root root'
+        spread = ca.sparsify(ca.SX(ca.DM(root)))
+        return spread @ damped_least_norm(j @ spread, v, 0.0)
+
+
+class Damped(Law):
+    """Damped least squares with fixed damping, ``J' (J J' + damping^2 I)^-1 v``.
+
+    Source: Goel et al. 2003, section 2.
+    """
+
+    name, slug, source = "damped inverse", "damped", "Goel et al. 2003, section 2"
+
+    def __init__(
+        self,
+        arm: Arm,
+        damping: float,
+        task: str | Task | Sequence[str] = "pose",
+        gain: float = 1.0,
+        speed_limit: float | None = None,
+    ) -> None:
+        super().__init__(arm, task, gain, speed_limit)
+        if not (np.isfinite(damping) and damping > 0):
+            raise InputError(f"damping is {damping:g}; it must be above 0 (for none, use the pseudoinverse)")
+        self.fixed_damping = float(damping)
+
+    def inverse(self, j: SX, v: SX) -> SX:
+        """See :meth:`Law.inverse`."""
+        return damped_least_norm(j, v, self.fixed_damping**2)
