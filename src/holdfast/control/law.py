@@ -55,7 +55,7 @@ class Law(ABC):
         self.arm, self.task = arm, as_task(arm, task)
         if self.task.m > arm.n:
             raise TaskError(
-                f"task '{self.task.name}' prescribes {self.task.m} rows and '{arm.name}' has {arm.n} joints; prescribe fewer rows"
+                f"task '{self.task.name}' prescribes {self.task.m} rows, but '{arm.name}' has {arm.n} joints; prescribe fewer"
             )
         for what, value in (("gain", gain), ("speed_limit", speed_limit)):
             if value is not None and not (np.isfinite(value) and value > 0):
@@ -121,8 +121,8 @@ class Law(ABC):
         m = self.task.m
         if b.ndim not in (1, 2) or b.shape[-1] != m or (a.ndim == 2 and b.ndim == 2 and len(a) != len(b)):
             raise InputError(
-                f"the velocity has shape {b.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or (N, {m}) with "
-                "one row for each configuration"
+                f"the velocity has shape {b.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or (N, {m}), "
+                "a row for each configuration"
             )
         count = max(len(np.atleast_2d(a)), len(np.atleast_2d(b)))
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
