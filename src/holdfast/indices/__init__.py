@@ -15,7 +15,7 @@ from holdfast.failures import FailureSpec
 from holdfast.indices import susceptibility
 from holdfast.indices.custom import CustomIndex
 from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index
-from holdfast.indices.objective import Objective, Part, WeightedSum
+from holdfast.indices.objective import Objective, Part, Reversed, WeightedSum
 from holdfast.indices.relative import Manipulability, RelativeManipulability
 from holdfast.indices.spectral import SpectralIndex
 
@@ -94,6 +94,7 @@ __all__ = [
     "Objective",
     "Part",
     "RelativeManipulability",
+    "Reversed",
     "SpectralIndex",
     "WeightedSum",
     "by_name",

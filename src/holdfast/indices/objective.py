@@ -84,6 +84,10 @@ class Objective(ABC):
         """The task it is defined for; None if any will do."""
         return None
 
+    def reversed(self) -> Objective:
+        """The same number with the other way better: to look for the worst configuration, or to move so that it grows."""
+        return Reversed(self)
+
     # ---- arithmetic --------------------------------------------------------------------------------------------
 
     def __mul__(self, factor: float) -> WeightedSum:
@@ -103,6 +107,55 @@ class Objective(ABC):
         if not isinstance(other, Objective):
             return NotImplemented
         return WeightedSum([(1.0, self), (-1.0, other)])
+
+
+class Reversed(Objective):
+    """An objective with the other way better. Its negative is no such thing: that is better where the objective is better.
+
+    Args:
+        objective: One value, or a sum of them: not the worst of several failures, whose worst no linear program finds.
+    """
+
+    def __init__(self, objective: Objective) -> None:
+        self.objective, self.arm = objective, objective.arm
+        self.name, self.unit = objective.name, objective.unit
+        self.better = "smaller" if objective.better == "larger" else "larger"
+
+    @property
+    def own_task(self) -> Task | None:
+        """The task of the objective."""
+        return self.objective.own_task
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """The value at q (N, n) or (n,): (N,), or a scalar; that of the objective."""
+        return self.objective(q)
+
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """The parts of the objective, negated.
+
+        Raises:
+            TaskError: One of them is the worst of several failures.
+        """
+        out = []
+        for part in self.objective.exact_parts(q, j, qr, directions):
+            if len(part.values) > 1:
+                raise TaskError(
+                    f"{self.name} is the worst of {len(part.values)} failures and cannot be made worse on purpose; "
+                    "name the one failure that is meant"
+                )
+            out.append(Part(part.weight, [-v for v in part.values], [[-x for x in row] for row in part.slopes]))
+        return out
+
+    def statuses(self, q: Array) -> NDArray[np.uint8]:
+        """Those of the objective."""
+        return self.objective.statuses(q)
+
+    def reversed(self) -> Objective:
+        """The objective itself."""
+        return self.objective
+
+    def __repr__(self) -> str:
+        return f"<{self.name}, {self.better} is better, arm {self.arm.name!r}>"
 
 
 class WeightedSum(Objective):
