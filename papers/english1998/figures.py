@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 DASHED = (0, (4.5, 2))
 DOTTED = (0, (1.2, 1.6))
+_BACKED = {"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.9}
 
 
 def draw_arm(axes: Axes, places: Array, color: str = INK, width: float = 2.0, size: float = 4.5) -> None:
@@ -40,9 +41,14 @@ def figure_4(planar: Planar, found: Extremes, path: Path) -> None:
             draw_arm(axes, planar.joints(q))
             share = planar.torque.by_joint(q) / planar.largest
             for k, place in enumerate(planar.joints(q)[:-1]):
-                axes.annotate(f"{share[k]:+.2f}", place, (8, 6), textcoords="offset points", color=BLUE)
+                axes.annotate(f"{share[k]:+.2f}", place, (10, 8), textcoords="offset points", color=BLUE, bbox=_BACKED)
             axes.set(
-                title=f"{name}: cost {value:.4f}", xlabel="x, m", ylabel="y, m", aspect="equal", xlim=(-1.7, 1.7), ylim=(-2.3, 0.7)
+                title=f"{name}: cost {value:.4f}",
+                xlabel="x, m",
+                ylabel="y, m",
+                aspect="equal",
+                xlim=(-1.7, 1.7),
+                ylim=(-2.3, 0.7),
             )
         _caption(
             figure,
@@ -62,9 +68,12 @@ def figure_5(planar: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Gl
         bottom.fill_between(x, there.value, color=BLUE, alpha=0.14, linewidth=0)
         bottom.plot(x, there.value, color=BLUE, label="right to left, local minimum followed")
         bottom.plot(back.poses[:, 0, 3], back.value, color=SOFT, linestyle=DASHED, label="left to right")
-        bottom.plot(best.x, best.value, color=ORANGE, linestyle=DOTTED, linewidth=2, label="best of all configurations of each point")
+        bottom.plot(
+            best.x, best.value, color=ORANGE, linestyle=DOTTED, linewidth=2, label="best of all configurations of each point"
+        )
         _criterion(bottom, x, "normalised cost, 1 = largest of all")
-        bottom.legend(loc="lower left", bbox_to_anchor=(0, 0.02))
+        bottom.legend(loc="upper center")
+        bottom.set_ylim(0, 0.55)
         _caption(
             figure,
             f"Torque criterion along y = {there.poses[0, 1, 3]:g} m (our assumption) in {DURATION:g} s, gradient projection, "
@@ -86,6 +95,7 @@ def figure_6(planar: Planar, motion: hf.Trajectory, borders: Sequence[float], pa
         bottom.plot(x, motion.rate_norm, color=BLUE, label="norm of the joint rates")
         if capped:
             bottom.axhline(1.0, color=ORANGE, linestyle=DASHED, linewidth=1.2, label="cap")
+            bottom.set_ylim(0, 1.6)
         _criterion(bottom, x, "joint-rate norm, rad/s")
         for axes in (middle, bottom):
             for k, border in enumerate(borders):
@@ -101,7 +111,7 @@ def figure_6(planar: Planar, motion: hf.Trajectory, borders: Sequence[float], pa
 
 def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -> None:
     """The minimum that splits: the criterion over all configurations of four points of the motion."""
-    places = (float(motion.poses[0, 0, 3]), (float(motion.poses[0, 0, 3]) + border) / 2, border, border - 0.35)
+    places = (float(motion.poses[0, 0, 3]), (float(motion.poses[0, 0, 3]) + border) / 2, border, border - 0.15)
     y = float(motion.poses[0, 1, 3])
     texts = ("start of the line", "outside the region of zero cost", "at its border", "inside: the minimum has split")
     with style():
@@ -118,8 +128,7 @@ def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -
                 right.plot(angle, value, color=BLUE, linewidth=1.6)
             right.plot([first], [float(planar.swing(here))], "o", color=ORANGE, zorder=4)
             if k:
-                near = 0.75
-                right.set(xlim=(first - near, first + near), ylim=(-0.0015, 0.03))
+                right.set(xlim=(-0.5, 1.5), ylim=(-0.001, 0.02))
             right.set(ylabel="(swing of joint 2 / pi)^2", title=f"({'abcd'[k]}) x = {x:.3f} m: {text}")
         grid[-1, 0].set_xlabel("x, m")
         grid[-1, 1].set_xlabel("joint 1, rad from horizontal")
@@ -143,7 +152,7 @@ def figure_9_11(hardware: Hardware, motion: hf.Trajectory, text: str, path: Path
             axis = 0.16 * hardware.arm.jacobian(motion.q[k])[3:, 1]
             ends = np.stack([second - axis, second + axis])
             ax.plot(ends[:, 0], ends[:, 2], color=ORANGE, linewidth=2.2, label="axis of joint 2" if k == 0 else None, zorder=5)
-            ax.set(aspect="equal", xlabel="x, m", title=f"{hardware.way[k]:.1f} m", xlim=(-0.15, 0.95), ylim=(-0.75, 0.6))
+            ax.set(aspect="equal", xlabel="x, m", title=f"after {hardware.way[k]:.1f} m", xlim=(-0.15, 0.95), ylim=(-0.75, 0.6))
         axes[0].set_ylabel("z (up), m")
         axes[0].legend(loc="upper right")
         _caption(figure, f"{text} Seen along the path (y); joint 1 turns about x, gravity points down.")
@@ -154,13 +163,16 @@ def figure_10(hardware: Hardware, path: Path) -> None:
     """Torque of joint 2 along the path, made small, for three times."""
     with style():
         figure = Figure(figsize=(WIDTH * 0.78, 7.0))
-        for ax, scale in zip(figure.subplots(len(SCALES), 1, sharex=True, sharey=True), SCALES, strict=True):
+        panels = figure.subplots(len(SCALES), 1, sharex=True, sharey=True)
+        for ax, scale in zip(panels, SCALES, strict=True):
             ax.plot(hardware.way, hardware.torque(hardware.small, scale), color=BLUE, label="whole dynamics")
             ax.plot(hardware.way, hardware.gravity(hardware.small), color=ORANGE, linestyle=DASHED, label="gravity alone")
             ax.set(ylabel="torque of joint 2, N m", title=f"{scale * HARDWARE_DURATION:g} s")
-        ax.set_xlabel("distance along the path, m")
-        ax.legend(loc="upper left", ncols=2)
-        _caption(figure, "Static torque of joint 2, squared, made small: torque of the whole dynamics at three times for the path.")
+        panels[-1].set_xlabel("distance along the path, m")
+        panels[0].legend(loc="upper right", ncols=2)
+        _caption(
+            figure, "Static torque of joint 2, squared, made small: torque of the whole dynamics at three times for the path."
+        )
         save_png(finished(figure), path, dpi=110)
 
 
@@ -169,7 +181,9 @@ def figure_12(hardware: Hardware, path: Path) -> None:
     with style():
         figure = Figure(figsize=(WIDTH * 0.78, 3.8))
         axes = figure.subplots()
-        axes.plot(hardware.way, np.abs(hardware.torque(hardware.large, 1.0)), color=BLUE, label=f"made large, {HARDWARE_DURATION:g} s")
+        axes.plot(
+            hardware.way, np.abs(hardware.torque(hardware.large, 1.0)), color=BLUE, label=f"made large, {HARDWARE_DURATION:g} s"
+        )
         for scale, line in ((1.0, "-"), (SCALES[-1], DASHED)):
             torque = np.abs(hardware.torque(hardware.small, scale))
             axes.plot(hardware.way, torque, color=ORANGE, linestyle=line, label=f"made small, {scale * HARDWARE_DURATION:g} s")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -13,7 +14,8 @@ from holdfast.arm.task import as_task
 from holdfast.control.events import Curvature
 from holdfast.indices.susceptibility import Susceptibility
 from holdfast.paths import Constant, TimedPath, line
-from holdfast.solve import best_path, self_motion
+from holdfast.solve import fibres, self_motion
+from holdfast.solve.fibre_path import best_path_over
 
 Array = NDArray[np.float64]
 
@@ -102,19 +104,23 @@ def extremes(planar: Planar, measure: Susceptibility, x: float, y: float) -> Ext
 
 @dataclass(frozen=True)
 class Global:
-    """The best of all configurations of each pose of a motion, and the best continuous motion through them."""
+    """The best of all configurations of each pose of a motion, and the best motions through them with limited joint rates."""
 
     x: Array
     value: Array
-    motion: Array
-    continuous: bool
+    motions: dict[float, Array]
 
 
-def global_answer(planar: Planar, measure: Susceptibility, motion: hf.Trajectory, count: int = 101) -> Global:
-    """Dynamic programming over all configurations of ``count`` poses of the motion."""
+def global_answer(
+    planar: Planar, measure: Susceptibility, motion: hf.Trajectory, rates: Sequence[float], count: int = 101
+) -> Global:
+    """Dynamic programming over all configurations of ``count`` poses of the motion, joints up to each of the rates, rad/s."""
     few = np.linspace(0, len(motion.time) - 1, count).astype(int)
-    found = best_path(planar.arm, motion.poses[few], measure, "planar", 0.02, seed=SEED)
-    return Global(motion.poses[few, 0, 3], found.global_value, found.value, found.continuous)
+    curves = fibres(planar.arm, motion.poses[few], "planar", 0.02, SEED)
+    step = DURATION / (count - 1)
+    found = {rate: best_path_over(planar.arm, curves, measure, rate_limit=rate * step) for rate in rates}
+    any_of_them = found[rates[0]].global_value
+    return Global(motion.poses[few, 0, 3], any_of_them, {rate: path.value for rate, path in found.items()})
 
 
 # ---- the rule about the borders of the region of zero cost -------------------------------------------------------------
