@@ -74,7 +74,8 @@ def follow(
         damping: Near singularities; see :class:`holdfast.control.Resolution`.
         seed: Of the search for a start and of the manifolds.
         best: Also find the best value of each pose over its whole self-motion manifold, and the best continuous motion
-            through these, by dynamic programming; for one or two degrees of redundancy.
+            through these, by dynamic programming; for one or two degrees of redundancy. How fast it may move from one
+            manifold to the next is the velocity limits of the joints, and the rate cap for each of them, if all have one.
         spacing: Of the points on these manifolds, rad.
 
     Raises:
@@ -257,7 +258,12 @@ def _best(
     """Best value of each pose and the best continuous motion, on a coarser grid of poses, brought back to all samples."""
     sign = -1.0 if objective.better == "larger" else 1.0
     few = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _GRID)).astype(int))
-    found = best_path(arm, poses[few], lambda q: sign * objective(q), task, spacing, seed=seed)
+    fastest = np.array([j.velocity for j in arm.joints])
+    if rate_cap is not None:
+        fastest = np.minimum(fastest, rate_cap)
+    # Where a joint has no limit, the path's own default says what counts as continuous.
+    limit = fastest * float(np.diff(time[few]).max()) if np.isfinite(fastest).all() else None
+    found = best_path(arm, poses[few], lambda q: sign * objective(q), task, spacing, limit, seed=seed)
     values = np.interp(time, time[few], sign * found.global_value)
     motion = np.stack([np.interp(time, time[few], column) for column in found.q.T], axis=1)
     return values, motion
