@@ -318,7 +318,7 @@ def main() -> None:
         *table(claims),
         "",
         f"Gains of gradient projection: {planar.TORQUE_GAIN:g} (Fig. 5) and {planar.SWING_GAIN:g} rad/s (Figs. 6 to 8), larger "
-        "than `follow` would choose, so that it does not lag where the criterion is flat; the hardware's are chosen by `follow`.",
+        "than `follow` would choose, so that it does not lag where the criterion is flat; the hardware's is that of `follow`.",
         "",
         "## Lines that give 2.1 % (measured)",
         "",
@@ -344,8 +344,8 @@ def study() -> list[str]:
     for name in measures.ARMS:
         outcomes = measures.compare(name)
         lines += [
-            f"{name}, upright, task pose: medians over {len(outcomes[0].values)} of {measures.POSES} poses, positions in a cube of "
-            "a quarter of the reach about the tool at the arm's home, angles in 90 deg.",
+            f"{name}, upright, task pose: medians over {len(outcomes[0].values)} of {measures.POSES} poses, positions in a "
+            "cube of a quarter of the reach about the tool at the arm's home, angles in 90 deg.",
             "",
             "| configuration chosen by | " + " | ".join(measures.COLUMNS) + " |",
             "|" + "---|" * (len(measures.COLUMNS) + 1),

@@ -21,7 +21,6 @@ Array = NDArray[np.float64]
 
 DASHED = (0, (4.5, 2))
 DOTTED = (0, (1.2, 1.6))
-_BACKED = {"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.9}
 
 
 def draw_arm(axes: Axes, places: Array, color: str = INK, width: float = 2.0, size: float = 4.5) -> None:
@@ -40,8 +39,11 @@ def figure_4(planar: Planar, found: Extremes, path: Path) -> None:
         ):
             draw_arm(axes, planar.joints(q))
             share = planar.torque.by_joint(q) / planar.largest
-            for k, place in enumerate(planar.joints(q)[:-1]):
-                axes.annotate(f"{share[k]:+.2f}", place, (10, 8), textcoords="offset points", color=BLUE, bbox=_BACKED)
+            places = planar.joints(q)
+            for k, place in enumerate(places[:-1]):
+                crowded = k > 0 and (places[k - 1] > place).all()  # the link before comes from where the number would be
+                at = (-40, -4) if crowded else (10, 8)
+                axes.annotate(f"{share[k]:+.2f}", place, at, textcoords="offset points", color=BLUE)
             axes.set(
                 title=f"{name}: cost {value:.4f}",
                 xlabel="x, m",
@@ -102,8 +104,8 @@ def figure_6(planar: Planar, motion: hf.Trajectory, borders: Sequence[float], pa
                 axes.axvline(border, color=INK, linestyle=DOTTED, label=None if k else "border of the region of zero cost")
         bottom.legend(loc="upper center")
         text = (
-            f"Swing criterion of joint 2 along y = {motion.poses[0, 1, 3]:g} m (our assumption), right to left in {DURATION:g} s, "
-            f"{len(x)} samples"
+            f"Swing criterion of joint 2 along y = {motion.poses[0, 1, 3]:g} m (our assumption), right to left in "
+            f"{DURATION:g} s, {len(x)} samples"
         )
         _caption(figure, text + (f"; cap of 1 rad/s, hand within {motion.position_error.max():.0e} m." if capped else "."))
         save_png(finished(figure), path, dpi=110)
@@ -134,8 +136,8 @@ def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -
         grid[-1, 1].set_xlabel("joint 1, rad from horizontal")
         _caption(
             figure,
-            f"All configurations of four points on y = {y:g} m, traced 0.01 rad apart; dot and arm: where gradient projection is. "
-            "(a) whole range, (b) to (d) a part.",
+            f"All configurations of four points on y = {y:g} m, traced 0.01 rad apart; dot and arm: where gradient projection "
+            "is. (a) whole range, (b) to (d) a part.",
         )
         save_png(finished(figure), path, dpi=110)
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
+from holdfast.indices.susceptibility import Susceptibility
 from holdfast.solve import fibres
 
 Array = NDArray[np.float64]
@@ -44,11 +45,13 @@ def compare(name: str) -> list[Outcome]:
     arm = hf.arms.load(name)
     region = hf.Region.around(arm, hf.arms.about(name).home)
     poses = region.poses(next(region.blocks(0, SEED))[:POSES])
+    torque = hf.susceptibility.torque(arm, "effort")
+    acceleration, swing = hf.susceptibility.acceleration(arm), hf.susceptibility.swing_angle(arm)
     measures = {
-        "torque, over effort": hf.susceptibility.torque(arm, "effort"),
-        "torque, over effort, made worst": hf.susceptibility.torque(arm, "effort").reversed(),
-        "acceleration": hf.susceptibility.acceleration(arm),
-        "swing angle": hf.susceptibility.swing_angle(arm),
+        "torque, over effort": torque,
+        "torque, over effort, made worst": torque.reversed(),
+        "acceleration": acceleration,
+        "swing angle": swing,
     }
     found = hf.solve_ik(arm, poses, SEED)
     poses = poses[found.success]
@@ -58,29 +61,31 @@ def compare(name: str) -> list[Outcome]:
         best.require_ok()
         chosen[label] = best.q
     curves = [f.q for f in fibres(arm, poses, "pose", 0.05, SEED)]
-    chosen["the last column itself, among all configurations"] = np.array([q[fallen(arm, q).argmin()] for q in curves])
-    return [Outcome(label, np.array([outcome(arm, q) for q in configurations])) for label, configurations in chosen.items()]
+    chosen["the last column itself, among all configurations"] = np.array([q[fallen(swing, q).argmin()] for q in curves])
+    return [Outcome(label, outcome(arm, acceleration, swing, q)) for label, q in chosen.items()]
 
 
-def outcome(arm: hf.Arm, q: Array) -> Array:
-    """(5,) in the order of ``COLUMNS``."""
-    effort = np.array([joint.effort for joint in arm.joints])
-    load = arm.gravity_torque(q) / effort
-    acceleration = hf.susceptibility.acceleration(arm).by_joint(q)
-    swing = hf.susceptibility.swing_angle(arm).by_joint(q)
-    seconds = BRAKE_MS / 1000
-    moved = [hf.free_swing(arm, q, k, duration=seconds, brake_after=(BRAKE_MS,)).drops[0].distance for k in range(arm.n)]
-    return np.array([rms(load), rms(acceleration), rms(swing), 1000 * max(moved), fallen(arm, q[None])[0]])
+def outcome(arm: hf.Arm, acceleration: Susceptibility, swing: Susceptibility, q: Array) -> Array:
+    """(P, 5) of configurations (P, n), in the order of ``COLUMNS``."""
+    load = arm.gravity_torque(q) / np.array([joint.effort for joint in arm.joints])
+    moved = np.array([[moved_after(arm, one, k) for k in range(arm.n)] for one in q]).max(axis=1)
+    return np.stack([rms(load), rms(acceleration.by_joint(q)), rms(swing.by_joint(q)), 1000 * moved, fallen(swing, q)], axis=1)
 
 
-def fallen(arm: hf.Arm, q: Array) -> Array:
+def moved_after(arm: hf.Arm, q: Array, joint: int) -> float:
+    """How far the tool is from its place when the brakes act after ``BRAKE_MS``, m."""
+    swing = hf.free_swing(arm, q, joint, duration=BRAKE_MS / 1000, brake_after=(BRAKE_MS,))
+    return swing.drops[0].distance
+
+
+def fallen(swing: Susceptibility, q: Array) -> Array:
     """(N,) of configurations (N, n): how far the tool is from its place when the worst joint hangs still, m."""
-    swing = hf.susceptibility.swing_angle(arm).by_joint(q)
-    hanging = q[:, None] + np.eye(arm.n) * swing[:, None]
+    arm = swing.arm
+    hanging = q[:, None] + np.eye(arm.n) * swing.by_joint(q)[:, None]
     place = arm.forward_kinematics(hanging.reshape(-1, arm.n))[:, :3, 3].reshape(*q.shape, 3)
     return np.asarray(np.linalg.norm(place - arm.forward_kinematics(q)[:, None, :3, 3], axis=2).max(axis=1))
 
 
-def rms(x: Array) -> float:
-    """Root of the mean square."""
-    return float(np.sqrt(np.mean(x**2)))
+def rms(x: Array) -> Array:
+    """Root of the mean square of each row."""
+    return np.asarray(np.sqrt(np.mean(x**2, axis=1)))
