@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-import holdfast as hf
 from papers.abdi2012.__main__ import nominal
 from papers.claims import Claim, table
 from papers.english1998 import measures, planar
 from papers.english1998.planar import Borders, Planar
+
+import holdfast as hf
 
 
 @pytest.fixture(scope="module")

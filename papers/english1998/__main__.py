@@ -342,14 +342,21 @@ def study() -> list[str]:
     """Which measure to minimise, on two real arms."""
     lines = ["## Which measure to minimise, on two real arms (measured)", ""]
     for name in measures.ARMS:
-        outcomes = measures.compare(name)
+        found = measures.compare(name)
         lines += [
-            f"{name}, upright, task pose: medians over {len(outcomes[0].values)} of {measures.POSES} poses, positions in a "
+            f"{name}, upright, task pose: medians over {len(found.least_swing)} of {measures.POSES} poses, positions in a "
             "cube of a quarter of the reach about the tool at the arm's home, angles in 90 deg.",
             "",
             "| configuration chosen by | " + " | ".join(measures.COLUMNS) + " |",
             "|" + "---|" * (len(measures.COLUMNS) + 1),
-            *["| " + " | ".join(o.row) + " |" for o in outcomes],
+            *["| " + " | ".join(o.row) + " |" for o in found.outcomes],
+            "",
+            f"Joints of the {name} at the same poses: swing among all configurations, the tool in the first configuration "
+            "found.",
+            "",
+            "| " + " | ".join(measures.JOINT_COLUMNS) + " |",
+            "|" + "---|" * len(measures.JOINT_COLUMNS),
+            *["| " + " | ".join(found.joint_row(k)) + " |" for k in range(found.least_swing.shape[1])],
             "",
         ]
     return lines[:-1]
