@@ -69,7 +69,7 @@ def torque_line(p: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Glob
             "Fig. 5 line",
             "horizontal, right to left; not in the text",
             f"y = {y:g} m, x from {x:g} to {-x:g} m",
-            "assumed: it gives 38 %, has no jump and fits every remark; so it is not the only one: "
+            "assumed: it gives 38 %, has no jump and fits every remark; other lines give nearly the same: "
             + ", ".join(
                 f"y = {y2:g} m gives {p.run(p.torque, x, y2, gain=planar.TORQUE_GAIN).value.max():.2%}" for y2 in alike
             ),
@@ -165,8 +165,8 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             "Fig. 7 splitting minimum",
             "well defined, then flat at the border, then split in two",
             "see the figure",
-            "agrees: inside, two configurations have no swing and the one between them has become a local maximum; the arm goes to "
-            "the one with the larger first joint angle, as theirs does",
+            "agrees: inside, two configurations have no swing and the one between them has become a local maximum; the arm goes "
+            "to the one with the larger first joint angle, as theirs does",
         ),
         Claim(
             "Fig. 8 rate norm capped at 1 rad/s: hand",
