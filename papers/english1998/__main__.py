@@ -165,8 +165,8 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             "Fig. 7 splitting minimum",
             "well defined, then flat at the border, then split in two",
             "see the figure",
-            "agrees: inside, two configurations have no swing and the one between them has become a local maximum; the arm goes "
-            "to the one with the larger first joint angle, as theirs does",
+            "agrees: inside, two configurations have no swing and the one between them has become a local maximum; the arm "
+            "goes to the one with the larger first joint angle, as theirs does",
         ),
         Claim(
             "Fig. 8 rate norm capped at 1 rad/s: hand",
