@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,21 +10,12 @@ from matplotlib.figure import Figure
 import holdfast as hf
 from holdfast.assess import structure
 from holdfast.assess.region import builtin_region
+from papers.claims import Claim, table
 
 HERE = Path(__file__).parent
 POSES = (500, 2000, 100_000)
 SEED = 1
 BLUE, ORANGE = "#0b5c9e", "#c8500a"
-
-
-@dataclass(frozen=True)
-class Claim:
-    """One row of the comparison."""
-
-    where: str
-    paper: str
-    ours: str
-    why: str
 
 
 def nominal(arm: hf.Arm) -> list[Claim]:
@@ -255,9 +245,7 @@ def main() -> None:
         "",
         f"Written by `python -m papers.abdi2012`, seed {SEED}. Ours are measured, the paper's are cited.",
         "",
-        "| where | paper | ours | difference and why |",
-        "|---|---|---|---|",
-        *[f"| {c.where} | {c.paper} | {c.ours} | {c.why} |" for c in claims],
+        *table(claims),
         "",
         "## The same study on two real arms (measured)",
         "",

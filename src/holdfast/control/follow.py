@@ -16,7 +16,7 @@ from holdfast.control.events import Curvature, events
 from holdfast.control.resolution import AugmentedJacobian, ExtendedJacobian, GradientProjection, Resolution
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
-from holdfast.indices import Objective, Opposite
+from holdfast.indices import Objective
 from holdfast.kernels import Kernel
 from holdfast.paths import TimedPath
 from holdfast.solve import optimise, solve_ik, solver
@@ -28,7 +28,10 @@ Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
 _SUBSTEPS = 10  # of control between two samples: the hand is off by the square of a step
-_SETTLE = 0.01  # of the duration: time constant of the gain that is chosen if none is given
+# Time constant of the gain that is chosen if none is given, of the duration, where the objective is curved as it typically
+# is; where it is flat the self-motion lags, and at 1 % it was taken for lost on a path that has no algorithmic singularity.
+_SETTLE = 0.002
+_STEADY = 0.2  # of the way to the extremum in one step, at most
 _PROBES = 64
 _GRID = 101  # poses whose whole manifold is traced
 
@@ -62,7 +65,7 @@ def follow(
             keeps the value ``wanted``, ``none`` moves as little as possible (least-norm rates) and only reports.
         q: (n,) where to start, on the first pose. Default: the best configuration of the first pose.
         gain: Of the law; for gradient projection rad/s per unit of the objective and rad, otherwise 1/s. Default: chosen so
-            that the self-motion settles within about 1 % of the duration, from the curvature of the objective on the path.
+            that the self-motion settles within about 0.2 % of the duration where the objective is curved as it typically is.
         wanted: Value that the augmented Jacobian keeps. Default: that of the start.
         rate_cap: Largest norm of the joint rates, rad/s; slows the self-motion only.
         task: Rows of the poses to keep. Default: the objective's, or ``position`` for a path of positions, or ``pose``.
@@ -71,7 +74,8 @@ def follow(
         damping: Near singularities; see :class:`holdfast.control.Resolution`.
         seed: Of the search for a start and of the manifolds.
         best: Also find the best value of each pose over its whole self-motion manifold, and the best continuous motion
-            through these, by dynamic programming; for one or two degrees of redundancy.
+            through these, by dynamic programming; for one or two degrees of redundancy. How fast it may move from one
+            manifold to the next is the velocity limits of the joints, and the rate cap for each of them, if all have one.
         spacing: Of the points on these manifolds, rad.
 
     Raises:
@@ -95,7 +99,7 @@ def follow(
     if method == "none":
         gain = 0.0
     elif gain is None:
-        gain = _gain(method, curvature, poses, path.duration, seed)
+        gain = _gain(method, curvature, poses, min(1 / (_SETTLE * path.duration), _STEADY / step), seed)
     law: Resolution
     period = step if limits else None
     if method == "extended-jacobian":
@@ -144,9 +148,9 @@ def _objective(minimise: Objective | None, maximise: Objective | None) -> Object
     if (minimise is None) == (maximise is None):
         raise InputError("give exactly one of minimise and maximise")
     if minimise is not None:
-        return minimise if minimise.better == "smaller" else Opposite(minimise)
+        return minimise if minimise.better == "smaller" else minimise.reversed()
     assert maximise is not None
-    return maximise if maximise.better == "larger" else Opposite(maximise)
+    return maximise if maximise.better == "larger" else maximise.reversed()
 
 
 def _task(arm: Arm, path: TimedPath, objective: Objective, task: str | Task | Sequence[str] | None) -> Task:
@@ -180,9 +184,8 @@ def _start(arm: Arm, objective: Objective, task: Task, first: Array, q: ArrayLik
     return start
 
 
-def _gain(method: str, curvature: Curvature, poses: Array, duration: float, seed: int) -> float:
-    """A gain with which the self-motion settles in a small part of the duration, without ever overshooting a step."""
-    rate = 1 / (_SETTLE * duration)
+def _gain(method: str, curvature: Curvature, poses: Array, rate: float, seed: int) -> float:
+    """A gain with which the self-motion settles at ``rate``, 1/s, where the curvature is at the 90 % quantile of the path's."""
     if method != "gradient-projection":
         return rate
     chosen = poses[np.linspace(0, len(poses) - 1, _PROBES).astype(int)]
@@ -255,7 +258,12 @@ def _best(
     """Best value of each pose and the best continuous motion, on a coarser grid of poses, brought back to all samples."""
     sign = -1.0 if objective.better == "larger" else 1.0
     few = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _GRID)).astype(int))
-    found = best_path(arm, poses[few], lambda q: sign * objective(q), task, spacing, seed=seed)
+    fastest = np.array([j.velocity for j in arm.joints])
+    if rate_cap is not None:
+        fastest = np.minimum(fastest, rate_cap)
+    # Where a joint has no limit, the path's own default says what counts as continuous.
+    limit = fastest * float(np.diff(time[few]).max()) if np.isfinite(fastest).all() else None
+    found = best_path(arm, poses[few], lambda q: sign * objective(q), task, spacing, limit, seed=seed)
     values = np.interp(time, time[few], sign * found.global_value)
     motion = np.stack([np.interp(time, time[few], column) for column in found.q.T], axis=1)
     return values, motion

@@ -85,6 +85,10 @@ class Objective(ABC):
         """The task it is defined for; None if any will do."""
         return None
 
+    def reversed(self) -> Objective:
+        """The same number with the other way better: to look for the worst configuration, or to move so that it grows."""
+        return Opposite(self)
+
     # ---- arithmetic --------------------------------------------------------------------------------------------
 
     def __mul__(self, factor: float) -> WeightedSum:
@@ -211,6 +215,10 @@ class Opposite(Objective):
         self.objective = objective
         self.name, self.arm, self.unit = objective.name, objective.arm, objective.unit
         self.better = "smaller" if objective.better == "larger" else "larger"
+
+    def reversed(self) -> Objective:
+        """The objective itself."""
+        return self.objective
 
     @property
     def own_task(self) -> Task | None:
