@@ -7,7 +7,7 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.assess.distribution import Distribution, Interval
-from holdfast.assess.plan import Plan, Rows
+from holdfast.assess.plan import Plan, Rows, read_locks
 from holdfast.assess.region import Region, Sampling
 from holdfast.assess.run import Progress, Tally, blocks, fill, provenance, stored
 from holdfast.errors import InputError, StoreError
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_POSES = 2000  # unless asked otherwise
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 _CHUNK_BLOCKS = 8
 
@@ -38,10 +39,12 @@ class Assessment:
     Attributes:
         plan: What was asked for.
         distribution: Of the index over the region, at the configurations that inverse kinematics found.
-        worst_counts: (F,) how often each failure is the worst, over reached and non-singular poses.
+        worst_counts: (F,) how often each failure is the worst, over reached and non-singular poses; if poses have weights,
+            the sum of theirs.
         optimised: The distribution at the best configurations, or None if they were not asked for.
         optimised_worst_counts: As ``worst_counts``, at the best configurations.
-        survivors: (n,) poses that can still be reached once the joint has locked, or None if that was not asked for.
+        survivors: (n,) poses that can still be reached once the joint has locked, or their weights; 0 for joints that were
+            not asked for, None if none was.
         store: The results folder, if one was written.
         seconds: Time it took, or None if that is not known.
         complete: False if the run was stopped before all poses were done.
@@ -49,10 +52,10 @@ class Assessment:
 
     plan: Plan
     distribution: Distribution
-    worst_counts: NDArray[np.int64]
+    worst_counts: NDArray[Any]
     optimised: Distribution | None
-    optimised_worst_counts: NDArray[np.int64] | None
-    survivors: NDArray[np.int64] | None
+    optimised_worst_counts: NDArray[Any] | None
+    survivors: NDArray[Any] | None
     store: Store | None
     seconds: float | None
     complete: bool
@@ -133,11 +136,12 @@ class Assessment:
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
         """Share of all poses of the region that can still be reached once a joint has locked, with its Wilson interval.
 
-        The joint stands where it was at another pose of the region. A pose that the healthy arm does not reach counts as
+        The joint stands at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
+        says which. A pose that the healthy arm does not reach counts as
         lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
 
         Args:
-            joint: Name or index from 0; every joint if not given.
+            joint: Name or index from 0; every joint that the run asked for if not given.
             confidence: Of the interval.
 
         Raises:
@@ -145,9 +149,23 @@ class Assessment:
         """
         if self.survivors is None:
             raise InputError("this run did not look at what survives a lock; assess again with after_lock=True")
-        chosen = range(self.arm.n) if joint is None else [self.arm.joint_index(joint)]
-        total = self.distribution.samples
-        return {self.arm.joint_names[k]: Interval.of(int(self.survivors[k]), total, confidence) for k in chosen}
+        chosen = list(self.plan.locks) if joint is None else [self.arm.joint_index(joint)]
+        names = self.arm.joint_names
+        for k in chosen:
+            if k not in self.plan.locks:
+                raise InputError(
+                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with its lock_at"
+                )
+        d = self.distribution
+        if d.weighted:
+            total, n = d.total_weight(), d.effective()
+            return {names[k]: Interval.of_share(min(float(self.survivors[k]) / total, 1.0), n, confidence) for k in chosen}
+        return {names[k]: Interval.of(int(self.survivors[k]), d.samples, confidence) for k in chosen}
+
+    @property
+    def locks(self) -> dict[str, float | None]:
+        """Where each joint of :meth:`survival` locks: an angle (rad or m), or None for where it was at another pose."""
+        return {self.arm.joint_names[k]: angle for k, angle in self.plan.locks.items()}
 
     def expected_survival(self, rates: Mapping[str | int, float]) -> float:
         """Share of the region that is left after a failure, weighted by how often each joint fails.
@@ -156,15 +174,16 @@ class Assessment:
             rates: Relative failure rates by joint name or index from 0; joints that are not named do not fail.
 
         Raises:
-            InputError: A negative rate, or none above 0, or the run did not ask.
+            InputError: A negative rate, or none above 0, or the run did not ask (for a joint with a rate above 0).
         """
         weights = np.zeros(self.arm.n)
         for joint, rate in rates.items():
             weights[self.arm.joint_index(joint)] = rate
         if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
             raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
-        shares = np.array([x.value for x in self.survival().values()])
-        return float(shares @ weights / weights.sum())
+        some = np.flatnonzero(weights)
+        shares = np.array([self.survival(int(k))[self.arm.joint_names[k]].value for k in some])
+        return float(shares @ weights[some] / weights.sum())
 
     @property
     def dataset(self) -> xr.Dataset:
@@ -229,7 +248,7 @@ def assess(
     arm: Arm,
     region: Region,
     index: Index | str = "relative-manipulability",
-    poses: int = 2000,
+    poses: int | None = None,
     seed: int = 0,
     sampling: Sampling = "random",
     restarts: int = 100,
@@ -239,6 +258,7 @@ def assess(
     task: str | Task = "pose",
     optimise: bool = False,
     after_lock: bool = False,
+    lock_at: Mapping[str | int, float] | None = None,
 ) -> Assessment:
     """The distribution of an index over a region.
 
@@ -250,7 +270,7 @@ def assess(
         arm: The arm.
         region: Which poses, or configurations.
         index: An index of that arm, or its name.
-        poses: Number of poses.
+        poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
         seed: The same seed gives the same result, whatever the number of threads or chunks.
         sampling: ``random``, or ``sobol`` (scrambled; a power of two of poses is best).
         restarts: Random starts per pose before it counts as not reached.
@@ -260,6 +280,8 @@ def assess(
         task: Of the index, if that is given by name.
         optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
         after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
+        lock_at: Angles, rad or m, by joint name or index from 0, at which these joints lock. The others lock where they were
+            at another pose if ``after_lock``, and are left out if not.
 
     Raises:
         InputError: Options out of range, or an index of another arm.
@@ -273,7 +295,9 @@ def assess(
         index = by_name(index, arm, task)
     if index.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
-    plan = Plan(region, index, poses, seed, sampling, restarts, optimise, after_lock)
+    if poses is None:
+        poses = _POSES if region.listed is None else len(region.listed)
+    plan = Plan(region, index, poses, seed, sampling, restarts, optimise, after_lock, read_locks(arm, lock_at or {}))
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else _open_store(Path(store), plan)
@@ -342,6 +366,10 @@ def _finished(
 
 
 def _open_store(path: Path, plan: Plan) -> Store:
+    if not plan.region.storable:
+        raise InputError(
+            f"region '{plan.region.name}' has a function of your own, which a folder cannot hold; assess without a store"
+        )
     if not plan.storable:
         raise InputError(f"index '{plan.index.name}' is your own function, which a folder cannot hold; assess without a store")
     return Store.create(path, plan.to_dict(), plan.columns(), plan.poses, _CHUNK_BLOCKS * plan.region.block)

@@ -3,37 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.assess.interval import Interval, Sums, check_confidence
 from holdfast.errors import InputError
+
+__all__ = ["BINS", "Collector", "Distribution", "Interval"]
 
 Array = NDArray[np.float64]
 
 BINS = 1 << 16
-
-
-@dataclass(frozen=True)
-class Interval:
-    """A probability with its confidence interval."""
-
-    value: float
-    low: float
-    high: float
-    confidence: float
-
-    @classmethod
-    def of(cls, hits: float, size: int, confidence: float = 0.95) -> Interval:
-        """Share ``hits / size`` with its Wilson score interval."""
-        from scipy import stats
-
-        limits = stats.binomtest(round(hits), size).proportion_ci(confidence_level=confidence, method="wilson")
-        return cls(hits / size, float(limits.low), float(limits.high), confidence)
-
-    def __str__(self) -> str:
-        return f"{self.value:.4f} ({self.low:.4f} to {self.high:.4f}, {self.confidence:.0%})"
 
 
 @dataclass
@@ -41,7 +24,8 @@ class Distribution:
     """Values of an index at the samples of a region, exact or, for very large runs, in fine bins.
 
     A pose for which no configuration was found counts as the worst possible value (0 if larger is better, infinity
-    otherwise), unless ``reachable_only``.
+    otherwise), unless ``reachable_only``. Samples may have weights: shares, quantiles, mean and density are then of the
+    weights, and error bars are those of as many equal samples as :meth:`effective` says.
 
     Attributes:
         better: ``"larger"`` or ``"smaller"``.
@@ -49,25 +33,52 @@ class Distribution:
         edges, counts: Bins and their contents, if binned: a probability is then exact at the edges.
         unreached: Poses without a configuration.
         singular: Configurations that are singular (they count with the value of the convention).
-        total: Sum of the finite values.
-        lowest, highest: Over the finite values.
+        total: Sum of the finite values, each times its weight.
+        lowest, highest: Over the finite values, without those of weight 0.
+        weights: Of ``values``, or None if every sample counts alike. In bins, ``counts`` are sums of weights.
     """
 
     better: Literal["larger", "smaller"]
     values: Array | None = None
     edges: Array | None = None
-    counts: NDArray[np.int64] | None = None
+    counts: NDArray[np.int64] | Array | None = None
     unreached: int = 0
     singular: int = 0
     infinite: int = 0
     total: float = 0.0
     lowest: float = np.inf
     highest: float = -np.inf
+    weights: Array | None = None
     _reached: int = field(default=0, repr=False)
+    _finite: Sums | None = field(default=None, repr=False)
+    _found: Sums | None = field(default=None, repr=False)
+    _lost: Sums | None = field(default=None, repr=False)
 
     @classmethod
-    def of(cls, values: ArrayLike, better: Literal["larger", "smaller"], unreached: int = 0, singular: int = 0) -> Distribution:
-        """The distribution of values at hand."""
+    def of(
+        cls,
+        values: ArrayLike,
+        better: Literal["larger", "smaller"],
+        unreached: int = 0,
+        singular: int = 0,
+        weights: ArrayLike | None = None,
+        unreached_weights: ArrayLike = (),
+    ) -> Distribution:
+        """The distribution of values at hand.
+
+        Args:
+            values: (N,) at the poses that have a configuration.
+            better: Which values are better.
+            unreached: Number of poses without a configuration.
+            singular: How many of the values are at singular configurations.
+            weights: (N,) of the values, 0 or more; all count alike if not given.
+            unreached_weights: (unreached,) of the poses without a configuration, if ``weights`` are given.
+        """
+        if weights is not None:
+            lost = Sums()
+            lost.add(np.asarray(unreached_weights, dtype=np.float64))
+            v, w = np.asarray(values, dtype=np.float64), np.asarray(weights, dtype=np.float64)
+            return cls._weighted(v, w, better, unreached, singular, lost)
         sorted_values = np.sort(np.asarray(values, dtype=np.float64))
         finite = sorted_values[np.isfinite(sorted_values)]
         return cls(
@@ -82,6 +93,38 @@ class Distribution:
             _reached=len(sorted_values),
         )
 
+    @classmethod
+    def _weighted(
+        cls, values: Array, weights: Array, better: Literal["larger", "smaller"], unreached: int, singular: int, lost: Sums
+    ) -> Distribution:
+        order = np.argsort(values, kind="stable")
+        v, w = values[order], weights[order]
+        finite, found = Sums(), Sums()
+        some = np.isfinite(v)
+        finite.add(w[some])
+        found.add(w)
+        counting = v[some & (w > 0)]
+        return cls(
+            better,
+            values=v,
+            unreached=unreached,
+            singular=singular,
+            infinite=int((~some).sum()),
+            total=float(v[some] @ w[some]),
+            lowest=float(counting[0]) if counting.size else np.nan,
+            highest=float(counting[-1]) if counting.size else np.nan,
+            weights=w,
+            _reached=len(v),
+            _finite=finite,
+            _found=found,
+            _lost=lost,
+        )
+
+    @property
+    def weighted(self) -> bool:
+        """True if samples have weights."""
+        return self._found is not None
+
     @property
     def reached(self) -> int:
         """Poses with a configuration."""
@@ -95,31 +138,71 @@ class Distribution:
     @property
     def mean(self) -> float:
         """Mean of the finite values at the poses that have a configuration."""
-        finite = self._reached - self.infinite
+        finite = self._finite_weight
         return self.total / finite if finite else np.nan
 
-    def _size(self, reachable_only: bool) -> int:
-        size = self.reached if reachable_only else self.samples
+    @property
+    def unreached_share(self) -> float:
+        """Share of the samples without a configuration, by weight."""
+        return self._lost_weight / self._size(False)
+
+    def effective(self, reachable_only: bool = False) -> float:
+        """Effective sample size, ``(sum w)^2 / sum w^2``: so many equal samples say as much as these; all of them if equal.
+
+        Source: Kish 1965, section 11.7.
+        """
+        size = self._size(reachable_only)
+        if self._found is None or self._lost is None:
+            return float(size)
+        squares = self._found.squares + (0.0 if reachable_only else self._lost.squares)
+        return float(size) ** 2 / squares
+
+    def total_weight(self, reachable_only: bool = False) -> float:
+        """Sum of the weights of the samples; their number if all count alike."""
+        return self._size(reachable_only)
+
+    @cached_property
+    def _cumulative(self) -> Array:
+        """Weight of the first k values, or of the first k bins."""
+        parts = self.counts if self.values is None else self.weights
+        assert parts is not None
+        return np.r_[0, np.cumsum(parts)]
+
+    @property
+    def _finite_weight(self) -> float:
+        return self._reached - self.infinite if self._finite is None else self._finite.weight
+
+    @property
+    def _lost_weight(self) -> float:
+        return self.unreached if self._lost is None else self._lost.weight
+
+    def _size(self, reachable_only: bool) -> float:
+        """Total weight: the number of samples if all count alike."""
+        size: float = self.reached if reachable_only else self.samples
         if not self.samples:
             raise InputError("this distribution has no samples: nothing is computed yet")
         if not size:
             raise InputError(
                 "this distribution has no samples; no pose was reached: use reachable_only=False or another region"
             )
+        if self.weighted:
+            size = float(self._cumulative[-1])  # not the sum of chunks: F must end at 1
+            size = size if reachable_only else size + self._lost_weight
+            if not size > 0:
+                raise InputError("the weights of these samples are all 0; give at least one a weight above 0")
         return size
 
     def _below(self, h: Array, reachable_only: bool) -> Array:
-        """Number of samples whose value is less than h."""
+        """Weight of the samples whose value is less than h: their number if all count alike."""
         if self.values is not None:
-            count = np.searchsorted(self.values, h, side="left").astype(np.float64)
+            place = np.searchsorted(self.values, h, side="left")
+            count = place.astype(np.float64) if self.weights is None else self._cumulative[place]
         else:
             assert self.edges is not None
-            assert self.counts is not None
-            cumulative = np.r_[0, np.cumsum(self.counts)]
-            count = np.interp(h, self.edges, cumulative[: len(self.edges)])
-            count = np.where(np.isposinf(h), self.reached - self.infinite, count)
+            count = np.interp(h, self.edges, self._cumulative[: len(self.edges)])
+            count = np.where(np.isposinf(h), self._finite_weight, count)
         if not reachable_only and self.better == "larger":
-            count = count + np.where(h > 0, self.unreached, 0)
+            count = count + np.where(h > 0, self._lost_weight, 0)
         return np.asarray(count)
 
     def cdf(self, h: ArrayLike, reachable_only: bool = False) -> Array:
@@ -145,14 +228,14 @@ class Distribution:
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
-        """The probability with its Wilson score interval.
+        """The probability with its Wilson score interval; of weighted samples with the :meth:`effective` sample size.
 
         Raises:
             InputError: Not exactly one threshold, or a confidence outside (0, 1).
         """
         if (at_least is None) == (at_most is None):
             raise InputError("give exactly one of at_least and at_most")
-        _check_confidence(confidence)
+        check_confidence(confidence)
         if any(h is not None and np.isnan(h) for h in (at_least, at_most)):
             raise InputError("a threshold is NaN; give a number")
         size = self._size(reachable_only)
@@ -162,16 +245,19 @@ class Distribution:
             assert at_most is not None
             up = np.nextafter(float(at_most), np.inf)
             hits = size if np.isposinf(at_most) else float(self._below(np.asarray(up), reachable_only))
-        return Interval.of(hits, size, confidence)
+        if self.weighted:
+            return Interval.of_share(float(np.clip(hits / size, 0, 1)), self.effective(reachable_only), confidence)
+        return Interval.of(hits, int(size), confidence)
 
     def band(self, confidence: float = 0.95, reachable_only: bool = False) -> float:
         """Half width of the band that holds the whole true CDF with the given confidence.
 
         Source: Dvoretzky, Kiefer, Wolfowitz 1956 with the constant of Massart 1990: ``sqrt(ln(2/delta)/(2N))``.
-        It assumes independent samples; for scrambled Sobol points it is conservative in practice, not by theorem.
+        It assumes independent samples; for scrambled Sobol points it is conservative in practice, not by theorem. With
+        weights, N is the :meth:`effective` sample size and the band approximate.
         """
-        _check_confidence(confidence)
-        return float(np.sqrt(np.log(2 / (1 - confidence)) / (2 * self._size(reachable_only))))
+        check_confidence(confidence)
+        return float(np.sqrt(np.log(2 / (1 - confidence)) / (2 * self.effective(reachable_only))))
 
     def quantile(self, p: ArrayLike, reachable_only: bool = True) -> Array:
         """Smallest value v with ``share(value <= v) >= p``."""
@@ -179,6 +265,8 @@ class Distribution:
         if not ((p_ >= 0) & (p_ <= 1)).all():
             raise InputError("a quantile is asked for a share outside 0 to 1")
         size = self._size(reachable_only)
+        if self.weighted:
+            return self._weighted_quantile(p_, size, 0.0 if reachable_only else self._lost_weight)
         lost = 0 if reachable_only else self.unreached
         rank = np.maximum(np.ceil(p_ * size) - 1, 0)  # from 0
         rank -= (rank >= 1) & (rank / size >= p_)  # p * size may round up past a whole number
@@ -197,6 +285,23 @@ class Distribution:
         outside = rank < offset if worst_first else rank >= self.reached
         return np.where(outside, 0.0 if worst_first else np.inf, found)
 
+    def _weighted_quantile(self, p: Array, size: float, lost: float) -> Array:
+        least = np.maximum(
+            p * (1 - 1e-12), np.finfo(np.float64).tiny
+        )  # sums of weights are rounded; a share of 0 asks for more
+        offset = lost if self.better == "larger" else 0.0
+        place = np.searchsorted((offset + self._cumulative[1:]) / size, least, side="left")
+        beyond = place == len(self._cumulative) - 1
+        if self.values is not None:
+            held = self.values
+        else:
+            assert self.edges is not None
+            held = self.edges[1:]
+        found = held[np.minimum(place, len(held) - 1)] if held.size else np.full(p.shape, np.nan)
+        if self.better == "larger":
+            return np.where((lost > 0) & (least <= offset / size), 0.0, found)
+        return np.where(beyond, np.inf, found)
+
     def density(self, bins: int = 40) -> tuple[Array, Array]:
         """Edges (bins + 1,) and probability density (bins,) of the finite values at reached poses; integrates to their share.
 
@@ -210,11 +315,13 @@ class Distribution:
             low, high = middle - half, middle + half
         edges = np.linspace(low, high, bins + 1)
         if self.values is not None:
-            counts = np.histogram(self.values[np.isfinite(self.values)], edges)[0].astype(np.float64)
+            some = np.isfinite(self.values)
+            weights = None if self.weights is None else self.weights[some]
+            counts = np.histogram(self.values[some], edges, weights=weights)[0].astype(np.float64)
         else:
             below = self._below(edges, True)
-            below[-1] = size - self.infinite
-            counts = np.diff(below)
+            below[-1] = self._finite_weight
+            counts = np.maximum(np.diff(below), 0.0)
         return edges, counts / (size * np.diff(edges))
 
 
@@ -226,27 +333,50 @@ class Collector:
         self._parts: list[Array] = []
         self._kept = 0
         self._edges: Array | None = None
-        self._counts: NDArray[np.int64] | None = None
+        self._counts: NDArray[np.int64] | Array | None = None
+        self._weights: list[Array] = []
+        self._sums: tuple[Sums, Sums, Sums] | None = None  # of finite values, of reached poses, of the others
         self._unreached = self._singular = self._infinite = self._reached = 0
         self._total, self._low, self._high = 0.0, np.inf, -np.inf
 
-    def add(self, values: Array, unreached: int, singular: int) -> None:
-        """Values at reached poses, number of the others, and how many of the values are singular."""
+    def add(
+        self,
+        values: Array,
+        unreached: int,
+        singular: int,
+        weights: Array | None = None,
+        unreached_weights: Array | None = None,
+    ) -> None:
+        """Values at reached poses, number of the others, and how many of the values are singular.
+
+        Weights, of the values and of the poses not reached, are given with every chunk or with none.
+        """
         self._unreached += unreached
         self._singular += singular
         self._reached += len(values)
-        finite = values[np.isfinite(values)]
+        some = np.isfinite(values)
+        finite = values[some]
         self._infinite += len(values) - len(finite)
-        if finite.size:
+        if weights is not None and unreached_weights is not None:
+            if self._sums is None:
+                self._sums = Sums(), Sums(), Sums()
+            for sums, w in zip(self._sums, (weights[some], weights, unreached_weights), strict=True):
+                sums.add(w)
+            self._total += float(finite @ weights[some])
+            finite = values[some & (weights > 0)]
+        elif finite.size:
             self._total += float(finite.sum())
+        if finite.size:
             self._low, self._high = min(self._low, float(finite.min())), max(self._high, float(finite.max()))
         if self._edges is None:
             self._parts.append(values)
+            if weights is not None:
+                self._weights.append(weights)
             self._kept += len(values)
             if self._kept > self._most:
                 self._start_bins()
         else:
-            self._count(values)
+            self._count(values, weights)
 
     def _start_bins(self) -> None:
         seen = np.concatenate(self._parts)
@@ -261,11 +391,12 @@ class Collector:
             dense = np.quantile(finite, np.linspace(0, 1, BINS // 2)) if finite.size else np.zeros(0)
             edges = np.unique(np.r_[even, dense, np.finfo(np.float64).max])
         self._edges = np.r_[edges, np.inf]
-        self._counts = np.zeros(len(self._edges) - 1, dtype=np.int64)
-        self._parts = []
-        self._count(seen)
+        weights = np.concatenate(self._weights) if self._weights else None
+        self._counts = np.zeros(len(self._edges) - 1, dtype=np.int64 if weights is None else np.float64)
+        self._parts, self._weights = [], []
+        self._count(seen, weights)
 
-    def _count(self, values: Array) -> None:
+    def _count(self, values: Array, weights: Array | None) -> None:
         assert self._edges is not None
         assert self._counts is not None
         last = len(self._counts) - 1
@@ -273,12 +404,15 @@ class Collector:
             place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
-        self._counts += np.bincount(place.clip(0, last), minlength=last + 1)
+        self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)
 
     def finish(self) -> Distribution:
         """The distribution of everything added."""
         if self._edges is None:
             values = np.concatenate(self._parts) if self._parts else np.zeros(0)
+            if self._sums is not None:
+                weights = np.concatenate(self._weights)
+                return Distribution._weighted(values, weights, self._better, self._unreached, self._singular, self._sums[2])
             return Distribution.of(values, self._better, self._unreached, self._singular)
         return Distribution(
             self._better,
@@ -291,9 +425,5 @@ class Collector:
             lowest=self._low,
             highest=self._high,
             _reached=self._reached,
+            **({} if self._sums is None else dict(zip(("_finite", "_found", "_lost"), self._sums, strict=True))),
         )
-
-
-def _check_confidence(confidence: float) -> None:
-    if not 0 < confidence < 1:
-        raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +30,10 @@ LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
 _SURVIVES = (
     "1 if the pose can still be reached once the joint has locked where it was at another pose, 0 if not found, -1 unknown"
 )
+_SURVIVES_AT = (
+    "1 if the pose can still be reached once the joint has locked at the angle that the plan gives, or where it was at another "
+    "pose, 0 if not found, -1 unknown or not asked"
+)
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,8 @@ class Plan:
         restarts: Random starts per pose before it counts as not found.
         optimise: Also look for the best configuration of each pose.
         after_lock: Also ask for each pose and joint whether the pose can still be reached once the joint has locked.
+        lock_at: Joints, indices from 0, that lock at a given angle (rad or m) instead of one in use. They are asked for with
+            or without ``after_lock``.
     """
 
     region: Region
@@ -54,12 +61,15 @@ class Plan:
     restarts: int
     optimise: bool
     after_lock: bool = False
+    lock_at: tuple[tuple[int, float], ...] = ()
 
     def __post_init__(self) -> None:
         for what, least in (("poses", 1), ("seed", 0), ("restarts", 1)):
             object.__setattr__(self, what, _whole(what, getattr(self, what), least))
         if self.sampling not in ("random", "sobol"):
             raise InputError(f"sampling '{self.sampling}' is not known; use 'random' or 'sobol'")
+        if self.region.kind == "sampler" and self.sampling != "random":
+            raise InputError(f"region '{self.region.name}' draws its poses itself; use sampling 'random'")
         if self.region.kind == "joints":
             if len(self.region.center) != self.arm.n:
                 raise InputError(
@@ -67,13 +77,24 @@ class Plan:
                 )
             if self.optimise:
                 raise InputError("a region of joints fixes the configurations, so there is nothing to optimise; give a box")
-            if self.after_lock:
+            if self.locks:
                 raise InputError("a region of joints has no poses to reach after a lock; give a box")
 
     @property
     def arm(self) -> Arm:
         """The arm of the index."""
         return self.index.arm
+
+    @property
+    def locks(self) -> dict[int, float | None]:
+        """What locks of its own: joints, indices from 0, with the angle, or None for one in use at another pose."""
+        given = dict(self.lock_at)
+        return {k: given.get(k) for k in range(self.arm.n) if self.after_lock or k in given}
+
+    @property
+    def weighted(self) -> bool:
+        """True if rows have weights."""
+        return self.region.weighted(self.poses)
 
     # ---- files -----------------------------------------------------------------------------------------------------
 
@@ -102,12 +123,15 @@ class Plan:
             data["optimise"] = default_starts(self.arm, task)
         if self.after_lock:
             data["after_lock"] = LOCK_RESTARTS
+        if self.lock_at:
+            angles = {self.arm.joint_names[k]: angle for k, angle in self.lock_at}
+            data["lock_at"] = {"angles": angles, "restarts": LOCK_RESTARTS}
         return data
 
     @property
     def storable(self) -> bool:
-        """False for an index that a folder cannot hold."""
-        return self.index.slug in BY_NAME
+        """False for an index or a region that a folder cannot hold."""
+        return self.index.slug in BY_NAME and self.region.storable
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:
@@ -118,7 +142,15 @@ class Plan:
         index = by_name(data["index"], arm, task, [list(f) for f in data["failures"]])
         region = Region.from_dict(data["region"])
         return cls(
-            region, index, poses, data["seed"], data["sampling"], data["restarts"], "optimise" in data, "after_lock" in data
+            region,
+            index,
+            poses,
+            data["seed"],
+            data["sampling"],
+            data["restarts"],
+            "optimise" in data,
+            "after_lock" in data,
+            read_locks(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
         )
 
     def columns(self) -> list[Column]:
@@ -134,15 +166,17 @@ class Plan:
             Column("optimised_worst", "int16", (), "1", "position of the worst failure there; -1 if there is none"),
             Column("agreeing", "float64", (), "1", "share of the starts followed to the end that reached the best value"),
         ]
+        survives = _SURVIVES_AT if self.lock_at else _SURVIVES
         return [
-            *(pose if self.region.kind == "box" else []),
+            *(pose if self.region.kind != "joints" else []),
+            *([Column("weight", "float64", (), "1", "how much the pose counts")] if self.weighted else []),
             Column("q", "float64", (("joint", n),), "rad or m", "configuration; NaN where none was found"),
             Column("status", "uint8", (), "1", "0 ok, 1 not found, 3 singular, 255 not computed yet"),
             Column("index", "float64", (), unit, about),
             Column("by_failure", "float64", (("failure", f),), unit, f"{self.index.name} for each failure"),
             Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
             *(best if self.optimise else []),
-            *([Column("survives", "int8", (("lock", n),), "1", _SURVIVES)] if self.after_lock else []),
+            *([Column("survives", "int8", (("lock", n),), "1", survives)] if self.locks else []),
         ]
 
     # ---- rows ------------------------------------------------------------------------------------------------------
@@ -150,7 +184,7 @@ class Plan:
     def compile(self) -> None:
         """Compile in this thread, once, instead of in every worker at the same time."""
         self.index.evaluate(np.zeros((1, self.arm.n)))
-        if self.region.kind == "box":
+        if self.region.kind != "joints":
             solver(self.arm, self.index.task)
         if self.optimise:
             objective_ascent(self.index)
@@ -201,14 +235,16 @@ class Plan:
                 "optimised_worst": best_worst,
                 "agreeing": best.agreeing,
             }
-        if self.after_lock:
+        if self.weighted:
+            rows["weight"] = self.region.weights(samples)
+        if self.locks:
             rows["survives"] = self._survival(poses, reach.q, reach.success, number)
         return rows
 
     def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> NDArray[np.int8]:
-        """For each reached pose and each joint: is it still reached with the joint locked where another pose had it?
+        """For each reached pose and each joint asked for: is it still reached once the joint has locked?
 
-        The angle of the lock is drawn from those in use: joint k stands where it was at another reached pose of the block.
+        It locks at the angle given, or at one drawn from those in use: where it was at another reached pose of the block.
         """
         n = self.arm.n
         result = np.full((len(poses), n), -1, dtype=np.int8)
@@ -219,11 +255,44 @@ class Plan:
         draw, starts = seed.spawn(2)
         generator = np.random.default_rng(draw)
         angles = np.stack([q[rows[generator.integers(rows.size, size=rows.size)], k] for k in range(n)], axis=1)
-        locked = np.tile(np.arange(n), rows.size)
+        for k, angle in self.lock_at:
+            angles[:, k] = angle
+        asked = np.array(list(self.locks))
+        locked = np.tile(asked, rows.size)
         engine = solver(self.arm, self.index.task)
-        found = engine.reaches_locked(poses[np.repeat(rows, n)], locked, angles.ravel(), starts, LOCK_RESTARTS, TOLERANCE)
-        result[rows] = found.reshape(-1, n)
+        found = engine.reaches_locked(
+            poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE
+        )
+        result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
         return result
+
+
+def read_locks(arm: Arm, given: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:
+    """Angles of locks by joint, as a plan holds them: in the order of the joints.
+
+    Raises:
+        InputError: No such joint, one given twice, or an angle that is not finite or beyond the joint's limits.
+    """
+    if not isinstance(given, Mapping):
+        raise InputError(f"lock_at is {given!r}; it must be angles by joint, for example {{'{arm.joint_names[0]}': 0.3}}")
+    found: dict[int, float] = {}
+    for joint, angle in given.items():
+        k = arm.joint_index(joint)
+        name, unit = arm.joint_names[k], "m" if arm.prismatic[k] else "rad"
+        if k in found:
+            raise InputError(f"lock_at gives joint '{name}' twice; give each joint once")
+        try:
+            value = float(angle)
+        except (TypeError, ValueError):
+            value = np.nan
+        if not np.isfinite(value):
+            raise InputError(f"lock_at of joint '{name}' is {angle!r}; it must be a finite number, {unit}")
+        if not arm.lower[k] <= value <= arm.upper[k]:
+            raise InputError(
+                f"joint '{name}' cannot lock at {value:g} {unit}: its limits are {arm.lower[k]:g} to {arm.upper[k]:g} {unit}"
+            )
+        found[k] = value
+    return tuple(sorted(found.items()))
 
 
 def _worst(result: Evaluation) -> NDArray[np.int16]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -12,10 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.assess.poses import PoseList
+from holdfast.assess.weights import Density, check_weights
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 Sampling = Literal["random", "sobol"]
+Draw = Callable[[np.random.Generator, int], ArrayLike | tuple[ArrayLike, ArrayLike]]
+Weight = Callable[[Array], ArrayLike]
 
 _POSE_BLOCK = 1024
 _JOINT_BLOCK = 16384
@@ -45,21 +49,28 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class Region:
-    """A distribution of poses (a box in position and angles) or of configurations (a box in the joints).
+    """A distribution of poses (a box in position and angles, a list, a function) or of configurations (a box in the joints).
 
-    Use :meth:`box` or :meth:`joints`. Samples come in blocks, each with its own seed, so that the k-th sample of a seed
-    is the same whatever is computed before, beside or after it.
+    Use :meth:`box`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its own seed,
+    so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have weights
+    where the robot works more; statistics are then of the weights.
 
     Attributes:
-        kind: ``box`` or ``joints``.
-        center, size: Of the box: (6,) position then roll, pitch, yaw; or (n,) joints. m and rad.
+        kind: ``box``, ``joints``, ``poses`` (a list) or ``sampler`` (a function).
+        center, size: Of the box: (6,) position then roll, pitch, yaw; or (n,) joints. m and rad. Empty for the other kinds.
         name: For reports.
+        weight: Of the samples (N, 6) of a box, or None if all count alike.
+        listed: The poses of a list.
+        draw: The function of a sampler, and whether it gives weights.
     """
 
-    kind: Literal["box", "joints"]
+    kind: Literal["box", "joints", "poses", "sampler"]
     center: tuple[float, ...]
     size: tuple[float, ...]
     name: str = "region"
+    weight: Weight | None = None
+    listed: PoseList | None = None
+    draw: tuple[Draw, bool] | None = None
 
     @classmethod
     def box(
@@ -69,8 +80,9 @@ class Region:
         rpy_center: ArrayLike = (0.0, 0.0, 0.0),
         rpy_size: ArrayLike = (0.0, 0.0, 0.0),
         name: str = "region",
+        weight: Weight | Mapping[str, Sequence[Sequence[float]]] | None = None,
     ) -> Region:
-        """Poses uniform in a box of positions and, independently, a box of angles.
+        """Poses uniform in a box of positions and, independently, a box of angles; with weights if some count more.
 
         Args:
             center: (3,) middle in the world, m.
@@ -79,9 +91,13 @@ class Region:
             rpy_size: (3,) full ranges, rad, or a scalar; angles are drawn about the centre by addition, so the pitch may
                 leave +-90 degrees.
             name: For reports.
+            weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, roll,
+                pitch, yaw in m and rad, that gives (N,); a results folder cannot hold it. Or points by coordinate, which
+                it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant beyond them; several
+                coordinates are multiplied.
 
         Raises:
-            InputError: Not three finite numbers, or a negative size.
+            InputError: Not three finite numbers, a negative size, or weights of neither kind.
         """
         parts = []
         for what, value, scalar in (
@@ -102,7 +118,49 @@ class Region:
                 raise InputError(f"region: {what} is {a.tolist()}; sizes must not be negative")
             parts.append(a)
         middle, edges = np.r_[parts[0], parts[2]], np.r_[parts[1], parts[3]]
-        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name)
+        if weight is not None and not callable(weight):
+            if not isinstance(weight, Mapping):
+                raise InputError("region: weight must be a function of samples (N, 6), or points by coordinate")
+            weight = Density.of(weight)
+        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name, weight)
+
+    @classmethod
+    def from_poses(cls, poses: ArrayLike, weights: ArrayLike | None = None, name: str = "list of poses") -> Region:
+        """A list of poses: a recorded job, waypoints.
+
+        An assessment of as many poses as the list has (which is what it does if not told how many) uses each once, in
+        order and with its weight. Any other number is drawn from the list at random, with replacement and in proportion to
+        the weights; the poses drawn then count alike.
+
+        Args:
+            poses: (N, 4, 4) in the world, m.
+            weights: (N,) how much each counts, 0 or more; all alike if not given.
+            name: For reports.
+
+        Raises:
+            InputError: Poses that are not transforms, not finite or none, or weights that are not one per pose.
+        """
+        return cls("poses", (), (), name, listed=PoseList.of(poses, weights))
+
+    @classmethod
+    def sampler(cls, draw: Draw, name: str = "own sampler") -> Region:
+        """Poses drawn by a function of your own; a results folder cannot hold it.
+
+        Args:
+            draw: ``draw(generator, count)`` gives poses (count, 4, 4) in the world, m, or a pair of poses and weights
+                (count,), 0 or more. It must take all that is random from the ``numpy.random.Generator`` and keep nothing
+                from call to call: then the same seed gives the same poses.
+            name: For reports.
+
+        Raises:
+            InputError: What it draws (two poses, to try) is not that.
+        """
+        if not callable(draw):
+            raise InputError("region: a sampler must be a function draw(generator, count)")
+        found = draw(np.random.default_rng(0), 2)
+        region = cls("sampler", (), (), name, draw=(draw, isinstance(found, tuple)))
+        region._checked(found, 2)
+        return region
 
     @classmethod
     def joints(cls, lower: ArrayLike, upper: ArrayLike, name: str = "joint range") -> Region:
@@ -152,57 +210,138 @@ class Region:
     @property
     def block(self) -> int:
         """Samples per block: the unit that has its own seed."""
-        return _POSE_BLOCK if self.kind == "box" else _JOINT_BLOCK
+        return _JOINT_BLOCK if self.kind == "joints" else _POSE_BLOCK
 
-    def blocks(self, first: int, seed: int, sampling: Sampling = "random") -> Iterator[Array]:
-        """Blocks of samples (block, 6) or (block, n), in order, from block number ``first`` on.
+    def weighted(self, count: int) -> bool:
+        """True if ``count`` samples carry weights: those drawn from a list in proportion to its weights do not."""
+        if self.listed is not None:
+            return self.listed.weights is not None and count == len(self.listed)
+        return self.weight is not None or (self.draw is not None and self.draw[1])
+
+    def blocks(self, first: int, seed: int, sampling: Sampling = "random", count: int | None = None) -> Iterator[Array]:
+        """Blocks of samples, in order, from block number ``first`` on.
+
+        A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), of a sampler the first
+        three rows of the pose and its weight (13,).
 
         Args:
             first: Number of the first block.
             seed: Of the run.
             sampling: ``random`` or ``sobol`` (scrambled low-discrepancy points; use a power of two of them).
+            count: Samples asked for in all; matters for a list only, see :meth:`from_poses`.
         """
-        width = len(self.center)
-        low = np.array(self.center) - np.array(self.size) / 2
+        if self.draw is not None:
+            yield from self._drawn(first, seed)
+        elif self.listed is not None and count == len(self.listed):
+            for start in range(first * self.block, count, self.block):
+                yield np.arange(start, min(start + self.block, count), dtype=np.float64)[:, None]
+        elif self.listed is not None:
+            for unit in self._unit(first, seed, sampling, 1):
+                yield self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
+        else:
+            low = np.array(self.center) - np.array(self.size) / 2
+            for unit in self._unit(first, seed, sampling, len(self.center)):
+                unit *= np.array(self.size)
+                unit += low
+                yield unit
+
+    def _unit(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[Array]:
+        """Blocks (block, width) uniform in the unit cube."""
         engine = None
         if sampling == "sobol":
             from scipy.stats import qmc
 
             engine = qmc.Sobol(width, scramble=True, rng=np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))))
-            if first:
-                engine.fast_forward(first * self.block)
-        number = first
+            if number:
+                engine.fast_forward(number * self.block)
         while True:
             if engine is not None:
-                unit = engine.random(self.block)
+                yield engine.random(self.block)
             else:
-                generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
-                unit = generator.random((self.block, width))
-            unit *= np.array(self.size)
-            unit += low
-            yield unit
+                yield self._generator(seed, number).random((self.block, width))
             number += 1
 
+    def _drawn(self, number: int, seed: int) -> Iterator[Array]:
+        assert self.draw is not None
+        while True:
+            yield self._checked(self.draw[0](self._generator(seed, number), self.block), self.block)
+            number += 1
+
+    @staticmethod
+    def _generator(seed: int, number: int) -> np.random.Generator:
+        return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
+
+    def _checked(self, found: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> Array:
+        """What a sampler drew as samples (count, 13)."""
+        from holdfast.solve.inverse import check_poses
+
+        assert self.draw is not None
+        what = f"region '{self.name}': its sampler"
+        if isinstance(found, tuple) != self.draw[1] or (isinstance(found, tuple) and len(found) != 2):
+            raise InputError(f"{what} must give poses, or always a pair of poses and weights")
+        poses, weights = found if isinstance(found, tuple) else (found, np.ones(count))
+        try:
+            t = check_poses(poses)
+        except (InputError, TypeError, ValueError) as error:
+            raise InputError(f"{what}: {error}") from error
+        if t.shape[0] != count or not np.isfinite(t).all():
+            raise InputError(f"{what} gave {len(t)} poses, asked were {count} of finite numbers")
+        return np.concatenate([t[:, :3].reshape(count, 12), check_weights(weights, count, what)[:, None]], axis=1)
+
     def poses(self, samples: Array) -> Array:
-        """Poses (N, 4, 4) of samples (N, 6) of a box."""
+        """Poses (N, 4, 4) of samples (N, 6) of a box, (N, 1) of a list or (N, 13) of a sampler."""
+        if self.listed is not None:
+            return self.listed.poses(samples[:, 0].astype(np.int64))
         t = np.zeros((len(samples), 4, 4))
+        t[:, 3, 3] = 1.0
+        if self.draw is not None:
+            t[:, :3] = samples[:, :12].reshape(-1, 3, 4)
+            return t
         t[:, :3, 3] = samples[:, :3]
         t[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
-        t[:, 3, 3] = 1.0
         return t
+
+    def weights(self, samples: Array) -> Array:
+        """Weights (N,) of samples, 1 where none are given."""
+        if self.listed is not None and self.listed.weights is not None:
+            return self.listed.weights[samples[:, 0].astype(np.int64)]
+        if self.draw is not None:
+            return np.asarray(samples[:, 12])
+        if self.weight is not None:
+            return check_weights(self.weight(samples), len(samples), f"region '{self.name}': its weight function")
+        return np.ones(len(samples))
 
     # ---- files -----------------------------------------------------------------------------------------------------
 
+    @property
+    def storable(self) -> bool:
+        """False for a function of your own, which a folder cannot hold."""
+        return self.draw is None and (self.weight is None or isinstance(self.weight, Density))
+
     def to_dict(self) -> dict[str, Any]:
-        """JSON data of the region."""
-        return {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
+        """JSON data of the region; complete if it is :attr:`storable`."""
+        if self.listed is not None:
+            return {"kind": self.kind, "name": self.name, **self.listed.to_dict()}
+        if self.draw is not None:
+            return {"kind": self.kind, "name": self.name}
+        found: dict[str, Any] = {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
+        if self.weight is not None:
+            found["density"] = self.weight.to_dict() if isinstance(self.weight, Density) else "a function of your own"
+        return found
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Region:
         """The region :meth:`to_dict` wrote."""
+        if data["kind"] == "poses":
+            return cls("poses", (), (), data["name"], listed=PoseList.from_dict(data))
         if data["kind"] not in ("box", "joints"):
-            raise InputError(f"region: kind '{data['kind']}' is not known; use box or joints")
-        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"])
+            raise InputError(f"region: kind '{data['kind']}' is not known; use box, joints or poses")
+        weight = None
+        if "density" in data:
+            if not isinstance(data["density"], dict):
+                raise InputError(f"region: density is {data['density']!r}; it must be points by coordinate")
+            weight = Density.of(data["density"])
+        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"], weight)
 
     @classmethod
     def load(cls, path: str | Path) -> Region:
@@ -219,12 +358,19 @@ class Region:
         """One sentence for people, degrees and metres."""
         if self.kind == "joints":
             return f"configurations uniform in a box of {len(self.center)} joints"
+        if self.listed is not None:
+            return f"a list of {len(self.listed):,} poses{', with weights' if self.listed.weights is not None else ''}"
+        if self.draw is not None:
+            return f"poses drawn by a function of your own{', with weights' if self.draw[1] else ''}"
+        own = "; weighted by a function of your own" if self.weight is not None else ""
+        weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else own
         c, s = np.round(self.center, 12), np.round(self.size, 12)
         return (
             f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
             "roll, pitch, yaw in "
             f"{np.rad2deg(s[3]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[5]):.4g} deg about "
             f"({np.rad2deg(c[3]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[5]):.4g}) deg, R = Rz(roll) Ry(pitch) Rx(yaw)"
+            f"{weight}"
         )
 
 

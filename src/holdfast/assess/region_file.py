@@ -10,7 +10,11 @@
       rpy_center: [0, 174, 0]        # roll, pitch, yaw: R = Rz(roll) Ry(pitch) Rx(yaw)
       rpy_size: 90                   # full range, one or three
 
-or, for configurations instead of poses, ``joints:`` with the lists ``lower`` and ``upper``, rad and m.
+In a box, ``density: {z: [[0.0, 1], [0.5, 3]]}`` makes poses count more where the robot works more: points of coordinate
+(x, y, z, m; roll, pitch, yaw, in the unit of the angles) and weight, linear between them; coordinates are multiplied.
+
+For configurations instead of poses, ``joints:`` with the lists ``lower`` and ``upper``, rad and m; for a list of poses,
+``poses: file.csv``, relative to the region file, a table with the header x,y,z,qx,qy,qz,qw and perhaps weight.
 """
 
 from __future__ import annotations
@@ -23,6 +27,7 @@ import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from holdfast.assess.poses import PoseList
 from holdfast.assess.region import Region
 from holdfast.errors import InputError
 
@@ -38,14 +43,14 @@ def read(path: str | Path) -> Region:
         reason = " ".join(str(error).split())
         raise InputError(f"region file '{file}' is not valid YAML: {reason}") from error
     if not isinstance(data, dict):
-        raise InputError(f"region file '{file}' must hold 'box:' or 'joints:' at its top level")
+        raise InputError(f"region file '{file}' must hold 'box:', 'joints:' or 'poses:' at its top level")
     try:
         model = _RegionFile.model_validate(data)
     except ValidationError as error:
         raise InputError(f"region file '{file}': {_first(error)}") from error
-    if (model.box is None) == (model.joints is None):
-        raise InputError(f"region file '{file}' must hold either 'box:' or 'joints:'")
-    if model.joints is not None and model.angles == "deg":
+    if [model.box, model.joints, model.poses].count(None) != 2:
+        raise InputError(f"region file '{file}' must hold either 'box:' or 'joints:' or 'poses:'")
+    if model.box is None and model.angles == "deg":
         raise InputError(f"region file '{file}': 'angles: deg' goes with 'box:'; joint values are in rad and m")
     name = model.name or file.stem
     unit = np.pi / 180 if model.angles == "deg" else 1.0
@@ -54,7 +59,11 @@ def read(path: str | Path) -> Region:
             b = model.box
             size = np.broadcast_to(b.size, 3)
             angles = np.multiply(b.rpy_center, unit), np.broadcast_to(b.rpy_size, 3) * unit
-            return Region.box(b.center, size, *angles, name=name)
+            scale = {"roll": unit, "pitch": unit, "yaw": unit}
+            density = {c: [(x * scale.get(c, 1.0), w) for x, w in points] for c, points in (b.density or {}).items()}
+            return Region.box(b.center, size, *angles, name=name, weight=density or None)
+        if model.poses is not None:
+            return Region("poses", (), (), name, listed=PoseList.read(file.parent / model.poses))
         assert model.joints is not None
         return Region.joints(model.joints.lower, model.joints.upper, name=name)
     except InputError as error:
@@ -70,6 +79,7 @@ class _Box(_Strict):
     size: float | tuple[float, float, float]
     rpy_center: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rpy_size: float | tuple[float, float, float] = (0.0, 0.0, 0.0)
+    density: dict[str, list[tuple[float, float]]] | None = None
 
 
 class _Joints(_Strict):
@@ -82,6 +92,7 @@ class _RegionFile(_Strict):
     angles: Literal["deg", "rad"] = "rad"
     box: _Box | None = None
     joints: _Joints | None = None
+    poses: str | None = None
 
 
 def _first(error: ValidationError) -> str:

@@ -27,7 +27,7 @@ Progress = Callable[[int, int], None]
 def blocks(plan: Plan, first: int, stop: int) -> Generator[tuple[int, Rows], None, None]:
     """Blocks in order from number ``first`` up to row ``stop``; a few ahead of the consumer are at work in the pool."""
     size = plan.region.block
-    source = plan.region.blocks(first, plan.seed, plan.sampling)
+    source = plan.region.blocks(first, plan.seed, plan.sampling, plan.poses)
     numbers = iter(range(first, -(-stop // size)))
     waiting: deque[tuple[int, Future[Rows]]] = deque()
 
@@ -80,7 +80,7 @@ def stored(store: Store, plan: Plan) -> Iterator[Rows]:
     names = [c.name for c in plan.columns()]
     for k in store.done:
         rows = store.read(k, names)
-        lost = _lost(rows)
+        lost = _lost(rows, list(plan.locks))
         if lost is not None:
             raise StoreError(
                 f"'{store.path}' is damaged: chunk {k + 1} is marked done but its '{lost}' is lost; "
@@ -89,19 +89,24 @@ def stored(store: Store, plan: Plan) -> Iterator[Rows]:
         yield rows
 
 
-def _lost(rows: Rows) -> str | None:
+def _lost(rows: Rows, locks: list[int]) -> str | None:
     """A column whose values are the fill value where there must be one: its file is gone."""
     status = rows["status"]
     if (status == Status.NOT_COMPUTED).any():
         return "status"
     reached = (status == Status.OK) | (status == Status.SINGULAR)
     for name, values in rows.items():
-        if values.dtype.kind == "f" and np.isnan(values if name in ("position", "quaternion") else values[reached]).any():
+        if (
+            values.dtype.kind == "f"
+            and np.isnan(values if name in ("position", "quaternion", "weight") else values[reached]).any()
+        ):
             return name
     # Whole numbers are -1 where there is nothing; at an ordinary configuration, which the best one never undercuts, there is.
     for name in ("worst", "optimised_worst", "survives"):
-        if name in rows and (rows[name][status == Status.OK] < 0).any():
-            return name
+        if name in rows:
+            values = rows[name][:, locks] if name == "survives" else rows[name]  # joints not asked for have -1 everywhere
+            if (values[status == Status.OK] < 0).any():
+                return name
     return None
 
 
@@ -111,13 +116,15 @@ class Count:
     def __init__(self, plan: Plan, index: str, worst: str) -> None:
         self._collector = Collector(plan.index.better, plan.index.bound)
         self._index, self._worst = index, worst
-        self.worst = np.zeros(len(plan.index.failures), dtype=np.int64)
+        self.worst: NDArray[Any] = np.zeros(len(plan.index.failures), dtype=np.float64 if plan.weighted else np.int64)
 
     def add(self, rows: Rows, reached: NDArray[np.bool_]) -> None:
         """Count a block of rows."""
-        worst = rows[self._worst]
-        self._collector.add(rows[self._index][reached], int((~reached).sum()), int((worst[reached] < 0).sum()))
-        self.worst += np.bincount(worst[worst >= 0], minlength=self.worst.size)
+        worst, weight = rows[self._worst], rows.get("weight")
+        weights = () if weight is None else (weight[reached], weight[~reached])
+        self._collector.add(rows[self._index][reached], int((~reached).sum()), int((worst[reached] < 0).sum()), *weights)
+        some = worst >= 0
+        self.worst += np.bincount(worst[some], None if weight is None else weight[some], minlength=self.worst.size)
 
     def finish(self) -> Distribution:
         """The distribution of everything added."""
@@ -130,13 +137,15 @@ class Tally:
     Attributes:
         found: At the configurations that inverse kinematics found.
         optimised: At the best configurations, if the plan asks for them.
-        survivors: (n,) poses still reached once each joint has locked, if the plan asks for them.
+        survivors: (n,) poses still reached once each joint has locked, or their weights, if the plan asks for them.
     """
 
     def __init__(self, plan: Plan) -> None:
         self.found = Count(plan, "index", "worst")
         self.optimised = Count(plan, "optimised_index", "optimised_worst") if plan.optimise else None
-        self.survivors = np.zeros(plan.arm.n, dtype=np.int64) if plan.after_lock else None
+        self.survivors: NDArray[Any] | None = None
+        if plan.locks:
+            self.survivors = np.zeros(plan.arm.n, dtype=np.float64 if plan.weighted else np.int64)
 
     def add(self, rows: Rows) -> None:
         """Count a block of rows."""
@@ -145,7 +154,8 @@ class Tally:
         if self.optimised is not None:
             self.optimised.add(rows, reached)
         if self.survivors is not None:
-            self.survivors += (rows["survives"] == 1).sum(axis=0)
+            left = rows["survives"] == 1
+            self.survivors += rows["weight"] @ left if "weight" in rows else left.sum(axis=0)
 
 
 def provenance(seconds: float | None) -> dict[str, Any]:
