@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 from holdfast.arm.task import as_task, rows_task
-from holdfast.assess import facts, report, rerun, sections
+from holdfast.assess import facts, places, report, rerun
 from holdfast.assess.region import rotation_from_rpy
 from holdfast.cli.options import read_failures, read_task
 from holdfast.failures import failure_sets
@@ -251,7 +251,7 @@ def test_listed_angles_are_those_of_the_pose_and_inside_the_region() -> None:
     rng = np.random.default_rng(5)
     low, size = np.array(PAPER.center[3:]) - np.array(PAPER.size[3:]) / 2, np.array(PAPER.size[3:])
     drawn = low + size * rng.random((200, 3))
-    shown = sections._angles(rotation_from_rpy(drawn), PAPER)
+    shown = places._angles(rotation_from_rpy(drawn), PAPER)
     np.testing.assert_allclose(shown, drawn, atol=1e-9)
     anything = Rotation.random(50, rng=rng).as_matrix()
-    np.testing.assert_allclose(rotation_from_rpy(sections._angles(anything, JOINTS)), anything, atol=1e-9)
+    np.testing.assert_allclose(rotation_from_rpy(places._angles(anything, JOINTS)), anything, atol=1e-9)

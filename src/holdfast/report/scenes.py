@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any, Literal
@@ -339,7 +339,7 @@ def _key(kind: str, text: str) -> Any:
 
 def map_figure(
     points: Array,
-    values: Array,
+    samples: Mapping[str, Array],
     missing: Array,
     views: Sequence[View],
     log: bool,
@@ -350,8 +350,8 @@ def map_figure(
     """The value over a projection: per cell the mean (the median if smaller is better), and how many points have one.
 
     Args:
-        points: (N, 3) with a value each, m.
-        values: (N,)
+        points: (N, 3) with values, m.
+        samples: (N,) values of each sample by its name: a row of panels each, all in the same colours.
         missing: (M, 3) points without a value.
         views: One panel each.
         log: Colours on a log scale.
@@ -361,17 +361,27 @@ def map_figure(
     """
     everything = np.concatenate([points, missing])
     low, high = everything.min(axis=0), everything.max(axis=0)
-    grids = [_grid(points, values, missing, v, low, high, bins, smaller_is_better) for v in views]
-    cells = np.concatenate([g[2].ravel() for g in grids])
+    grids = [[_grid(points, v, missing, view, low, high, bins, smaller_is_better) for view in views] for v in samples.values()]
+    cells = np.concatenate([g[2].ravel() for row in grids for g in row])
     scale = replace(Scale.of(cells[~np.isnan(cells)], log, smaller_is_better), pale=True)
     with style():
         tall = max(float((high - low)[v.up] / (high - low)[v.right]) for v in views)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
-        panels = figure.subplots(1, len(views), squeeze=False)[0]
-        for axes, view, (x, y, mean, reached, drawn) in zip(panels, views, grids, strict=True):
-            _draw_cells(axes, x, y, mean, reached, drawn, scale, len(missing) > 0)
-            axes.set(xlabel=f"{_AXES[view.right]}, m", ylabel=f"{_AXES[view.up]}, m", title=view.title)
-        b = figure.colorbar(scale.mappable, ax=list(panels), shrink=0.85, aspect=26, pad=0.015, extend=scale.extend(cells))
+        height = float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8
+        figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, height * len(samples)))
+        panels = figure.subplots(len(samples), len(views), squeeze=False)
+        for name, line, row in zip(samples, panels, grids, strict=True):
+            for axes, view, (x, y, mean, reached, drawn) in zip(line, views, row, strict=True):
+                _draw_cells(axes, x, y, mean, reached, drawn, scale, len(missing) > 0)
+                title = f"{view.title}, {name}" if len(samples) > 1 else view.title
+                axes.set(xlabel=f"{_AXES[view.right]}, m", ylabel=f"{_AXES[view.up]}, m", title=title)
+        b = figure.colorbar(
+            scale.mappable,
+            ax=list(panels.ravel()),
+            shrink=0.85,
+            aspect=26 * len(samples),
+            pad=0.015,
+            extend=scale.extend(cells),
+        )
         _finish_bar(b, label, scale)
         return finished(figure)
 
