@@ -240,6 +240,11 @@ class Assessment:
     # ---- rows, files -----------------------------------------------------------------------------------------------
 
     @property
+    def kept(self) -> bool:
+        """True if the rows are at hand, in memory or in a folder, and not only counted in bins."""
+        return self._rows is not None or self.store is not None
+
+    @property
     def dataset(self) -> xr.Dataset:
         """Every pose with its configuration and index values, as an xarray dataset with units and provenance.
 

@@ -149,7 +149,7 @@ class Facts:
     @cached_property
     def rows(self) -> Rows | None:
         """Every pose that was computed; None if the rows were not kept."""
-        if not self.d.samples or (self.a._rows is None and self.a.store is None):
+        if not self.d.samples or not self.a.kept:
             return None
         s = sample(self.a, optimised=False)
         if self.a.region.kind == "joints":

@@ -88,7 +88,8 @@ def key_numbers(f: Facts) -> list[Block]:
         for name, which, _ in f.samples:
             median, best = (0.0 if f.nothing else x for x in (float(which.quantile(0.5)), which.highest))
             parts.append(
-                f"{name}, the median of the {f.reached} is {percent(median / index.bound)} of it "
+                f"{name + ', ' if len(f.samples) > 1 else ''}the "
+                f"median of the {f.reached} is {percent(median / index.bound)} of it "
                 f"(gap {number(index.bound - median)}), the best one {percent(best / index.bound)}"
             )
         facts.append(("Largest possible value", "; ".join([f"{index.bound:.4f}", *parts])))
