@@ -3,7 +3,7 @@
 from holdfast import arms, indices
 from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
-from holdfast.assess import Assessment, Region, assess, load
+from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.kernels import set_threads
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
@@ -16,6 +16,7 @@ __all__ = [
     "Arm",
     "ArmError",
     "Assessment",
+    "Comparison",
     "HoldfastError",
     "InputError",
     "Joint",
@@ -31,6 +32,7 @@ __all__ = [
     "__version__",
     "arms",
     "assess",
+    "compare",
     "indices",
     "load",
     "optimise",

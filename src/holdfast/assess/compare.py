@@ -149,8 +149,10 @@ class Comparison:
         if len({_failure_kind(a) for a in runs}) > 1:
             kinds = "; ".join(f"{n}: {_failure_kind(a)}" for n, a in zip(self.names, runs, strict=True))
             found.append(f"The failures considered differ ({kinds}).")
-        if len({a.index.bound for a in runs}) > 1:
-            found.append("The largest possible values differ; each is in the table of the candidates.")
+        bounds = sorted({a.index.bound for a in runs if a.index.bound is not None})
+        if len(bounds) > 1:
+            values = ", ".join(f"{x:.3f}" for x in bounds)
+            found.append(f"The largest possible values differ ({values}): one threshold asks more of some than of others.")
         if len({(a.seed, a.sampling) for a in runs}) > 1:
             found.append("Seeds or sampling differ, so the candidates were tried at different poses of the region.")
         if len({a.restarts for a in runs}) > 1:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 from markupsafe import Markup
-from scipy.spatial.transform import Rotation
 
+from holdfast.arm.attachment import attachment_text
 from holdfast.arm.model import Arm
 from holdfast.assess.assess import Assessment
 from holdfast.assess.compare import Comparison
@@ -18,7 +18,7 @@ from holdfast.assess.worst import paired
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.report.words import as_given, counted, fixed, interval, number, percent
+from holdfast.report.words import article, as_given, counted, fixed, interval, number, percent
 
 _MOST_UPGRADES = 3  # joints per candidate; its own report has all
 
@@ -60,16 +60,20 @@ def build(comparison: Comparison) -> Page:
 
 
 def _headline(c: Comparison, f: Facts) -> str:
-    ranked = c.ranking()
-    best, second = (c.interval(name) for name in ranked[:2])
     wanted = (
         f"{f.index.name} of at {'least' if f.larger else 'most'} {as_given(c.threshold)}{f.unit} after any failure considered"
     )
+    tasks = list(dict.fromkeys(a.index.task.name for a in c.assessments))
+    if len(tasks) > 1:
+        verdicts = [f"{task}, {_leader(c, task)}" for task in tasks]
+        return f"Probability of keeping {article(wanted)} {wanted}, the best candidate of each task: {'; '.join(verdicts)}."
+    ranked = c.ranking()
+    best, second = (c.interval(name) for name in ranked[:2])
     if best.value == 0:
-        text = f"No candidate keeps a {wanted} at any {f.noun} of the region."
+        text = f"No candidate keeps {article(wanted)} {wanted} at any {f.noun} of the region."
     else:
-        text = f"{ranked[0]} keeps a {wanted} with the largest probability, {interval(best)}; next is {ranked[1]} with "
-        text += f"{interval(second)}."
+        text = f"{ranked[0]} keeps {article(wanted)} {wanted} with the largest probability, {interval(best)}; next is "
+        text += f"{ranked[1]} with {interval(second)}."
         if second.value < best.value and second.high >= best.low:
             text += f" Their intervals overlap: more {f.noun}s would tell them apart."
     if all(a.optimised is not None for a in c.assessments):
@@ -80,38 +84,40 @@ def _headline(c: Comparison, f: Facts) -> str:
     return text
 
 
+def _leader(c: Comparison, task: str) -> str:
+    name = c.best(task)
+    p = c.interval(name)
+    return f"{name} with {interval(p)}" if p.value > 0 else "none"
+
+
 def _table(c: Comparison, f: Facts) -> Table:
     """One row per candidate."""
     optimised = any(a.optimised is not None for a in c.assessments)
     survival = any(a.survivors is not None for a in c.assessments)
-    head: list[Cell] = [
-        "Candidate",
-        "task",
-        "joints − rows",
-        "reached",
-        f"P({f.condition})",
-        *["after optimisation"] * optimised,
-    ]
-    head += ["median", *["median after"] * optimised, "worst failure", *["left after a lock"] * survival]
-    numbers = frozenset(range(2, 6 + 2 * optimised))
+    head: list[Cell] = ["Candidate", "task", "redundancy", "reached", f"P({'≥' if f.larger else '≤'} {as_given(c.threshold)})"]
+    head += [*["optimised"] * optimised, "median", *["left after a lock"] * survival, "worst failure"]
     rows = []
     for r in c.table:
-        cells: list[Cell] = [r["name"], r["task"], f"{r['joints']} − {r['joints'] - r['redundancy']} = {r['redundancy']}"]
+        cells: list[Cell] = [r["name"], r["task"], str(r["redundancy"])]
         cells += [_with_interval(r, "reached"), _with_interval(r, "probability")]
         cells += [_with_interval(r, "optimised_probability")] * optimised
-        cells += [_value(r["median"])] + [_value(r["optimised_median"])] * optimised
-        cells.append(_worst(r, optimised))
+        cells.append(_stacked([_value(r["median"]), *[f"{_value(r['optimised_median'])} opt."] * optimised]))
         cells += [_value(r["expected_survival"])] * survival
+        worst = [_worst(r, ""), *[_worst(r, "optimised_")] * optimised]
+        cells.append(_stacked([*worst[:1], *(f"{x} opt." for x in worst[1:])]))
         points = r["single_points_of_failure"]
-        every = len(points) == r["joints"]
-        cells.append("every joint" if every else Markup("<br>").join(points) if points else "none")
+        cells.append("every joint" if len(points) == r["joints"] else Markup("<br>").join(points) if points else "none")
         rows.append(cells)
     caption = (
-        f"Shares of the {counted(f.d.samples, f.noun)} of each, with 95 % intervals; medians over the reached ones. "
-        "Single point of failure: a joint whose lock ends the task in every configuration."
+        f"P: share of the {counted(f.d.samples, f.noun)} whose {f.condition}, with 95 % intervals; medians are over the "
+        "reached ones. Redundancy: joints minus rows of the task. Single point of failure: a joint whose lock ends the task "
+        "in every configuration."
     )
+    if optimised:
+        caption += " Optimised (opt.): at the best configurations."
     if survival:
         caption += " Left after a lock: share of the poses still reached, every joint equally likely to fail."
+    numbers = frozenset(range(2, 6 + optimised + survival))
     return Table(rows, [*head, "single point of failure"], numbers, caption=caption, wide=True)
 
 
@@ -119,20 +125,22 @@ def _with_interval(row: dict[str, Any], name: str) -> Cell:
     if row[name] is None:
         return "–"
     low, high = (fixed(row[f"{name}_{end}"], 3) for end in ("low", "high"))
-    return Markup('{}<br><span class="quiet">{} to {}</span>').format(fixed(row[name], 3), low, high)
+    return _stacked([fixed(row[name], 3), f"{low} to {high}"])
+
+
+def _stacked(lines: list[str]) -> Cell:
+    """The first line, and the others quiet below it."""
+    more = [Markup('<br><span class="quiet">{}</span>').format(x) for x in lines[1:]]
+    return Markup("").join([Markup("{}").format(lines[0]), *more])
 
 
 def _value(x: float | None) -> str:
     return "–" if x is None else number(x)
 
 
-def _worst(row: dict[str, Any], optimised: bool) -> Cell:
-    parts: list[Cell] = []
-    for before, note in (("", ""), ("optimised_", " after"))[: 1 + optimised]:
-        name = row[f"{before}worst_joint"]
-        if name is not None:
-            parts.append(f"{name} ({percent(row[f'{before}worst_share'])}{note})")
-    return Markup("<br>").join(parts) if parts else "–"
+def _worst(row: dict[str, Any], before: str) -> str:
+    name = row[f"{before}worst_joint"]
+    return "–" if name is None else f"{name} {percent(row[f'{before}worst_share'])}"
 
 
 def _distributions(c: Comparison, f: Facts) -> list[Block]:
@@ -187,8 +195,8 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
         blocks.append(Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True))
         text = (
             "Suppose that one joint cannot fail, thanks to a redundant motor or brake: the worst case is then over the "
-            f"failures in which it has no part, at the same {f.noun}s and configurations. The intervals are paired: a gain is the share "
-            f"of the {f.noun}s that fail now and would not then."
+            f"failures in which it has no part, at the same {f.noun}s and configurations. The intervals are paired: a gain is "
+            f"the share of the {f.noun}s that fail now and would not then."
         )
         blocks.append(Text(text, quiet=True))
     if missing:
@@ -207,7 +215,7 @@ def _candidates(c: Comparison) -> Table:
     head = [
         "Candidate",
         "arm",
-        "tool in the last link's frame",
+        "tool in the last link: x, y, z; roll, pitch, yaw",
         "bound of the index",
         "gap of the median",
         "source",
@@ -219,11 +227,8 @@ def _candidates(c: Comparison) -> Table:
 
 
 def _tool(arm: Arm) -> str:
-    tool = np.linalg.inv(arm.flange) @ arm.tool
-    angles = Rotation.from_matrix(tool[:3, :3]).as_rotvec(degrees=True)
-    text = ", ".join(fixed(x, 3) for x in tool[:3, 3]) + " m"
-    turn = float(np.linalg.norm(angles))
-    return text if turn < 1e-6 else f"{text}; turned {turn:.1f} deg about ({', '.join(fixed(x / turn, 2) for x in angles)})"
+    x, y, z, *angles = (as_given(float(v)) for v in attachment_text(arm).split(","))
+    return f"{x}, {y}, {z} m; {', '.join(angles)} deg"
 
 
 def _method(c: Comparison, f: Facts) -> list[Block]:

@@ -28,14 +28,8 @@ TipOption = Annotated[
     str | None, typer.Option("--tip", help="URDF: tip link. Default: the only end there is.", show_default=False)
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
-TaskOption = Annotated[
-    str | None,
-    typer.Option(
-        "--task",
-        help="pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own.",
-        show_default=False,
-    ),
-]
+TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
+TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
 IndexOption = Annotated[
     str,
@@ -108,16 +102,21 @@ def read_failures(arm: Arm, text: str) -> FailureSpec:
 
 def read_configuration(arm: Arm, text: str, degrees: bool) -> NDArray[np.float64]:
     """Joint values separated by commas or spaces; with degrees, of the turning joints (sliding ones stay in m)."""
-    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
-    try:
-        q = np.array([float(x) for x in parts])
-    except ValueError as error:
-        wrong = next(x for x in parts if not _is_number(x))
-        raise InputError(f"--q: '{wrong}' is not a number; give {arm.n} numbers separated by commas or spaces") from error
+    q = read_numbers("--q", text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():
         raise InputError(f"--q holds NaN or infinity; give {arm.n} finite numbers")
     return np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
+
+
+def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
+    """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
+    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
+    try:
+        return np.array([float(x) for x in parts])
+    except ValueError as error:
+        wrong = next(x for x in parts if not _is_number(x))
+        raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
 
 
 def _is_number(text: str) -> bool:
