@@ -37,6 +37,7 @@ def around(name: str) -> hf.Region:
 
 CASES: dict[str, Callable[[], hf.Assessment]] = {
     "paper": lambda: hf.assess(NINE, PAPER, poses=500, seed=1),
+    "optimised": lambda: hf.assess(NINE, PAPER, poses=240, seed=2, optimise=True),
     "panda": lambda: hf.assess(PANDA, around("panda"), poses=250),
     "flat": lambda: hf.assess(hf.arms.load("planar-3r"), around("planar-3r"), task="planar", poses=250),
     "structural": lambda: hf.assess(SEVEN, around("pa10-7dof"), poses=100),
@@ -138,6 +139,26 @@ def test_structural_failure_is_said_first() -> None:
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}
     assert fatal["pose (this run)"] == [4]  # after the column of the redundancy: joint 4
     assert fatal["position"] == []
+
+
+def test_before_and_after_optimisation() -> None:
+    """Worst poses, failures, gaps and joints to protect at both kinds of configurations."""
+    a, html = case("optimised"), text("optimised")
+    for optimised in (False, True):
+        values = a.dataset["optimised_index" if optimised else "index"].values
+        worst = int(np.nanargmin(values))
+        name = "after optimisation" if optimised else "found by inverse kinematics"
+        table = html[html.index(f"reached poses, {name}; R = Rz") :]
+        first = re.findall(r"<tbody>\s*<tr><th[^>]*>([\d,]+)</th>(.*?)</tr>", table)[0]
+        assert int(first[0].replace(",", "")) == worst + 1
+        assert f">{values[worst]:.3f}<" in first[1]
+        gap = a.index.bound - float(np.nanquantile(values, 0.5, method="inverted_cdf"))
+        assert f"(gap {gap:.3f})" in html
+        assert f"Seen from the side, {name}" in html
+        u = a.upgrades(0.29, optimised)[0]
+        assert f"{u.gain:+.3f} ({u.low:.3f} to {u.high:.3f})" in html
+    assert "after: worst of all" in html
+    assert "Which joint deserves the redundant motor or brake" in html
 
 
 def test_names_are_escaped() -> None:

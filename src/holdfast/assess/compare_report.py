@@ -80,7 +80,7 @@ def _headline(c: Comparison, f: Facts) -> str:
         chosen = c.best(optimised=True)
         p = c.interval(chosen, optimised=True)
         if p.value > 0:
-            text += f" With the best configurations it is {chosen}, {interval(p)}."
+            text += f" After optimisation the largest probability is that of {chosen}, {interval(p)}."
     return text
 
 
@@ -97,20 +97,20 @@ def _table(c: Comparison, f: Facts) -> Table:
     head: list[Cell] = ["Candidate", "task", "redundancy", "reached", f"P({'≥' if f.larger else '≤'} {as_given(c.threshold)})"]
     head += [*["optimised"] * optimised, "median", *["left after a lock"] * survival, "worst failure"]
     rows = []
-    for r in c.table:
+    for r, a in zip(c.table, c.assessments, strict=True):
         cells: list[Cell] = [r["name"], r["task"], str(r["redundancy"])]
         cells += [_with_interval(r, "reached"), _with_interval(r, "probability")]
         cells += [_with_interval(r, "optimised_probability")] * optimised
         cells.append(_stacked([_value(r["median"]), *[f"{_value(r['optimised_median'])} opt."] * optimised]))
         cells += [_value(r["expected_survival"])] * survival
-        worst = [_worst(r, ""), *[_worst(r, "optimised_")] * optimised]
-        cells.append(_stacked([*worst[:1], *(f"{x} opt." for x in worst[1:])]))
-        points = r["single_points_of_failure"]
-        cells.append("every joint" if len(points) == r["joints"] else Markup("<br>").join(points) if points else "none")
+        cells.append(_stacked([_worst(r, a, ""), *[f"{_worst(r, a, 'optimised_')} opt."] * optimised]))
+        points = [str(a.arm.joint_index(name) + 1) for name in r["single_points_of_failure"]]
+        cells.append("every joint" if len(points) == a.arm.n else ", ".join(points) or "none")
         rows.append(cells)
     caption = (
         f"P: share of the {counted(f.d.samples, f.noun)} whose {f.condition}, with 95 % intervals; medians are over the "
-        "reached ones. Redundancy: joints minus rows of the task. Single point of failure: a joint whose lock ends the task "
+        "reached ones. Redundancy: joints minus rows of the task. Joints are numbered from the "
+        "base. Single point of failure: a joint whose lock ends the task "
         "in every configuration."
     )
     if optimised:
@@ -138,9 +138,13 @@ def _value(x: float | None) -> str:
     return "–" if x is None else number(x)
 
 
-def _worst(row: dict[str, Any], before: str) -> str:
+def _worst(row: dict[str, Any], a: Assessment, before: str) -> str:
+    """Numbers of the joints that fail, from 1: names are too long for this table."""
     name = row[f"{before}worst_joint"]
-    return "–" if name is None else f"{name} {percent(row[f'{before}worst_share'])}"
+    if name is None:
+        return "–"
+    failed = a.index.failures[a.index.failure_names.index(name)]
+    return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_share'])})"
 
 
 def _distributions(c: Comparison, f: Facts) -> list[Block]:
@@ -210,18 +214,21 @@ def _candidates(c: Comparison) -> Table:
         bound = "not known" if a.index.bound is None else f"{a.index.bound:.3f}"
         gaps = [number(x) for x in (a.gap(), a.gap(True) if a.optimised is not None else None) if x is not None]
         code = Markup("<code>{}</code>").format(a.arm.fingerprint[:12])
-        source = a.arm.source if len(a.arm.source) <= 120 else a.arm.source[:119] + "…"
+        source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
         rows.append([name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", source or "no source given", code])
     head = [
         "Candidate",
         "arm",
-        "tool in the last link: x, y, z; roll, pitch, yaw",
+        "tool",
         "bound of the index",
         "gap of the median",
         "source",
         "fingerprint",
     ]
-    caption = "Bound: no configuration can exceed it. Gap: what the median of the reached poses lacks to it"
+    caption = (
+        "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. Gap: "
+        "what the median of the reached poses lacks to it"
+    )
     caption += ", before → after optimisation." if any(a.optimised is not None for a in c.assessments) else "."
     return Table(rows, head, frozenset({3, 4}), caption=caption, wide=True)
 

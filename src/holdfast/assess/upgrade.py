@@ -100,7 +100,7 @@ def if_never_fails(a: Assessment, joint: str | int, optimised: bool) -> Distribu
             f"every failure considered is one of '{a.arm.joint_names[k]}', so nothing could fail; assess with more failures"
         )
     s = sample(a, optimised)
-    values = s.by_failure[np.ix_(s.reached, left)]
+    values = s.by_failure[s.reached][:, left]
     worst = values.min(axis=1) if a.index.better == "larger" else values.max(axis=1)
     weights = () if s.weight is None else (s.weight[s.reached], s.weight[~s.reached])
     lost, singular = int((~s.reached).sum()), int((s.worst[s.reached] < 0).sum())

@@ -54,8 +54,8 @@ def read_candidates(specs: list[str], tools: list[str], tasks: list[str], base: 
     found = []
     for spec in specs:
         arm = read_arm(spec, base, tip)
-        variants = [(name, arm.with_tool(pose)) for name, pose in attachments] or [(None, arm)]
-        for tool, model in variants:
+        variants: list[tuple[str | None, Arm]] = [(name, arm.with_tool(pose)) for name, pose in attachments]
+        for tool, model in variants or [(None, arm)]:
             for task in tasks or [default_task(spec, model)]:
                 parts = [arm.name if spec == arm.name else Path(spec).stem, tool, task if len(tasks) > 1 else None]
                 name = "-".join(re.sub(r"[^\w.+-]+", "_", part) for part in parts if part)
