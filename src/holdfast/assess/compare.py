@@ -68,9 +68,10 @@ class Comparison:
             row[f"{before}median"] = float(a.of(optimised).quantile(0.5)) if some else None
             row[f"{before}gap"] = a.gap(optimised) if some else None
             counts = a.optimised_worst_counts if optimised else a.worst_counts
-            any_worst = counts is not None and counts.sum() > 0
-            row[f"{before}worst_joint"] = a.index.failure_names[int(counts.argmax())] if any_worst else None  # type: ignore[union-attr]
-            row[f"{before}worst_share"] = float(counts.max() / counts.sum()) if any_worst else None  # type: ignore[union-attr]
+            row |= {f"{before}worst_joint": None, f"{before}worst_share": None}
+            if counts is not None and counts.sum() > 0:
+                row[f"{before}worst_joint"] = a.index.failure_names[int(counts.argmax())]
+                row[f"{before}worst_share"] = float(counts.max() / counts.sum())
         left = None if a.survivors is None else [x.value for x in a.survival().values()]
         row["expected_survival"] = None if left is None else float(np.mean(left))
         fatal = range(a.arm.n) if found.never or found.redundancy <= 0 else found.fatal

@@ -91,8 +91,6 @@ def assess(
     several = len(candidates) > 1
     first = candidates[0]
     chosen = read_region(region, first.spec, first.arm)
-    if several and region is None:
-        typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)
     indices = []
     for c in candidates:
         measure = by_name(index, c.arm, read_task(c.task, c.spec, c.arm), read_failures(c.arm, failures), length)
@@ -103,6 +101,8 @@ def assess(
         raise InputError(f"sampling '{sampling}' is not known; use 'random' or 'sobol'")
     if several and out is not None and (out / "run.json").exists():
         raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
+    if several and region is None:
+        typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)
     results = []
     for c, measure in zip(candidates, indices, strict=True):
         if not json_:
