@@ -213,7 +213,7 @@ def _candidates(c: Comparison) -> Table:
     for name, a in zip(c.names, c.assessments, strict=True):
         bound = "not known" if a.index.bound is None else f"{a.index.bound:.3f}"
         gaps = [number(x) for x in (a.gap(), a.gap(True) if a.optimised is not None else None) if x is not None]
-        code = Markup("<code>{}</code>").format(a.arm.fingerprint[:12])
+        code = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
         source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
         rows.append([name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", source or "no source given", code])
     head = [

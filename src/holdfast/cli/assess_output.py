@@ -126,8 +126,8 @@ def print_assessment(result: Assessment, at_least: list[float] | None) -> None:
             spread = f"median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(which.mean)}"
             out.print(f"over reached poses, {name}: {spread}", soft_wrap=True)
         if result.index.bound is not None:
-            gaps = [f"{number(result.index.bound - float(which.quantile(0.5)))} {name}" for which, name in both]
-            below = f"the median is below that by {', by '.join(gaps)}"
+            gaps = [f"{number(result.index.bound - float(which.quantile(0.5)))} ({name})" for which, name in both]
+            below = f"the median is below that by {', '.join(gaps)}"
             out.print(f"no configuration can beat {number(result.index.bound)}; {below}", soft_wrap=True)
     sign = "at least" if result.index.better == "larger" else "at most"
     after = ["optimised", "95 % interval"] if result.optimised is not None else []
