@@ -92,9 +92,7 @@ def summary(f: Facts) -> str:
         return ""
     text = f"{percent(found.found / found.reached)} of the configurations found"
     if f.a.optimised is not None:
-        text += (
-            f"; the best configurations keep the arm clear of itself, which {percent(found.blocked / found.reached)} of them "
-            "otherwise would not"
-        )
+        kept = f"keep a clearance of {found.margin:g} m" if found.margin else "keep the arm clear of itself"
+        text += f"; the best configurations {kept}, which {percent(found.blocked / found.reached)} of them otherwise would not"
         text += f", and {counted(found.hopeless, 'pose')} cannot" if found.hopeless else ""
     return f"{text} ({clearance.capsules.describe(f.a.arm)})"

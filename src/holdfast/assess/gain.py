@@ -60,6 +60,7 @@ def _table(f: Facts, best: Distribution) -> Table:
     for name, d, optimised in (("before", f.d, False), ("after", best, True)):
         chance = f.a.interval(optimised=optimised, **ask)  # type: ignore[arg-type]
         top = d.highest if f.larger else d.lowest
+        name += f", {d.reached:,} poses" if best.reached < f.d.reached else ""
         rows.append([name, *[number(float(x)) for x in d.quantile(steps)], number(d.mean), number(top), interval(chance)])
     sign = "≥" if f.larger else "≤"
     head = [
