@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.assess import sections
+from holdfast.assess import places, sections, worst
 from holdfast.assess.assess import Assessment
+from holdfast.assess.collisions import collisions
 from holdfast.assess.facts import Facts
 from holdfast.assess.gain import gain
 from holdfast.assess.survival import survival
@@ -43,9 +44,11 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         Section("The arm and the region", sections.views(facts)),
         Section("How the index is distributed", sections.distribution(facts)),
         Section("What choosing configurations gains", gain(facts)),
+        Section("Does the arm run through itself?", collisions(facts)),
         Section("What survives a locked joint", survival(facts)),
-        Section("Which failure is the worst", sections.worst_failures(facts)),
-        Section(f"The worst {facts.noun}s, and where tolerance is low", sections.places(facts)),
+        Section("Which failure is the worst", worst.worst_failures(facts)),
+        Section("Which joint deserves the redundant motor or brake", worst.upgrades(facts)),
+        Section(f"The worst {facts.noun}s, and where tolerance is low", places.places(facts)),
         Section("How it was computed", sections.method(facts)),
     ]
     a = assessment
