@@ -32,6 +32,15 @@ def smallest(values: Sequence[SX]) -> SX:
     return best
 
 
+def lowest(values: Sequence[SX], follow: Sequence[SX]) -> tuple[SX, SX]:
+    """What goes with the smallest value (the first one of several), and that value."""
+    best, chosen = values[0], follow[0]
+    for value, other in zip(values[1:], follow[1:], strict=True):
+        less = value < best
+        best, chosen = ca.if_else(less, value, best), ca.if_else(less, other, chosen)
+    return chosen, best
+
+
 @dataclass(frozen=True)
 class HouseholderQR:
     """``(A J B)' = Q [R; 0]`` of a wide matrix J (m, n), by Householder reflections; A and B permute rows and columns.

@@ -9,7 +9,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.arm import kinematics
-from holdfast.indices import CustomIndex, WeightedSum, condition_number, manipulability, relative_manipulability
+from holdfast.indices import CustomIndex, Opposite, WeightedSum, condition_number, manipulability, relative_manipulability
 from holdfast.linalg import householder
 from holdfast.status import Status
 
@@ -104,3 +104,46 @@ def test_parts_of_every_objective_give_its_value(name, rng):
     sign = 1 if objective.better == "larger" else -1
     for x in oracles.inside(arm, rng, 5):
         np.testing.assert_allclose(sign * float(function(x)), objective(x), rtol=1e-5)
+
+
+def planar_configurations(target, count):
+    """Configurations of a planar arm of three unit links whose tip is at target (2,): all of them, by the last link's angle."""
+    last = np.linspace(-np.pi, np.pi, count, endpoint=False)
+    wrist = target - np.stack([np.cos(last), np.sin(last)], axis=1)
+    far = np.linalg.norm(wrist, axis=1)
+    last, wrist, far = last[far <= 2], wrist[far <= 2], far[far <= 2]
+    out = []
+    for side in (1, -1):
+        elbow = side * np.arccos(np.clip(far**2 / 2 - 1, -1, 1))
+        first = np.arctan2(wrist[:, 1], wrist[:, 0]) - elbow / 2
+        out.append(np.stack([first, elbow, last - first - elbow], axis=1))
+    return np.concatenate(out)
+
+
+@pytest.mark.parametrize("kind", ["rho", "torque", "sum"])
+def test_the_worst_configuration_against_all_there_are(kind, rng):
+    arm = hf.arms.load("planar-3r")
+    rho, torque = relative_manipulability(arm, "planar"), hf.susceptibility.torque(arm, "worst-case")
+    objective = {"rho": rho, "torque": torque, "sum": rho - 0.3 * torque}[kind]
+    worst = Opposite(objective)
+    assert worst.better == ("larger" if kind == "torque" else "smaller")
+    for target in rng.uniform(-1.5, 1.5, (3, 2)):
+        every = planar_configurations(target, 20_000)
+        pose = arm.forward_kinematics(every[0])
+        np.testing.assert_allclose(arm.forward_kinematics(every)[:, :3, 3], pose[None, :3, 3].repeat(len(every), 0), atol=1e-12)
+        values = objective(every)
+        found = hf.optimise(arm, pose, worst, task="planar", starts=64)
+        best = hf.optimise(arm, pose, objective, task="planar", starts=64)
+        low, high = (best.value, found.value) if kind == "torque" else (found.value, best.value)
+        np.testing.assert_allclose([low, high], [values.min(), values.max()], atol=2e-3)
+
+
+def test_the_opposite_is_the_same_number(mixed8, rng):
+    rho = relative_manipulability(mixed8)
+    worst = Opposite(rho)
+    q = oracles.inside(mixed8, rng, 5)
+    np.testing.assert_array_equal(worst(q), rho(q))
+    assert (worst.better, (-1 * rho).better, Opposite(worst).better) == ("smaller", "smaller", "larger")
+    assert worst.own_task is rho.own_task
+    assert worst.name == rho.name
+    np.testing.assert_array_equal(worst.statuses(q), rho.statuses(q))

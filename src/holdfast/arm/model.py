@@ -377,6 +377,12 @@ class Arm:
 
         return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
 
+    @cached_property
+    def _dynamics_kernel(self) -> Kernel:
+        from holdfast.arm import dynamics
+
+        return dynamics.torque_kernel(self)
+
     def forward_kinematics(self, q: ArrayLike) -> Array:
         """Tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
         a = self.check_configurations(q)
@@ -412,6 +418,33 @@ class Arm:
         """
         a = self.check_configurations(q)
         return self._inertia_diagonal_kernel.rows(np.atleast_2d(a)).reshape(a.shape)
+
+    def inverse_dynamics(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> Array:
+        """Torques and forces of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, (n,) or (N, n); N m and N.
+
+        Payload, armature and viscous friction included.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+            qd: (n,) or (N, n), rad/s and m/s.
+            qdd: (n,) or (N, n), rad/s^2 and m/s^2.
+
+        Source: English and Maciejewski 1998, eq. (5).
+
+        Raises:
+            ArmError: A link of which nothing is known, or whose inertia no body has.
+            InputError: Shapes that do not fit; NaN or infinity in a single state (in a batch such a row gets NaN).
+        """
+        inertial, viscous, gravity = self.torque_terms(q, qd, qdd)
+        return inertial + viscous + gravity
+
+    def torque_terms(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[Array, Array, Array]:
+        """The terms of :meth:`inverse_dynamics`: ``M qdd + C qd``, ``B qd`` and ``g``, each (n,) or (N, n); N m and N."""
+        from holdfast.arm.dynamics import check_states
+
+        states, single = check_states(self, q, qd, qdd)
+        inertial, viscous, gravity = np.split(self._dynamics_kernel.rows(*states), 3, axis=1)
+        return (inertial[0], viscous[0], gravity[0]) if single else (inertial, viscous, gravity)
 
     def __repr__(self) -> str:
         return f"Arm({self.name!r}, {self.n} joints)"

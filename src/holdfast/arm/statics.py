@@ -78,7 +78,7 @@ def composite(arm: Arm, q: SX) -> Composite:
             moment, inertia = _shifted(mass, moment, inertia, shift)
         mass = mass + link.mass
         moment = moment + constant(link.mass * link.com)
-        inertia = inertia + constant(link.inertia + link.mass * _spread(link.com))
+        inertia = inertia + constant(link.inertia + link.mass * spread(link.com))
         moment, inertia = _shifted(mass, moment, inertia, steps[i][1])  # a sliding joint's link has left O
         masses[i], moments[i], inertias[i] = mass, moment, inertia
     axes = [constant(joint.axis) for joint in arm.joints]
@@ -172,7 +172,7 @@ def inertia_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
     return 2 * turning + 2 * ca.dot(ca.cross(z, d), ca.cross(z, first_moment_rate(arm, w, j)))
 
 
-def _spread(r: Array) -> Array:
+def spread(r: Array) -> Array:
     """``-[r][r]``: the second moment of a unit mass at r."""
     return np.asarray(r @ r * np.eye(3) - np.outer(r, r))
 

@@ -8,7 +8,14 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from holdfast.cli import arm_commands, assess_commands, index_commands, susceptibility_commands, swing_commands
+from holdfast.cli import (
+    arm_commands,
+    assess_commands,
+    configure_commands,
+    index_commands,
+    susceptibility_commands,
+    swing_commands,
+)
 from holdfast.errors import HoldfastError
 
 app = typer.Typer(
@@ -43,6 +50,7 @@ def _root(
 arm_commands.add(app)
 index_commands.add(app)
 susceptibility_commands.add(app)
+configure_commands.add(app)
 assess_commands.add(app)
 swing_commands.add(app)
 

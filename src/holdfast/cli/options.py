@@ -5,6 +5,9 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -19,6 +22,7 @@ if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
     from holdfast.failures import FailureSpec
+    from holdfast.indices import Objective
 
 ArmArgument = Annotated[
     str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
@@ -56,6 +60,30 @@ DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degree
 FailuresOption = Annotated[
     str,
     typer.Option("--failures", help="single, pairs, a number of joints, or sets such as 'joint2; joint1+joint4' or '2; 1+4'."),
+]
+
+MOUNTS = {
+    "floor": np.eye(3),
+    "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
+    "ceiling": np.diag([1.0, -1, -1]),
+}
+
+GravityOption = Annotated[
+    str | None,
+    typer.Option(
+        "--gravity", help="Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's.", show_default=False
+    ),
+]
+MountOption = Annotated[
+    str, typer.Option("--mount", help="floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x).")
+]
+PayloadOption = Annotated[
+    str | None,
+    typer.Option(
+        "--payload",
+        help="A point mass in the hand: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
+        show_default=False,
+    ),
 ]
 
 
@@ -128,12 +156,12 @@ def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | 
     return found
 
 
-def read_configuration(arm: Arm, text: str, degrees: bool) -> NDArray[np.float64]:
+def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") -> NDArray[np.float64]:
     """Joint values separated by commas or spaces; with degrees, of the turning joints (sliding ones stay in m)."""
-    q = read_numbers("--q", text, f"{arm.n} numbers")
+    q = read_numbers(option, text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():
-        raise InputError(f"--q holds NaN or infinity; give {arm.n} finite numbers")
+        raise InputError(f"{option} holds NaN or infinity; give {arm.n} finite numbers")
     return np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
 
 
@@ -145,6 +173,137 @@ def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
     except ValueError as error:
         wrong = next(x for x in parts if not _is_number(x))
         raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
+
+
+def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
+    """The arm where --mount, --gravity and --payload put it."""
+    from holdfast.arm import Link
+
+    if mount not in MOUNTS:
+        raise InputError(f"--mount '{mount}' is not known; use one of {', '.join(MOUNTS)}")
+    turn = np.eye(4)
+    turn[:3, :3] = MOUNTS[mount]
+    arm = arm.with_base(turn @ arm.base)
+    if gravity is not None:
+        arm = replace(arm, gravity=read_numbers("--gravity", gravity, "3 numbers"))
+    if payload is not None:
+        numbers = read_numbers("--payload", payload, "1 or 4 numbers")
+        if numbers.size not in (1, 4):
+            raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
+        place = numbers[1:] if numbers.size == 4 else np.zeros(3)
+        arm = arm.with_payload(Link(float(numbers[0]), place, np.zeros((3, 3)), "payload"))
+    return arm
+
+
+def read_weights(option: str, text: str) -> Any:
+    """Weights of the joints as the library takes them: a word, numbers, or the numbers of a CSV file."""
+    if text in ("effort", "worst-case"):
+        return text
+    file = Path(text)
+    if file.suffix.lower() != ".csv":
+        return read_numbers(option, text, "effort, worst-case, a .csv file, or one number per joint")
+    try:
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
+    except OSError as error:
+        raise InputError(f"{option}: cannot read {file}: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{option}: {file} is not text; give numbers separated by commas") from error
+    rows = [read_numbers(f"{option} {file}", line, "numbers") for line in lines if line.strip()]
+    if len({len(row) for row in rows}) != 1:
+        raise InputError(f"{option}: {file} must hold lines of equally many numbers: one per joint, or a square matrix")
+    table = np.array(rows)
+    return table.ravel() if 1 in table.shape else table
+
+
+def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Objective:
+    """--minimise or --maximise as the library takes it: ``0.5*torque:effort + 0.1*acceleration``.
+
+    A summand is the name of an index or a susceptibility; after a colon follow the weights of a susceptibility, or the one
+    joint that counts.
+    """
+    from holdfast.indices import Opposite, WeightedSum
+
+    summands: list[tuple[float, Objective]] = []
+    at = 0
+    while at < len(text) or not summands:
+        found = _SUMMAND.match(text, at)
+        if found is None or (summands and not found["sign"]):
+            raise InputError(
+                f"{option}: '{text[at:].strip()}' cannot be read; write torque, torque:effort, torque:joint2, or a sum such as "
+                "'0.5*torque:effort + 0.1*acceleration'"
+            )
+        factor = float(found["factor"] or 1) * (-1 if found["sign"] == "-" else 1)
+        summands.append((factor, _summand(arm, option, found["name"], found["weights"], task)))
+        at = found.end()
+    plain = len(summands) == 1 and summands[0][0] == 1
+    objective = summands[0][1] if plain else WeightedSum(summands)
+    wanted = "smaller" if option == "--minimise" else "larger"
+    return objective if objective.better == wanted else Opposite(objective)
+
+
+_SUMMAND = re.compile(
+    r"\s*(?P<sign>[+-])?\s*(?:(?P<factor>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*\*\s*)?"
+    r"(?P<name>[A-Za-z]\w*(?:-[A-Za-z]\w*)*)(?:\s*:\s*(?P<weights>[^\s+,]+(?:\s*,\s*[^\s+,]+)*))?\s*"
+)
+
+
+def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task) -> Objective:
+    from holdfast import indices
+    from holdfast.indices import susceptibility
+
+    if name in indices.BY_NAME:
+        if weights is not None:
+            raise InputError(f"{option}: {name} takes no weights, got '{weights}'; only {_listed(susceptibility.BY_NAME)} do")
+        return indices.by_name(name, arm, task)
+    if name not in susceptibility.BY_NAME:
+        raise InputError(
+            f"{option}: objective '{name}' is not known; use one of {', '.join([*susceptibility.BY_NAME, *indices.BY_NAME])}"
+        )
+    return susceptibility.by_name(name, arm, None if weights is None else _joint_weights(arm, option, name, weights))
+
+
+def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
+    """Weights after a colon: one joint by name or as joint2, or what :func:`read_weights` takes."""
+    number = text.removeprefix("joint")
+    single = text in arm.joint_names or (number != text and number.isdecimal())
+    if single:
+        return np.eye(arm.n)[read_joint(arm, text if text in arm.joint_names else number)]
+    if text in ("effort", "worst-case") or text.lower().endswith(".csv"):
+        return read_weights(option, text)
+    if not all(_is_number(x) for x in text.split(",")):
+        raise InputError(
+            f"{option}: weights '{text}' of {name} are not known; use effort, worst-case, a joint by name or as joint2, "
+            f"{arm.n} numbers separated by commas, or a .csv file of them"
+        )
+    numbers = read_numbers(option, text, f"{arm.n} numbers")
+    if numbers.size != arm.n:
+        raise InputError(
+            f"{option}: {name} has {numbers.size} weights and '{arm.name}' has {arm.n} joints; give one each, or one joint "
+            "alone as joint2"
+        )
+    return numbers
+
+
+def _listed(names: Iterable[str]) -> str:
+    *most, last = names
+    return f"{', '.join(most)} and {last}"
+
+
+def read_pose(option: str, text: str) -> NDArray[np.float64]:
+    """``x,y,z,roll,pitch,yaw`` in m and degrees as (4, 4); ``x,y,z`` alone as (3,)."""
+    from scipy.spatial.transform import Rotation
+
+    numbers = read_numbers(option, text, "x,y,z,roll,pitch,yaw (m and degrees)")
+    if numbers.size not in (3, 6):
+        raise InputError(f"{option} has {numbers.size} numbers; give x,y,z,roll,pitch,yaw (m and degrees), or x,y,z alone")
+    if not np.isfinite(numbers).all():
+        raise InputError(f"{option} holds NaN or infinity; give finite numbers")
+    if numbers.size == 3:
+        return numbers
+    pose = np.eye(4)
+    pose[:3, 3] = numbers[:3]
+    pose[:3, :3] = Rotation.from_euler("xyz", numbers[3:], degrees=True).as_matrix()
+    return pose
 
 
 def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -13,50 +11,28 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     DegreesOption,
+    GravityOption,
     JsonOption,
+    MountOption,
+    PayloadOption,
     QOption,
     TipOption,
     console,
     number,
     outside_limits,
+    placed,
     print_json,
     read_arm,
     read_configuration,
-    read_numbers,
+    read_weights,
 )
-from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from holdfast.arm import Arm
     from holdfast.indices.susceptibility import Susceptibility
 
     Array = NDArray[np.float64]
-
-MOUNTS = {
-    "floor": np.eye(3),
-    "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
-    "ceiling": np.diag([1.0, -1, -1]),
-}
-
-GravityOption = Annotated[
-    str | None,
-    typer.Option(
-        "--gravity", help="Gravity acceleration in the world, m/s^2, as 0,0,-9.81. Default: the arm's.", show_default=False
-    ),
-]
-MountOption = Annotated[
-    str, typer.Option("--mount", help="floor (as described), wall (turned 90 deg about y) or ceiling (180 deg about x).")
-]
-PayloadOption = Annotated[
-    str | None,
-    typer.Option(
-        "--payload",
-        help="A point mass in the hand: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
-        show_default=False,
-    ),
-]
 
 
 def susceptibility(
@@ -86,52 +62,14 @@ def susceptibility(
     """
     from holdfast.indices.susceptibility import by_name
 
-    model = _placed(read_arm(arm, base, tip), mount, gravity, payload)
+    model = placed(read_arm(arm, base, tip), mount, gravity, payload)
     configurations = np.array([read_configuration(model, text, degrees) for text in q])
-    chosen = by_name(measure, model, None if weights is None else _read_weights(weights))
+    chosen = by_name(measure, model, None if weights is None else read_weights("--weights", weights))
     results = [_evaluate(chosen, x) for x in configurations]
     if json_:
         print_json(results if len(results) > 1 else results[0])
         return
     _print(chosen, configurations, results)
-
-
-def _placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
-    from holdfast.arm import Link
-
-    if mount not in MOUNTS:
-        raise InputError(f"--mount '{mount}' is not known; use one of {', '.join(MOUNTS)}")
-    turn = np.eye(4)
-    turn[:3, :3] = MOUNTS[mount]
-    arm = arm.with_base(turn @ arm.base)
-    if gravity is not None:
-        arm = replace(arm, gravity=read_numbers("--gravity", gravity, "3 numbers"))
-    if payload is not None:
-        numbers = read_numbers("--payload", payload, "1 or 4 numbers")
-        if numbers.size not in (1, 4):
-            raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
-        place = numbers[1:] if numbers.size == 4 else np.zeros(3)
-        arm = arm.with_payload(Link(float(numbers[0]), place, np.zeros((3, 3)), "payload"))
-    return arm
-
-
-def _read_weights(text: str) -> Any:
-    if text in ("effort", "worst-case"):
-        return text
-    file = Path(text)
-    if file.suffix.lower() != ".csv":
-        return read_numbers("--weights", text, "effort, worst-case, a .csv file, or one number per joint")
-    try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
-    except OSError as error:
-        raise InputError(f"--weights: cannot read {file}: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"--weights: {file} is not text; give numbers separated by commas") from error
-    rows = [read_numbers(f"--weights {file}", line, "numbers") for line in lines if line.strip()]
-    if len({len(row) for row in rows}) != 1:
-        raise InputError(f"--weights: {file} must hold lines of equally many numbers: one per joint, or a square matrix")
-    table = np.array(rows)
-    return table.ravel() if 1 in table.shape else table
 
 
 def _evaluate(measure: Susceptibility, q: Array) -> dict[str, Any]:

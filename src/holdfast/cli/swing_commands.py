@@ -65,7 +65,7 @@ def swing(
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate what happens when one joint lets go and swings under gravity, all others held (needs holdfast[physics]).
+    """Simulate what happens when one joint lets go and swings under gravity, all others held (needs the extra 'physics').
 
     The brakes are taken to stop the joint at once.
 

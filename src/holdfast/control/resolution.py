@@ -27,7 +27,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel
-from holdfast.linalg import Cholesky, damped_least_norm, gram, householder
+from holdfast.linalg import Cholesky, damped_least_norm, gram, householder, lowest
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -411,7 +411,7 @@ class AugmentedJacobian(Resolution):
 
 def oriented_value(objective: Objective, q: SX, j: SX) -> SX:
     """The objective, negated where smaller is better."""
-    return sum(p.weight * _lowest(p.values, p.values)[0] for p in objective.exact_parts(q, j, householder(j), _axes(q)))
+    return sum(p.weight * lowest(p.values, p.values)[0] for p in objective.exact_parts(q, j, householder(j), _axes(q)))
 
 
 def oriented_gradient(objective: Objective, q: SX, j: SX) -> SX:
@@ -419,7 +419,7 @@ def oriented_gradient(objective: Objective, q: SX, j: SX) -> SX:
     total = ca.SX(int(q.numel()), 1)
     for part in objective.exact_parts(q, j, householder(j), _axes(q)):
         rows = [ca.vertcat(*row) for row in part.slopes]
-        total = total + part.weight * _lowest(part.values, rows)[0]
+        total = total + part.weight * lowest(part.values, rows)[0]
     return total
 
 
@@ -436,12 +436,3 @@ def slope_along(objective: Objective, task: Task, q: SX) -> tuple[SX, SX]:
 def _axes(q: SX) -> list[SX]:
     n = int(q.numel())
     return [ca.SX(ca.DM(np.eye(n)[:, k])) for k in range(n)]
-
-
-def _lowest(values: list[SX], follow: list[SX]) -> tuple[SX, SX]:
-    """What goes with the smallest value, and that value."""
-    best, chosen = values[0], follow[0]
-    for value, other in zip(values[1:], follow[1:], strict=True):
-        less = value < best
-        best, chosen = ca.if_else(less, value, best), ca.if_else(less, other, chosen)
-    return chosen, best

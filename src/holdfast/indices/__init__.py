@@ -15,7 +15,7 @@ from holdfast.failures import FailureSpec
 from holdfast.indices import susceptibility
 from holdfast.indices.custom import CustomIndex
 from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index
-from holdfast.indices.objective import Objective, Part, WeightedSum
+from holdfast.indices.objective import Objective, Opposite, Part, WeightedSum
 from holdfast.indices.relative import Manipulability, RelativeManipulability
 from holdfast.indices.spectral import SpectralIndex
 
@@ -92,6 +92,7 @@ __all__ = [
     "Index",
     "Manipulability",
     "Objective",
+    "Opposite",
     "Part",
     "RelativeManipulability",
     "SpectralIndex",

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -14,7 +15,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import SX
-from holdfast.linalg import HouseholderQR
+from holdfast.linalg import HouseholderQR, lowest
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -190,3 +191,46 @@ class WeightedSum(Objective):
 
     def __repr__(self) -> str:
         return f"<{self.name}, arm {self.arm.name!r}>"
+
+
+class Opposite(Objective):
+    """The same number, wanted the other way: for the worst configuration of a pose, to compare the best one with.
+
+    Multiplying by -1 is something else: it turns the number and what is wanted of it, so that the same configuration stays
+    the best one.
+
+    Args:
+        objective: What to make as bad as it gets.
+
+    Attributes:
+        objective: The same.
+    """
+
+    def __init__(self, objective: Objective) -> None:
+        self.objective = objective
+        self.name, self.arm, self.unit = objective.name, objective.arm, objective.unit
+        self.better = "smaller" if objective.better == "larger" else "larger"
+
+    @property
+    def own_task(self) -> Task | None:
+        """The task of the objective."""
+        return self.objective.own_task
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """The value of the objective at q (N, n) or (n,): (N,), or a scalar."""
+        return self.objective(q)
+
+    def parts(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> list[Part]:
+        """The negatives of the objective's parts; of the worst of several failures that of the first."""
+        opposed = []
+        for part in self.objective.exact_parts(q, j, qr, directions):
+            slopes, value = lowest(part.values, [ca.vertcat(*row) for row in part.slopes])
+            opposed.append(Part(part.weight, [-value], [[-slopes[k] for k in range(len(directions))]]))
+        return opposed
+
+    def statuses(self, q: Array) -> NDArray[np.uint8]:
+        """Those of the objective."""
+        return self.objective.statuses(q)
+
+    def __repr__(self) -> str:
+        return f"<{self.name}, {self.better} wanted, arm {self.arm.name!r}>"

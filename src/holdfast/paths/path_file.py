@@ -122,7 +122,7 @@ def _path(model: _PathFile, file: pathlib.Path) -> Path:
         start = _pose(a.start, unit, "arc.from")
         return arc(start, via, end, center=a.center, axis=a.axis, angle=angle, turning=a.turning, name=name)
     if isinstance(model.poses, str):
-        return sequence(_table(file.parent / model.poses), name)
+        return sequence(pose_table(file.parent / model.poses), name)
     assert model.poses is not None
     return sequence([_pose(p, unit, f"poses[{k}]") for k, p in enumerate(model.poses)], name)
 
@@ -156,21 +156,34 @@ def _rotation(quaternion: Array, place: str) -> Array:
     return np.asarray(Rotation.from_quat(quaternion).as_matrix())
 
 
-def _table(file: pathlib.Path) -> list[Array]:
-    """Poses of a CSV file, one a line below the names of the columns."""
+def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
+    """Poses of a CSV file, one a line below the names of the columns.
+
+    Args:
+        file: The first line is ``x,y,z`` or ``x,y,z,qx,qy,qz,qw``, in any order; m, world.
+        option: Where the file was named, for messages.
+
+    Returns:
+        (4, 4) each, or (3,) where the file has no orientations.
+
+    Raises:
+        InputError: What is wrong with which row.
+    """
     try:
         with file.open(encoding="utf-8", newline="") as stream:
             lines = [[cell.strip() for cell in row] for row in csv.reader(stream) if row]
     except OSError as error:
-        raise InputError(f"poses: '{file.name}' cannot be read ({error.strerror}); give a CSV file next to this one") from error
+        raise InputError(f"{option}: '{file.name}' cannot be read ({error.strerror}); give a CSV file that exists") from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"poses: '{file.name}' is not a CSV file ({error})") from error
+        raise InputError(f"{option}: '{file.name}' is not a CSV file ({error})") from error
     names = tuple(lines[0]) if lines else ()
     if sorted(names) not in (sorted(POSITION), sorted(POSITION + ORIENTATION)):
-        raise InputError(f"poses: the first line of '{file.name}' must be x,y,z or x,y,z,qx,qy,qz,qw; it is {','.join(names)}")
+        raise InputError(
+            f"{option}: the first line of '{file.name}' must be x,y,z or x,y,z,qx,qy,qz,qw; it is {','.join(names)}"
+        )
     poses = []
     for k, cells in enumerate(lines[1:]):
-        place = f"poses: '{file.name}', row {k + 1}"
+        place = f"{option}: '{file.name}', row {k + 1}"
         try:
             row = dict(zip(names, map(float, cells), strict=True))
         except ValueError as error:

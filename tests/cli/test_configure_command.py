@@ -1,0 +1,241 @@
+"""``holdfast configure``: the library's optimum, and objectives as text."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import holdfast as hf
+import oracles
+from holdfast import arms
+from holdfast import susceptibility as sus
+from holdfast.cli.options import read_objective
+from holdfast.indices import relative_manipulability
+
+HOME = "0 -45 0 -135 0 90 45"
+URDF = Path(hf.__file__).parent / "arm" / "data" / "xarm7.urdf"
+
+
+def same(a, b, q):
+    np.testing.assert_allclose(a(q), b(q), rtol=1e-12)
+    assert a.better == b.better
+
+
+# ---- objectives as text --------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return arms.load("panda")
+
+
+def test_objectives_as_text(panda, rng, tmp_path):
+    q = oracles.inside(panda, rng, 4)
+    weights = rng.uniform(0, 2, 7).round(3)
+    numbers = ",".join(map(str, weights.tolist()))
+    file = tmp_path / "w.csv"
+    file.write_text(numbers + "\n")
+    second, third = np.eye(7)[1], np.eye(7)[2]
+    rho = relative_manipulability(panda, "position")
+    for text, expected in {
+        "torque": sus.torque(panda),
+        " acceleration ": sus.acceleration(panda),
+        "swing-angle": sus.swing_angle(panda),
+        "torque:effort": sus.torque(panda, "effort"),
+        "torque : worst-case": sus.torque(panda, "worst-case"),
+        "torque:joint2": sus.torque(panda, second),
+        "swing-angle:panda_joint3": sus.swing_angle(panda, third),
+        f"torque:{numbers}": sus.torque(panda, weights),
+        f"torque:{numbers.replace(',', ' , ')}": sus.torque(panda, weights),
+        f"acceleration:{file}": sus.acceleration(panda, weights),
+        "0.5*torque:effort + 0.1*acceleration": 0.5 * sus.torque(panda, "effort") + 0.1 * sus.acceleration(panda),
+        "1e-2*torque:joint2+.5 * swing-angle:worst": None,
+        "torque - 20*relative-manipulability": sus.torque(panda) - 20 * rho,
+        "-3 * relative-manipulability+torque:joint3": -3 * rho + sus.torque(panda, third),
+        "2.*torque": 2 * sus.torque(panda),
+    }.items():
+        if expected is None:
+            with pytest.raises(hf.InputError, match="weights 'worst' of swing-angle are not known"):
+                read_objective(panda, "--minimise", text, "position")
+        else:
+            same(read_objective(panda, "--minimise", text, "position"), expected, q)
+    same(read_objective(panda, "--maximise", "relative-manipulability", "position"), rho, q)
+
+
+def test_a_joint_by_its_name_before_its_number(rng):
+    """An arm that counts its joints from 0 in their names: names win."""
+    arm = oracles.with_bodies(oracles.random_arm(rng, types="RRRR"), rng)
+    joints = tuple(
+        hf.Joint(name, j.type, j.origin, j.axis)
+        for name, j in zip(("joint0", "joint1", "left-elbow", "tip"), arm.joints, strict=True)
+    )
+    arm = hf.Arm("named", joints, arm.links)
+    q = oracles.inside(arm, rng, 3)
+    for text, joint in (("joint1", 1), ("joint2", 1), ("left-elbow", 2), ("joint4", 3), ("tip", 3)):
+        same(read_objective(arm, "--minimise", f"torque:{text}", "position"), sus.torque(arm, np.eye(4)[joint]), q)
+
+
+def test_the_wrong_way_on_purpose(panda, rng):
+    """The worst configuration: the same number, wanted the other way."""
+    q = oracles.inside(panda, rng, 3)
+    rho = relative_manipulability(panda, "position")
+    worst = read_objective(panda, "--minimise", "relative-manipulability", "position")
+    np.testing.assert_array_equal(worst(q), rho(q))
+    assert worst.better == "smaller"
+    assert read_objective(panda, "--maximise", "torque", "pose").better == "larger"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "--minimise: '' cannot be read; write torque, torque:effort"),
+        ("3", "'3' cannot be read"),
+        ("torque acceleration", "'acceleration' cannot be read"),
+        ("torque + ", "'+' cannot be read"),
+        ("torque: + acceleration", "': + acceleration' cannot be read"),
+        ("torques", "objective 'torques' is not known; use one of torque, acceleration, swing-angle, relative-"),
+        ("Torque", "objective 'Torque' is not known"),
+        ("relative-manipulability:effort", "relative-manipulability takes no weights"),
+        ("acceleration:effort", "weights 'effort' are of torques"),
+        ("torque:joint8", "joint 8 is out of range; 'panda' has joints 1 to 7"),
+        ("torque:elbow", "weights 'elbow' of torque are not known"),
+        ("torque:2", "torque has 1 weights and 'panda' has 7 joints"),
+        ("torque:1,1,1,1,1,1,-1", "not positive semidefinite"),
+        ("torque:nowhere.csv", "cannot read nowhere.csv"),
+        ("0*torque", "the weight of torque susceptibility is 0"),
+        ("torque + relative-manipulability", "change the sign of one of them"),
+    ],
+)
+def test_what_is_wrong_with_an_objective(text, words, panda):
+    with pytest.raises(hf.HoldfastError) as error:
+        read_objective(panda, "--minimise", text, "position")
+    assert words in str(error.value)
+
+
+# ---- the command ---------------------------------------------------------------------------------------------------
+
+
+def test_it_is_the_library(ask, panda):
+    q = np.radians([float(x) for x in HOME.split()])
+    data = ask("configure", "panda", "--at", HOME, "--degrees", "--minimise", "torque:effort", "--starts", 20, "--seed", 3)
+    torque = sus.torque(panda, "effort")
+    expected = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20)
+    (row,) = data["poses"]
+    assert (data["arm"], data["task"], data["better"], data["before"]) == ("panda", "pose", "smaller", "given")
+    assert list(row["q"]) == list(panda.joint_names)
+    found = np.array(list(row["q"].values()))
+    np.testing.assert_array_equal(found, expected.q)
+    assert row["value"] == expected.value < row["value_before"] == torque(q)
+    np.testing.assert_allclose(panda.forward_kinematics(found), panda.forward_kinematics(q), atol=1e-6)
+    np.testing.assert_array_equal([x["after"] for x in row["measures"]["torque"].values()], torque.by_joint(found))
+    np.testing.assert_array_equal([x["before"] for x in row["measures"]["torque"].values()], torque.by_joint(q))
+    assert (row["starts"], row["agreeing"], row["status"]) == (expected.starts, expected.agreeing, "ok")
+
+
+def test_a_pose_of_a_urdf_file_as_numbers(ask):
+    """Roll, pitch and yaw as URDF counts them, in degrees."""
+    arm = hf.Arm.from_urdf(URDF)
+    pose = oracles.pose(Rotation.from_euler("ZYX", [30, -20, 170], degrees=True).as_matrix(), [0.4, 0.1, 0.3])
+    data = ask("configure", URDF, "--pose", "0.4,0.1,0.3,170,-20,30", "--maximise", "relative-manipulability", "--starts", 8)
+    (row,) = data["poses"]
+    np.testing.assert_allclose(row["pose"], pose, atol=1e-15)
+    np.testing.assert_allclose(arm.forward_kinematics(list(row["q"].values())), pose, atol=1e-5)
+    rho = relative_manipulability(arm)
+    assert row["value"] == pytest.approx(float(rho(list(row["q"].values()))))
+    assert row["value"] >= row["value_before"]
+    assert data["before"] == "found"
+    worst = ask("configure", URDF, "--pose", "0.4 0.1 0.3 170 -20 30", "--minimise", "relative-manipulability", "--starts", 8)
+    assert worst["poses"][0]["value"] < row["value_before"]
+
+
+def test_poses_from_a_file_and_results_to_one(ask, cli, tmp_path, panda, rng):
+    q = oracles.inside(panda, rng, 3)
+    poses = panda.forward_kinematics(q)
+    file, out = tmp_path / "poses.csv", tmp_path / "out.csv"
+    quaternions = Rotation.from_matrix(poses[:, :3, :3]).as_quat()
+    rows = [*np.concatenate([poses[:, :3, 3], quaternions], axis=1), np.array([9.0, 0, 0, 0, 0, 0, 1])]
+    file.write_text("x,y,z,qx,qy,qz,qw\n" + "".join(",".join(map(repr, row.tolist())) + "\n" for row in rows))
+    arguments = ("configure", "panda", "--poses", file, "--minimise", "0.1*acceleration + torque:joint4", "--starts", 8)
+    data = ask(*arguments, "--csv", out)
+    assert [row["status"] for row in data["poses"]] == ["ok", "ok", "ok", "not_found"]
+    assert data["poses"][3]["value"] is None
+    assert list(data["poses"][0]["measures"]) == ["acceleration", "torque"]
+    with out.open(newline="") as stream:
+        table = list(csv.DictReader(stream))
+    assert [row["pose"] for row in table] == ["1", "2", "3", "4"]
+    for row, told in zip(table[:3], data["poses"], strict=False):
+        np.testing.assert_allclose(
+            [float(row[f"{name}_rad"]) for name in panda.joint_names], list(told["q"].values()), rtol=1e-11
+        )
+        assert float(row["value"]) == pytest.approx(told["value"], rel=1e-11)
+    code, text, err = cli(*arguments)
+    words = " ".join(text.split())
+    assert (code, err) == (0, "")
+    for part in ("pose before after starts agreeing", "not found: no solution was found", "first configuration found"):
+        assert part in words, part
+
+
+def test_a_person_reads_joints_in_rad_and_degrees(cli):
+    code, out, err = cli(
+        "configure", "planar-3r", "--at", "0.3 1 -0.7", "--maximise", "relative-manipulability", "--mount", "wall"
+    )
+    words = " ".join(out.split())
+    assert (code, err) == (0, "")
+    for part in (
+        "maximise relative-manipulability",
+        "larger wanted",
+        "(the configuration given)",
+        "0.3 rad (17.19 deg)",
+        "agree",
+    ):
+        assert part in words, part
+    assert "pose met to" in words
+
+
+def test_positions_need_no_orientation(ask, panda):
+    data = ask("configure", "panda", "--pose", "0.5,0.1,0.4", "--task", "position", "--minimise", "swing-angle", "--starts", 4)
+    found = panda.forward_kinematics(list(data["poses"][0]["q"].values()))
+    np.testing.assert_allclose(found[:3, 3], [0.5, 0.1, 0.4], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--at", HOME], "give one of --minimise and --maximise"),
+        (["--at", HOME, "--minimise", "torque", "--maximise", "torque"], "give one of --minimise and --maximise"),
+        (["--minimise", "torque"], "give one of --pose"),
+        (["--minimise", "torque", "--at", HOME, "--pose", "1,0,0"], "give one of --pose"),
+        (["--minimise", "torque", "--at", "1 2"], "has 2 values per configuration"),
+        (["--minimise", "torque", "--at", "1 2 3 4 5 6 nan"], "--at holds NaN"),
+        (["--minimise", "torque", "--pose", "1,2"], "--pose has 2 numbers; give x,y,z,roll,pitch,yaw"),
+        (["--minimise", "torque", "--pose", "1,2,x"], "--pose: 'x' is not a number"),
+        (["--minimise", "torque", "--pose", "1,2,inf"], "--pose holds NaN or infinity"),
+        (["--minimise", "torque", "--pose", "0.5,0,0.5"], "task 'pose' asks for one"),
+        (["--minimise", "torque", "--pose", "5,0,0,0,0,0"], "no configuration of the pose: no solution was found"),
+        (["--minimise", "torque", "--poses", "nowhere.csv"], "--poses: 'nowhere.csv' cannot be read"),
+        (["--minimise", "weight", "--at", HOME], "objective 'weight' is not known"),
+        (["--minimise", "torque", "--at", HOME, "--starts", "0"], "starts is 0"),
+        (["--minimise", "torque", "--at", HOME, "--seed", "-1"], "--seed"),
+        (["--minimise", "torque", "--at", HOME, "--starts", "1", "--csv", "/nowhere/x.csv"], "cannot write configurations"),
+    ],
+)
+def test_bad_input_is_one_sentence(arguments, words, refused):
+    assert words in refused("configure", "panda", *arguments)
+
+
+def test_a_file_without_poses(refused, tmp_path):
+    file = tmp_path / "poses.csv"
+    file.write_text("x,y,z\n")
+    assert "holds no poses" in refused("configure", "panda", "--poses", file, "--minimise", "torque")
+    file.write_text("x,y,z,qx,qy,qz,qw\n0,0,1,0,0,0,2\n")
+    assert "row 1: the quaternion" in refused("configure", "panda", "--poses", file, "--minimise", "torque")
+
+
+def test_the_list_of_commands_names_what_is_needed(cli):
+    _, out, _ = cli("--help")
+    assert "(needs the extra 'physics')" in " ".join(out.replace("│", " ").split())
+    assert "configure" in out
