@@ -275,7 +275,7 @@ def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) ->
     q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     chain = kinematics.chain(arm, q)
     error = hand_error(law.task, chain.position, chain.rotation, p, r)
-    size = ca.sqrt(ca.sumsqr(error) + 1e-30)
+    size = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
     out = law.expression(q, error * ca.if_else(size > farthest, farthest / size, 1) / step)
     following = q + step * out[: arm.n]
     if limits:
