@@ -146,6 +146,7 @@ def follow(
         shares[few, 0],
         shares[few, 1],
         shares[few, 2],
+        len(joints) - 1,
         float(course.rate_norm[fastest]),
         float(course.time[fastest]),
         happened,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.control.slow_motion import SlowMotion, slow_enough
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility import Susceptibility
@@ -58,6 +59,7 @@ class Trajectory:
         self_motion: (T,) share of the self-motion that the rate cap let pass.
         task_share: (T,) share of the commanded velocity that was carried out.
         damping: (T,) above 0 where rates were damped near a singularity.
+        steps: Of control that were computed.
         peak_rate: Largest norm of the joint rates, also between the samples, rad/s.
         peak_time: When that was, s.
         events: What happened, in order.
@@ -84,6 +86,7 @@ class Trajectory:
     self_motion: Array
     task_share: Array
     damping: Array
+    steps: int
     peak_rate: float
     peak_time: float
     events: tuple[Event, ...]
@@ -185,6 +188,34 @@ class Trajectory:
         except OSError as error:
             raise StoreError(f"'{target}' cannot be written: {error.strerror or error}") from error
         return target
+
+    def report(self, path: str | Path, command: str = "", torque_bound: float | None = None) -> Path:
+        """Write a report: one HTML file with curves, events and the arm in motion, that needs nothing else.
+
+        Args:
+            path: The file; it is replaced in one step.
+            command: The command line that makes the motion again, if there is one.
+            torque_bound: If given, N m and N, how slow the motion must be for its torques to stay this close to gravity's;
+                see :func:`holdfast.control.slow_enough`.
+
+        Raises:
+            StoreError: The file cannot be written; what was there is as it was.
+            ArmError: A torque_bound for an arm without inertial data.
+        """
+        from holdfast.control import trajectory_report
+
+        return trajectory_report.write(self, Path(path), command, torque_bound)
+
+    def slowness(self, bound: float) -> list[SlowMotion]:
+        """How slow each joint asks the motion to be, n of them: see :func:`holdfast.control.slow_enough`.
+
+        Args:
+            bound: Of ``|torque - gravity torque|``, N m and N, of every joint.
+
+        Source: English and Maciejewski 1998, eq. (6).
+        """
+        each = np.where(np.eye(self.arm.n) > 0, bound, np.inf)
+        return [slow_enough(self.arm, self.q, self.qd, self.qdd, one) for one in each]
 
     def describe(self) -> list[str]:
         """A few sentences for people: how far, how well, and what happened."""
