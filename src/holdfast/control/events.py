@@ -36,6 +36,7 @@ _CLOSE = 0.2  # of the median curvature along a path: where it is less and rates
 _FAST = 4.0  # times the median rate: this is high
 NOTHING = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little
 _KEPT = 0.01  # of the value, or of its range
+_JUMP = 0.02  # of the range of the values, in one step
 _BRIDGE = 0.01  # of the steps: events less apart are one
 _DIFFERENCE = 1e-5  # rad
 
@@ -128,6 +129,16 @@ def events(objective: Objective, c: Course, tracks: bool, wanted: float | None, 
     positive = objective.better == "smaller" and bool((c.value >= 0).all())
     nothing = positive & (c.value <= NOTHING * max(float(c.value.max()), 1e-300)) & (c.value.max() > 0)
     add("zero cost", nothing, lambda when: f"{when}: {objective.name} is zero (below {NOTHING:.1%} of its largest value)")
+    range_ = float(np.ptp(c.value))
+    jump = np.r_[False, np.abs(np.diff(c.value)) > _JUMP * range_] & (range_ > 0)
+    add(
+        "value jump",
+        jump,
+        lambda when: (
+            f"{when}: {objective.name} jumps by more than {_JUMP:.0%} of its range in one step; swing angles do where a joint "
+            "is balanced about its axis or upright, and the worst of several failures may"
+        ),
+    )
     found += _troubles(objective, c, tracks, nothing)
     if wanted is not None:
         off = np.abs(c.value - wanted) > _KEPT * max(abs(wanted), float(np.ptp(c.value)))
@@ -143,7 +154,7 @@ def events(objective: Objective, c: Course, tracks: bool, wanted: float | None, 
     add(
         "near a singularity",
         c.damping > 0,
-        lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped and the hand lags a little",
+        lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped, so the hand may lag",
     )
     for name, flags in c.at_limit.items():
         add("joint limit", flags, partial(_at_limit, name))

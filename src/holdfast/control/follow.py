@@ -25,9 +25,11 @@ from holdfast.solve.inverse import clipped, hand_error
 
 Array = NDArray[np.float64]
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
+TRACKING = ("gradient-projection", "extended-jacobian")  # these stay at a local best
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
 _STEPS = 20_000  # of control, at least: the hand is off by the square of a step
+_SETTLING = 400  # steps before the first
 _SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
 _FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the hand off its path
 _PROBES = 64
@@ -118,10 +120,11 @@ def follow(
         law = GradientProjection(arm, objective, gain, chosen, cap, period, damping)
     if wanted is not None and keep is None:
         raise InputError(f"wanted is what the augmented Jacobian keeps; {method} does not, leave it out")
-    joints, rates, shares = _integrate(law, path, start, (samples - 1) * substeps, step, limits)
+    settle = q is None and method in TRACKING
+    joints, rates, shares = _integrate(law, path, start, (samples - 1) * substeps, step, limits, settle)
     course = _course(arm, objective, curvature, path.duration, joints, rates, shares, limits)
     limited = f"the rate cap of {cap:.4g} rad/s" if cap == rate_cap else f"the finest step of {_FARTHEST:g} rad"
-    happened = events(objective, course, method in ("gradient-projection", "extended-jacobian"), keep, limited)
+    happened = events(objective, course, method in TRACKING, keep, limited)
     fastest = int(course.rate_norm.argmax())
     few = slice(None, None, substeps)
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
@@ -238,17 +241,26 @@ def _gain(method: str, curvature: Curvature, poses: Array, step: float, seed: in
 
 
 def _integrate(
-    law: Resolution, path: TimedPath, start: Array, count: int, step: float, limits: bool
+    law: Resolution, path: TimedPath, start: Array, count: int, step: float, limits: bool, settle: bool
 ) -> tuple[Array, Array, Array]:
     """Joints (N + 1, n), rates (N + 1, n) and shares (N + 1, 3) at N steps and the end: see :class:`holdfast.control.Rates`.
 
     In each step the hand is sent to where the path is at its end, so that errors do not add up.
     """
-    n = law.arm.n
     # A hand that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
     fastest = float(np.linalg.norm(path.twist((np.arange(count) + 0.5) * step), axis=1).max())
     kernel = _step_kernel(law, step, limits, _CATCH_UP * fastest * step)
-    targets = path.pose(np.arange(1, count + 1) * step)
+    if settle:  # what a search left open would be made up for at once, with rates that no motion needs
+        start = _run(kernel, start, np.broadcast_to(path.pose(0.0), (_SETTLING, 4, 4)), step)[0][-1]
+    joints, rates, shares = _run(kernel, start, path.pose(np.arange(1, count + 1) * step), step)
+    last = law.rates(joints[-1], path.twist(path.duration))
+    rates[-1], shares[-1] = last.rates, (last.self_motion, last.task, last.damping)
+    return joints, rates, shares
+
+
+def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Array, Array, Array]:
+    """Joints (N + 1, n), rates and shares of which the last row is empty, from a start (n,) after targets (N, 4, 4)."""
+    count, n = len(targets), len(start)
     data = np.concatenate([targets[:, :3, 3], targets[:, :3, :3].reshape(count, 9)], axis=1)
     columns = np.zeros((n + 12, kernel.lanes))
     out = np.zeros((2 * n + 3, kernel.lanes))
@@ -265,8 +277,6 @@ def _integrate(
         rates[k], shares[k] = out[n : 2 * n, 0], out[2 * n :, 0]
         columns[:n] = out[:n]
     joints[-1] = columns[:n, 0]
-    last = law.rates(joints[-1], path.twist(path.duration))
-    rates[-1], shares[-1] = last.rates, (last.self_motion, last.task, last.damping)
     return joints, rates, shares
 
 

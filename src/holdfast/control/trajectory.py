@@ -27,7 +27,7 @@ class Event:
 
     Attributes:
         kind: ``algorithmic singularity``, ``not at an extremum``, ``fast motion``, ``zero cost``, ``value not kept``,
-            ``rate cap``, ``joint limit``, ``hand slowed`` or ``near a singularity``.
+            ``value jump``, ``rate cap``, ``joint limit``, ``hand slowed`` or ``near a singularity``.
         start, end: From when to when, s.
         text: One sentence for people.
     """
@@ -104,25 +104,27 @@ class Trajectory:
         return bool(np.nanmax(self.position_error) <= ON_PATH and np.nanmax(self.rotation_error) <= ON_PATH)
 
     @property
+    def hand_error(self) -> str:
+        """The largest error of the hand in what the task prescribes, for people."""
+        rows = self.task.rows
+        parts = []
+        for error, unit, used in ((self.position_error, "mm", rows[:, :3]), (self.rotation_error, "mrad", rows[:, 3:])):
+            if np.any(used):
+                most = 1000 * float(np.nanmax(error))
+                parts.append(f"{most:.3g} {unit}" if most >= 1e-3 else f"less than 0.001 {unit}")
+        return " and ".join(parts)
+
+    @property
     def headline(self) -> str:
         """Whether the hand stayed on its path, and if not, when it left and how far it got from it."""
-        errors = [
-            f"{np.nanmax(error):.2g} {unit}"
-            for error, unit, used in (
-                (self.position_error, "m", bool(np.abs(self.task.rows[:, :3]).max() > 0)),
-                (self.rotation_error, "rad", self.task.angular),
-            )
-            if used
-        ]
-        far = " and ".join(errors)
         if self.on_path:
-            return f"the hand stays within {far} of its path"
+            return f"the hand stays on its path, off it by {self.hand_error}"
         off = (self.position_error > ON_PATH) | (self.rotation_error > ON_PATH)
         slowed = {"hand slowed", "near a singularity"}
         why = [e.kind for e in self.events if e.kind in slowed or e.kind == "joint limit"]
         reason = f" ({', '.join(dict.fromkeys(why))})" if why else ""
         return (
-            f"THE HAND LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s and gets up to {far} away from it, "
+            f"THE HAND LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s and gets up to {self.hand_error} away from it, "
             f"off it for {off.mean():.0%} of the time{reason}"
         )
 

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS = {"hand slowed", "not at an extremum", "algorithmic singularity", "value not kept"}
+_SERIOUS = {"hand slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
 
 
 def write(t: Trajectory, path: Path, command: str = "", torque_bound: float | None = None) -> Path:
@@ -73,10 +73,10 @@ class _Facts:
     @property
     def headline(self) -> str:
         t = self.t
-        hand = _upper(t.headline.lower()) if not t.on_path else _upper(t.headline)
+        unit = f" ({t.objective.unit})" if self.unit else ""
         return (
-            f"{hand}. {_upper(t.objective.name)} goes from {t.value[0]:.4g} to {t.value[-1]:.4g}{self.unit} in "
-            f"{t.time[-1]:.4g} s, {t.value.mean():.4g} in the mean and {self.worst:.4g} at its worst."
+            f"{_upper(t.headline)}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
+            f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
         )
 
     @property
@@ -95,17 +95,13 @@ class _Facts:
         rows += [
             ("Largest norm of the joint rates", f"{t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s"),
             ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
-            ("Hand off its path by at most", self.errors),
+            ("Hand off its path by at most", t.hand_error),
         ]
         if t.rate_cap is not None:
             rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))
         if (t.task_share < 1 - 1e-9).any():
             rows.append(("Hand slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
         return [Table(rows)]
-
-    @property
-    def errors(self) -> str:
-        return f"{1000 * np.nanmax(self.t.position_error):.3g} mm, {1000 * np.nanmax(self.t.rotation_error):.3g} mrad"
 
     # ---- the arm -----------------------------------------------------------------------------------------------
 
@@ -162,7 +158,7 @@ class _Facts:
             units = ", ".join(dict.fromkeys(measure.joint_unit))
             each = [Line(v, j.name) for v, j in zip(values.T, t.arm.joints, strict=True)]
             panels.append(
-                Timeline(each, f"{measure.formula.name}, {units}", f"{_upper(measure.slug)} of each joint if it fails")
+                Timeline(each, f"{measure.formula.name}, {units}", f"{_upper(measure.formula.name)} of each joint if it fails")
             )
         if len(panels) > 1:
             caption += " Below: the signed measure of each joint, without weights."
@@ -224,8 +220,8 @@ class _Facts:
                 image,
                 f"Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
                 f"motion takes {', '.join(f'{s * t.time[-1]:.4g}' for s in SPEEDS)} s, drawn over the time of the first; "
-                "dashed: at rest. The susceptibilities assume that these hardly differ. English and Maciejewski 1998, eq. (5), Figs. 9 "
-                "to 12. Accelerations are differences of the sampled rates.",
+                "dashed: at rest. The susceptibilities assume that these hardly differ. English and Maciejewski 1998, eq. "
+                "(5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
             )
         ]
         if bound is None:
