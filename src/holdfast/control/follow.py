@@ -13,7 +13,8 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.control.events import Course, Curvature, events
-from holdfast.control.resolution import AugmentedJacobian, ExtendedJacobian, GradientProjection, Resolution
+from holdfast.control.laws import AugmentedJacobian, ExtendedJacobian, GradientProjection
+from holdfast.control.resolution import Resolution
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices import Objective, Opposite
