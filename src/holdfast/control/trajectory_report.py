@@ -37,7 +37,7 @@ def write(t: Trajectory, path: Path, command: str = "", torque_bound: float | No
 def build(t: Trajectory, command: str = "", torque_bound: float | None = None) -> Page:
     """The report as blocks, before it becomes HTML."""
     f = _Facts(t)
-    alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad", "The hand does not do its task")]
+    alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad")]
     parts = [
         Section("Key numbers", f.numbers()),
         Section("The motion", f.motion()),
@@ -74,8 +74,9 @@ class _Facts:
     def headline(self) -> str:
         t = self.t
         unit = f" ({t.objective.unit})" if self.unit else ""
+        hand = _upper(t.headline) if t.on_path else "The hand does not stay on its path"
         return (
-            f"{_upper(t.headline)}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
+            f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
             f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
         )
 
@@ -296,7 +297,7 @@ class _Facts:
                 Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,
                 f"{e.start:.4g}",
                 f"{e.end:.4g}",
-                e.text,
+                _upper(e.text.split(": ", 1)[1]),  # the times have columns of their own
             ]
             for e in t.events
         ]
