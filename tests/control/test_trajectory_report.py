@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,8 @@ import oracles
 from holdfast.control.trajectory_report import build, corners, projections
 from holdfast.indices import RelativeManipulability, susceptibility
 from holdfast.paths import TimedPath, Trapezoid, line
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
 

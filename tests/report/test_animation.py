@@ -9,11 +9,11 @@ from shutil import which
 
 import numpy as np
 import pytest
+from wellformed import check
 
 from holdfast.report import page, svg
 from holdfast.report.animation import Motion, Projection, animation, shown_seconds
 from holdfast.report.timelines import Line, Timeline, small_multiples, timeline_figure
-from wellformed import check
 
 X, Y, Z = np.eye(3)
 SIDE = Projection(X, Z, ("x, m", "z, m"), "Side view")
