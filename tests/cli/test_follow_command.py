@@ -98,7 +98,7 @@ def test_a_hand_off_its_path_is_said_first(cli, tmp_path):
     code, out, _ = cli(*call)
     assert code == 0
     assert out.startswith("THE HAND LEAVES ITS PATH at ")
-    assert "'joint2' is at its limit" in out
+    assert "'joint3' is at its limit" in out
     code, out, _ = cli(*call, "--no-limits")
     assert out.startswith("The hand stays on its path")
 
