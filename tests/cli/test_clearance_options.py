@@ -83,9 +83,11 @@ def test_configure_keeps_the_arm_clear_of_itself(cli, ask):
 
 
 def test_configure_says_why_nothing_is_clear(cli):
-    code, out, err = cli(*BEST, "--radius", 5)
+    code, out, err = cli(*BEST, "--radius", 0.13, "--margin", 9)
     assert (code, out) == (2, "")
-    assert "the arm runs through itself in each that was found (capsules: given radius 5 m along each link)" in err
+    assert (
+        "the arm comes closer than 9 m to itself in each that was found (capsules: given radius 0.13 m along each link)" in err
+    )
     assert "--no-clearance" in err
 
 

@@ -76,9 +76,12 @@ def _clearance(result: Assessment) -> dict[str, Any] | None:
     found, clearance = result.collisions, result.plan.clearance
     if found is None or clearance is None:
         return None
-    counts = {"found": found.found, "best_without_regard": found.blocked, "none_clear": found.hopeless}
-    if result.optimised is None:
-        counts = {"found": found.found, "best_without_regard": None, "none_clear": None}
+    chosen = result.optimised is not None
+    counts = {
+        "found": found.found,
+        "best_without_regard": found.blocked if chosen else None,
+        "none_clear": found.hopeless if chosen else None,
+    }
     shares = {f"{name}_share": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
     return {"reached": found.reached, **counts, **shares, **shape_summary(clearance, found.margin)}
 
