@@ -13,7 +13,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control.events import Course, Curvature, events
-from holdfast.control.laws import AugmentedJacobian, ExtendedJacobian, GradientProjection
+from holdfast.control.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.control.resolution import Resolution, chosen_task
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
