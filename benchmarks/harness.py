@@ -16,11 +16,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 Array = np.ndarray
-Function = Callable[[Array], Array]
+Function = Callable[[Array], Any]
 
 PACKAGES = (
     "holdfast",
@@ -98,8 +99,10 @@ def alternate(first: Callable[[], object], second: Callable[[], object], rounds:
     return times
 
 
-def largest_error(function: Function, q: Array, expected: Array, scale: Array | float = 1.0) -> float:
-    return float((np.abs(np.asarray(function(q)) - expected) / scale).max())
+def largest_error(
+    function: Function, q: Array, expected: Array, scale: Array | float = 1.0, read: Callable[[Any], Array] = np.asarray
+) -> float:
+    return float((np.abs(read(function(q)) - expected) / scale).max())
 
 
 def race(
@@ -111,6 +114,7 @@ def race(
     expected: Array,
     rounds: int,
     scale: Array | float = 1.0,
+    read: Callable[[Any], Array] = np.asarray,
 ) -> str:
     """Time the candidate against each peer in turn.
 
@@ -123,12 +127,13 @@ def race(
         expected: What it must give there, by an independent route.
         rounds: Of candidate and peer.
         scale: By which errors are divided.
+        read: Makes an array like ``expected`` of what a contender returns; not timed.
 
     Returns:
         A markdown table.
     """
     ours = candidate.make()
-    error = largest_error(ours, sample, expected, scale)
+    error = largest_error(ours, sample, expected, scale, read)
     own_rates: list[float] = []
     lines: list[list[str]] = []
     for peer in peers:
@@ -136,7 +141,7 @@ def race(
         try:
             build = time.perf_counter()
             theirs = peer.make()
-            peer_error = largest_error(theirs, sample, expected, scale)
+            peer_error = largest_error(theirs, sample, expected, scale, read)
             build = time.perf_counter() - build
             a, b = q[: candidate.rows], q[: peer.rows]
             first, second = alternate(lambda a=a: ours(a), lambda b=b, f=theirs: f(b), rounds)
