@@ -16,6 +16,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -265,13 +266,14 @@ class Step:
         self._in = np.zeros(kernel.program.n_in)
         self._out = np.full(kernel.program.n_out, np.nan)
         # Memory views are filled in half the time that NumPy's slices take.
-        self._q, self._twist = memoryview(self._in)[:n], memoryview(self._in)[n:]
+        self._q: Any = memoryview(self._in)[:n]
+        self._twist: Any = memoryview(self._in)[n:]
 
     def __call__(self, q: Array, twist: Array) -> Array:
         """Rates (n,) of a configuration (n,) and a twist (6,)."""
         try:
-            self._q[:] = q  # type: ignore[assignment]
-            self._twist[:] = twist  # type: ignore[assignment]
+            self._q[:] = q
+            self._twist[:] = twist
         except (TypeError, ValueError):  # whole numbers, or lists
             self._in[: self._n], self._in[self._n :] = q, twist
         self._out = out = self._call(self._in)
