@@ -266,8 +266,8 @@ class Step:
         self._in = np.zeros(kernel.program.n_in)
         self._out = np.full(kernel.program.n_out, np.nan)
         # Memory views are filled in half the time that NumPy's slices take.
-        self._q: Any = memoryview(self._in)[:n]
-        self._twist: Any = memoryview(self._in)[n:]
+        self._q: Any = self._in.data[:n]
+        self._twist: Any = self._in.data[n:]
 
     def __call__(self, q: Array, twist: Array) -> Array:
         """Rates (n,) of a configuration (n,) and a twist (6,)."""
