@@ -16,13 +16,28 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 Array = np.ndarray
-Function = Callable[[Array], Array]
+Function = Callable[[Array], Any]
 
-PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "heyoka", "jax", "pin", "roboticstoolbox-python", "pytracik")
+PACKAGES = (
+    "holdfast",
+    "numpy",
+    "scipy",
+    "casadi",
+    "heyoka",
+    "jax",
+    "pin",
+    "roboticstoolbox-python",
+    "pytracik",
+    "pin-pink",
+    "mink",
+    "daqp",
+    "proxsuite",
+)
 
 
 class MissingError(Exception):
@@ -84,12 +99,22 @@ def alternate(first: Callable[[], object], second: Callable[[], object], rounds:
     return times
 
 
-def largest_error(function: Function, q: Array, expected: Array) -> float:
-    return float(np.abs(np.asarray(function(q)) - expected).max())
+def largest_error(
+    function: Function, q: Array, expected: Array, scale: Array | float = 1.0, read: Callable[[Any], Array] = np.asarray
+) -> float:
+    return float((np.abs(read(function(q)) - expected) / scale).max())
 
 
 def race(
-    title: str, candidate: Contender, peers: Sequence[Contender], q: Array, sample: Array, expected: Array, rounds: int
+    title: str,
+    candidate: Contender,
+    peers: Sequence[Contender],
+    q: Array,
+    sample: Array,
+    expected: Array,
+    rounds: int,
+    scale: Array | float = 1.0,
+    read: Callable[[Any], Array] = np.asarray,
 ) -> str:
     """Time the candidate against each peer in turn.
 
@@ -101,12 +126,14 @@ def race(
         sample: (M, n) configurations on which every contender is checked.
         expected: What it must give there, by an independent route.
         rounds: Of candidate and peer.
+        scale: By which errors are divided.
+        read: Makes an array like ``expected`` of what a contender returns; not timed.
 
     Returns:
         A markdown table.
     """
     ours = candidate.make()
-    error = largest_error(ours, sample, expected)
+    error = largest_error(ours, sample, expected, scale, read)
     own_rates: list[float] = []
     lines: list[list[str]] = []
     for peer in peers:
@@ -114,7 +141,7 @@ def race(
         try:
             build = time.perf_counter()
             theirs = peer.make()
-            peer_error = largest_error(theirs, sample, expected)
+            peer_error = largest_error(theirs, sample, expected, scale, read)
             build = time.perf_counter() - build
             a, b = q[: candidate.rows], q[: peer.rows]
             first, second = alternate(lambda a=a: ours(a), lambda b=b, f=theirs: f(b), rounds)

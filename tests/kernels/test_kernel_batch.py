@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import pairwise
 
 import casadi as ca
 import numpy as np
@@ -283,3 +284,27 @@ def test_evaluate_columns_is_the_same_function(large, rng):
     out = np.empty((100, len(x)))
     kernel.evaluate_columns(np.ascontiguousarray(x.T), out)
     np.testing.assert_array_equal(out.T.reshape(-1, 10, 10), kernel(x))
+
+
+def row_function(name, count=60):
+    """Long enough that a compiler could contract, reorder or vectorise it in another way for one row."""
+    x = ca.SX.sym("x", 13)
+    y = x
+    for _ in range(count):
+        y = ca.vertcat(y[1:], y[0] * y[5] / (1 + y[3] ** 2) - ca.sin(y[7]) * ca.if_else(y[2] < y[9], y[4], ca.sqrt(y[1] ** 2)))
+    return Kernel(name, [x], [y if name == "plain" else ca.atan2(y, 1 + ca.exp(-(y**2)))])
+
+
+@pytest.mark.parametrize("name", ["plain", "functions"])
+def test_a_single_row_has_the_bits_of_the_batch(name, rng, monkeypatch):
+    x = rng.normal(size=(3000, 13)) * 10 ** rng.uniform(-4, 4, (3000, 1))
+    x[5, 12] = np.nan
+    for backend in BACKENDS:
+        monkeypatch.setenv("HOLDFAST_BACKEND", backend)
+        kernel = row_function(name)
+        rows = x if backend == "heyoka" else x[:50]
+        one = kernel.single()
+        results = [one(row) for row in rows]
+        np.testing.assert_array_equal(results, kernel.rows(rows))
+        assert all(a is not b and not np.shares_memory(a, b) for a, b in pairwise(results))
+        assert np.isnan(results[5]).all()

@@ -20,6 +20,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -290,26 +291,30 @@ class Resolution(ABC):
 
 
 class Step:
-    """One control step with buffers of its own: not for several threads at once.
-
-    Attributes:
-        shares: (3,) of the last call: shares of self-motion and of the task, and the damping; see :class:`Rates`.
-    """
+    """One control step with a buffer of its own: not for several threads at once. The bits are those of the law's ``rates``."""
 
     def __init__(self, kernel: Kernel, n: int) -> None:
-        self._call, self._n = kernel.evaluate_columns, n
-        self._in = np.zeros((kernel.program.n_in, kernel.lanes))
-        self._out = np.zeros((kernel.program.n_out, kernel.lanes))
-        self._q, self._twist = self._in[:n], self._in[n:]
-        self._rates = self._out[:n, 0]
-        self.shares = self._out[n:, 0]
+        self._call, self._n = kernel.single(), n
+        self._in = np.zeros(kernel.program.n_in)
+        self._out = np.full(kernel.program.n_out, np.nan)
+        # Memory views are filled in half the time that NumPy's slices take.
+        self._q: Any = self._in.data[:n]
+        self._twist: Any = self._in.data[n:]
 
     def __call__(self, q: Array, twist: Array) -> Array:
         """Rates (n,) of a configuration (n,) and a twist (6,)."""
-        self._q[:] = q[:, None]
-        self._twist[:] = twist[:, None]
-        self._call(self._in, self._out)
-        return self._rates.copy()
+        try:
+            self._q[:] = q
+            self._twist[:] = twist
+        except (TypeError, ValueError):  # whole numbers, or lists
+            self._in[: self._n], self._in[self._n :] = q, twist
+        self._out = out = self._call(self._in)
+        return out[: self._n]
+
+    @property
+    def shares(self) -> Array:
+        """Of the last call (3,): shares of self-motion and of the task, and the damping; see :class:`Rates`."""
+        return self._out[self._n :]
 
 
 def chosen_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str] | None, default: str) -> Task:

@@ -15,6 +15,30 @@ from holdfast.errors import KernelError
 from holdfast.kernels.program import OP_NAMES, Program
 from holdfast.kernels.trigonometry import sincos
 
+_ARITHMETIC = {
+    getattr(ca, f"OP_{name}")
+    for name in (
+        *(
+            "CONST",
+            "INPUT",
+            "OUTPUT",
+            "ASSIGN",
+            "ADD",
+            "SUB",
+            "MUL",
+            "DIV",
+            "NEG",
+            "SQ",
+            "TWICE",
+            "INV",
+            "SQRT",
+            "FABS",
+            "SIGN",
+        ),
+        *("SIGN", "SIN", "COS", "TAN", "LT", "LE", "EQ", "NE", "NOT", "AND", "OR", "IF_ELSE_ZERO", "FMIN", "FMAX", "HYPOT"),
+    )
+}
+
 
 def available() -> bool:
     """True if heyoka can be imported on this machine."""
@@ -77,6 +101,11 @@ def _table() -> dict[int, Callable[..., Any]]:
         ca.OP_EXPM1: hy.expm1,
         ca.OP_HYPOT: lambda a, b: hy.sqrt(a * a + b * b),
     }
+
+
+def same_for_one_row(program: Program) -> bool:
+    """True if heyoka's code for one row, without SIMD, gives the same bits: other functions come from another library there."""
+    return all(row.op in _ARITHMETIC for row in program.instructions)
 
 
 def compile_program(program: Program) -> Any:
@@ -178,4 +207,4 @@ def _choice(choices: dict[int, tuple[Any, Any]], negations: dict[int, Any], x: A
 
 def call(compiled: Any, inputs: NDArray[np.float64], outputs: NDArray[np.float64]) -> None:
     """Evaluate columns of contiguous ``inputs (n_in, W)`` into ``outputs (n_out, W)``; W a multiple of the lanes."""
-    compiled(inputs, outputs=outputs)
+    compiled(inputs, outputs)
