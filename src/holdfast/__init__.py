@@ -3,7 +3,7 @@
 from holdfast import arms, indices, paths
 from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
-from holdfast.assess import Assessment, Region, assess, load
+from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
@@ -23,6 +23,7 @@ __all__ = [
     "BrakedDrop",
     "Capsules",
     "Clearance",
+    "Comparison",
     "FreeSwing",
     "HoldfastError",
     "InputError",
@@ -40,6 +41,7 @@ __all__ = [
     "__version__",
     "arms",
     "assess",
+    "compare",
     "follow",
     "free_swing",
     "indices",

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 from holdfast.arm.task import as_task, rows_task
-from holdfast.assess import facts, report, rerun, sections
+from holdfast.assess import facts, places, report, rerun
 from holdfast.assess.region import rotation_from_rpy
 from holdfast.assess.weights import Density
 from holdfast.cli.options import read_failures, read_task
@@ -40,6 +40,7 @@ def around(name: str) -> hf.Region:
 
 CASES: dict[str, Callable[[], hf.Assessment]] = {
     "paper": lambda: hf.assess(NINE, PAPER, poses=500, seed=1),
+    "optimised": lambda: hf.assess(NINE, PAPER, poses=240, seed=2, optimise=True),
     "panda": lambda: hf.assess(PANDA, around("panda"), poses=250),
     "flat": lambda: hf.assess(hf.arms.load("planar-3r"), around("planar-3r"), task="planar", poses=250),
     "structural": lambda: hf.assess(SEVEN, around("pa10-7dof"), poses=100),
@@ -146,6 +147,26 @@ def test_structural_failure_is_said_first() -> None:
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}
     assert fatal["pose (this run)"] == [4]  # after the column of the redundancy: joint 4
     assert fatal["position"] == []
+
+
+def test_before_and_after_optimisation() -> None:
+    """Worst poses, failures, gaps and joints to protect at both kinds of configurations."""
+    a, html = case("optimised"), text("optimised")
+    for optimised in (False, True):
+        values = a.dataset["optimised_index" if optimised else "index"].values
+        worst = int(np.nanargmin(values))
+        name = "after optimisation" if optimised else "found by inverse kinematics"
+        table = html[html.index(f"reached poses, {name}; R = Rz") :]
+        first = re.findall(r"<tbody>\s*<tr><th[^>]*>([\d,]+)</th>(.*?)</tr>", table)[0]
+        assert int(first[0].replace(",", "")) == worst + 1
+        assert f">{values[worst]:.3f}<" in first[1]
+        gap = a.index.bound - float(np.nanquantile(values, 0.5, method="inverted_cdf"))
+        assert f"(gap {gap:.3f})" in html
+        assert f"Seen from the side, {name}" in html
+        u = a.upgrades(0.29, optimised)[0]
+        assert f"{u.gain:+.3f} ({u.low:.3f} to {u.high:.3f})" in html
+    assert "after: worst of all" in html
+    assert "Which joint deserves the redundant motor or brake" in html
 
 
 def test_names_are_escaped() -> None:
@@ -259,7 +280,7 @@ def test_listed_angles_are_those_of_the_pose_and_inside_the_region() -> None:
     rng = np.random.default_rng(5)
     low, size = np.array(PAPER.center[3:]) - np.array(PAPER.size[3:]) / 2, np.array(PAPER.size[3:])
     drawn = low + size * rng.random((200, 3))
-    shown = sections._angles(rotation_from_rpy(drawn), PAPER)
+    shown = places._angles(rotation_from_rpy(drawn), PAPER)
     np.testing.assert_allclose(shown, drawn, atol=1e-9)
     anything = Rotation.random(50, rng=rng).as_matrix()
-    np.testing.assert_allclose(rotation_from_rpy(sections._angles(anything, JOINTS)), anything, atol=1e-9)
+    np.testing.assert_allclose(rotation_from_rpy(places._angles(anything, JOINTS)), anything, atol=1e-9)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -302,6 +304,73 @@ def test_assess_a_weighted_list(cli, ask, tmp_path):
     assert ask("assess", "planar-3r", "--region", tmp_path / "job.yaml", "--poses", 10)["effective_sample_size"] is None
 
 
+# ---- several -------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def flat(tmp_path):
+    file = tmp_path / "flat.yaml"
+    file.write_text("box: {center: [0.6, 0.2, 0], size: [0.3, 0.3, 0]}\n")
+    return file
+
+
+def test_one_arm_is_as_if_there_were_no_comparison(ask, flat):
+    data = ask("assess", "planar-3r", "--region", flat, "--poses", 30, "--task", "planar")
+    assert "candidates" not in data
+    assert data["upgrades"]["threshold"] == 0.29  # half of sqrt(1/3)
+    assert data["gap"] == pytest.approx(data["bound"] - data["quantiles"]["0.5"])
+    run = hf.assess(arms.load("planar-3r"), hf.Region.load(flat), task="planar", poses=30)
+    expected = {u.joint: u.gain for u in run.upgrades()}
+    assert {u["joint"]: u["gain"] for u in data["upgrades"]["joints"]} == expected
+
+
+def test_tools_and_arms_are_compared(cli, tmp_path):
+    out = tmp_path / "all"
+    urdf = tmp_path / "my arm.urdf"
+    data_folder = Path(hf.__file__).parent / "arm" / "data"
+    urdf.write_bytes((data_folder / "xarm7.urdf").read_bytes())
+    arguments = ("assess", "panda", urdf, "--task", "position", "--poses", 12, "--restarts", 5)
+    tools = ("--tool", "short=0,0,0.1,0,0,0", "--tool", "bent=0 0.02 0.1 90 0 0")
+    code, text, err = cli(*arguments, *tools, "--out", out)
+    assert code == 0
+    assert "every candidate is tried in the default region of 'panda-short'" in err
+    names = ["panda-short", "panda-bent", "my_arm-short", "my_arm-bent"]
+    assert all(name in text for name in names)
+    assert sorted(p.name for p in out.iterdir()) == sorted([*names, "report.html"])
+    stamps = {name: (out / name / "run.json").read_text() for name in names}
+    code, text, again = cli(*arguments, *tools, "--out", out, "--json")  # goes on: nothing is computed again
+    assert (code, again) == (0, err)
+    data = json.loads(text)
+    assert {name: (out / name / "run.json").read_text() for name in names} == stamps
+    assert [c["name"] for c in data["candidates"]] == names
+    assert [c["tool"] for c in data["candidates"]] == ["short", "bent"] * 2
+    assert {c["task"] for c in data["candidates"]} == {"position"}
+    assert data["comparison"]["report"] == str(out / "report.html")
+    for row, c in zip(data["comparison"]["table"], data["candidates"], strict=True):
+        assert row["name"] == c["name"]
+        assert row["reached"] == c["reached"] / 12
+        assert row["probability"] == c["probability"][0]["value"]
+        assert (out / c["name"] / "report.html").exists()
+        assert load(out / c["name"]).arm.fingerprint == c["fingerprint"]
+    bent = load(out / "panda-bent").arm
+    turned = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0.02], [0, 1, 0, 0.1], [0, 0, 0, 1]])
+    np.testing.assert_allclose(np.linalg.inv(bent.flange) @ bent.tool, turned, atol=1e-15)
+
+
+def test_two_tasks_of_one_arm(ask, cli, flat):
+    code, out, err = cli("assess", "planar-3r", "--region", flat, "--task", "vx", "--task", "planar", "--poses", 20)
+    assert (code, err) == (0, "")
+    assert "The tasks differ" in " ".join(out.split())
+    data = ask("assess", "planar-3r", "--region", flat, "--task", "vx", "--task", "planar", "--poses", 20)
+    assert [c["name"] for c in data["candidates"]] == ["planar-3r-vx", "planar-3r-planar"]
+
+
+def test_a_folder_of_one_run_is_not_used_for_a_comparison(refused, tmp_path):
+    run = tmp_path / "run"
+    hf.assess(arms.load("planar-3r"), hf.Region.joints([-1] * 3, [1] * 3), task="planar", poses=10, store=run)
+    assert "holds one run" in refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--out", run)
+
+
 def test_report_of_a_run_that_was_stopped(cli, ask, tmp_path):
     def stop(done, _):
         if done:
@@ -407,6 +476,14 @@ BAD = {
     "negative threads": (["assess", "pa10-9dof", "--threads", "-2"], ["threads is -2"]),
     "no restarts": (["assess", "pa10-9dof", "--restarts", "0"], ["restarts is 0"]),
     "threshold nan": (["assess", "pa10-9dof", "--poses", "5", "--at-least", "nan"], ["nan"]),
+    "an arm twice": (["assess", "panda", "panda"], ["two candidates are called 'panda'"]),
+    "a task twice": (["assess", "panda", "--task", "pose", "--task", "pose"], ["two candidates are called 'panda-pose'"]),
+    "a tool without a name": (["assess", "panda", "--tool", "0,0,0.1,0,0,0"], ["NAME=x,y,z,roll,pitch,yaw", "gripper=0"]),
+    "a tool of five numbers": (["assess", "panda", "--tool", "a=0,0,0,0,0"], ["--tool a has 5 numbers", "give 6"]),
+    "a tool in words": (["assess", "panda", "--tool", "a=0,0,up,0,0,0"], ["--tool a: 'up' is not a number"]),
+    "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a holds NaN"]),
+    "a tool that climbs": (["assess", "panda", "--tool", "../a=0,0,0,0,0,0"], ["is not NAME="]),
+    "one of two not redundant": (["assess", "panda", "ur5"], ["'ur5' is not redundant"]),
     "missing region": (["assess", "pa10-9dof", "--region", "nowhere.yaml"], ["cannot read region file 'nowhere.yaml'"]),
     "report of nothing": (["report", "/nowhere"], ["'/nowhere' is not a holdfast run"]),
     "report of another folder": (["report", "/tmp"], ["'/tmp' is not a holdfast run"]),

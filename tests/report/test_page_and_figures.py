@@ -59,9 +59,9 @@ def some_figures() -> list[Figure]:
         bar_figure(["none"], [0], "times"),
         view_figure(scene, views, Scale.of(values), "value", [("dot", "point"), ("slide", "slider"), ("cross", "none")]),
         view_figure(Scene(points[:0], values[:0], points[:0]), views[:1], Scale.of(values[:0]), "value", [("box", "box")]),
-        map_figure(points, values, points[:5], views, False, False, "mean"),
-        map_figure(points, 10 ** (6 * values), points[:0], views[:1], True, True, "median"),
-        map_figure(points, np.full(300, np.inf), points[:0], views[:1], True, True, "median"),
+        map_figure(points, {"found": values, "best": np.where(values < 0.1, np.nan, values + 1)}, views, False, False, "mean"),
+        map_figure(points, {"found": 10 ** (6 * values)}, views[:1], True, True, "median"),
+        map_figure(points, {"found": np.full(300, np.inf)}, views[:1], True, True, "median"),
     ]
 
 

@@ -18,6 +18,7 @@ from holdfast.assess.distribution import Distribution, Interval
 from holdfast.assess.plan import Plan, Rows, read_locks
 from holdfast.assess.region import Region, Sampling
 from holdfast.assess.run import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
+from holdfast.assess.upgrade import Upgrade, if_never_fails, upgrades
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _POSES = 2000  # unless asked otherwise
+ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 _CHUNK_BLOCKS = 8
 
@@ -184,6 +186,63 @@ class Assessment:
         shares = np.array([self.survival(int(k))[self.arm.joint_names[k]].value for k in some])
         return float(shares @ weights[some] / weights.sum())
 
+    # ---- what it means ---------------------------------------------------------------------------------------------
+
+    def default_threshold(self) -> float:
+        """The value that reports ask for unless they are given one: half of the bound, else about the median; two digits."""
+        if self.index.bound is not None:
+            return float(f"{self.index.bound / 2:.2g}")
+        d = self.distribution
+        for v in [*(d.quantile([0.5, 0.25]).tolist() if d.reached else []), d.highest]:
+            if np.isfinite(v) and abs(v) > ZERO:
+                return float(f"{v:.2g}")
+        return 1.0
+
+    def gap(self, optimised: bool = False) -> float | None:
+        """What the median over the reached poses lacks to the bound that no configuration can exceed, or None if unknown.
+
+        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``, for other failures see the index.
+        """
+        d = self.of(optimised)
+        if self.index.bound is None or not d.reached:
+            return None
+        return self.index.bound - float(d.quantile(0.5))
+
+    def if_never_fails(self, joint: str | int, optimised: bool = False) -> Distribution:
+        """The distribution that the arm would have if no failure of one joint could happen, at the same configurations.
+
+        It is the worst case over the remaining failures. Configurations are not chosen again: of the optimised sample it is
+        what those chosen for all failures keep, a lower bound.
+
+        Args:
+            joint: Name or index from 0.
+            optimised: At the best configurations instead of those that inverse kinematics found.
+
+        Raises:
+            InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
+        """
+        return if_never_fails(self, joint, optimised)
+
+    def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
+        """Which joint deserves a redundant motor or brake: what each would gain if it could never fail, the largest first.
+
+        Args:
+            threshold: Value of the index that the task needs; :meth:`default_threshold` if not given.
+            optimised: At the best configurations instead of those that inverse kinematics found.
+            confidence: Of the intervals.
+
+        Raises:
+            InputError: The threshold is not finite, the rows were not kept, or the run was not optimised.
+        """
+        return upgrades(self, self.default_threshold() if threshold is None else threshold, optimised, confidence)
+
+    # ---- rows, files -----------------------------------------------------------------------------------------------
+
+    @property
+    def kept(self) -> bool:
+        """True if the rows are at hand, in memory or in a folder, and not only counted in bins."""
+        return self._rows is not None or self.store is not None
+
     @property
     def dataset(self) -> xr.Dataset:
         """Every pose with its configuration and index values, as an xarray dataset with units and provenance.
@@ -298,23 +357,7 @@ def assess(
     """
     if isinstance(index, str):
         index = by_name(index, arm, task)
-    if index.arm.fingerprint != arm.fingerprint:
-        raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
-    if poses is None:
-        poses = _POSES if region.listed is None else len(region.listed)
-    plan = Plan(
-        region,
-        index,
-        poses,
-        seed,
-        sampling,
-        restarts,
-        optimise,
-        after_lock,
-        read_locks(arm, lock_at or {}),
-        _apart(arm, clearance, optimise),
-        margin,
-    )
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, lock_at, clearance, margin)
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else _open_store(Path(store), plan)
@@ -343,6 +386,40 @@ def assess(
             take(rows)
     merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
     return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
+
+
+def make_plan(
+    arm: Arm,
+    region: Region,
+    index: Index,
+    poses: int | None,
+    seed: int,
+    sampling: Sampling,
+    restarts: int,
+    optimise: bool,
+    after_lock: bool,
+    lock_at: Mapping[str | int, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    margin: float = 0.0,
+) -> Plan:
+    """What :func:`assess` would compute; raises what it would raise, before anything is computed."""
+    if index.arm.fingerprint != arm.fingerprint:
+        raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
+    if poses is None:
+        poses = _POSES if region.listed is None else len(region.listed)
+    return Plan(
+        region,
+        index,
+        poses,
+        seed,
+        sampling,
+        restarts,
+        optimise,
+        after_lock,
+        read_locks(arm, lock_at or {}),
+        _apart(arm, clearance, optimise),
+        margin,
+    )
 
 
 def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:

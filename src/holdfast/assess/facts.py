@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,24 +12,21 @@ from scipy.spatial.transform import Rotation
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task
-from holdfast.assess.assess import Assessment
-from holdfast.assess.distribution import Interval
+from holdfast.assess.assess import ZERO, Assessment
+from holdfast.assess.distribution import Distribution, Interval
 from holdfast.assess.run import provenance
 from holdfast.assess.structure import Structure, structure, structures
+from holdfast.assess.upgrade import sample
 from holdfast.errors import InputError
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene, View
 from holdfast.report.words import article, as_given, either, interval, number, percent, share
 from holdfast.solve import solver
-from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-_ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
 _MOST_DOTS = 20_000
-_MOST_ROWS = 40
-_LEAST_FOR_MAP = 200
 
 
 @dataclass(frozen=True)
@@ -60,22 +57,13 @@ class Facts:
         self.noun = "configuration" if assessment.region.kind == "joints" else "pose"
         self.reached = f"{self.noun}s" if assessment.region.kind == "joints" else "reached poses"
         self.chosen = threshold is not None
-        self.threshold = self._threshold() if threshold is None else float(threshold)
-
-    def _threshold(self) -> float:
-        if self.index.bound is not None:
-            return float(f"{self.index.bound / 2:.2g}")
-        values = [float(self.d.quantile(p)) for p in (0.5, 0.25)] if self.d.reached else []
-        for v in [*values, self.d.highest]:
-            if np.isfinite(v) and abs(v) > _ZERO:
-                return float(f"{v:.2g}")
-        return 1.0
+        self.threshold = assessment.default_threshold() if threshold is None else float(threshold)
 
     @property
     def nothing(self) -> bool:
         """The index is at its worst at every reached pose, up to rounding."""
         if self.larger:
-            return self.d.reached > 0 and self.d.highest <= _ZERO
+            return self.d.reached > 0 and self.d.highest <= ZERO
         return self.d.reached > 0 and self.d.infinite == self.d.reached
 
     @property
@@ -183,30 +171,31 @@ class Facts:
     @cached_property
     def rows(self) -> Rows | None:
         """Every pose that was computed; None if the rows were not kept."""
-        if not self.d.samples or (self.a._rows is None and self.a.store is None):
+        if not self.d.samples or not self.a.kept:
             return None
-        data = self.a.dataset
-        status = data["status"].values
-        keep = np.flatnonzero(status != Status.NOT_COMPUTED)
-        q = data["q"].values[keep]
+        s = sample(self.a, optimised=False)
         if self.a.region.kind == "joints":
-            pose = self.a.arm.forward_kinematics(q)
+            pose = self.a.arm.forward_kinematics(s.q)
             position, rotation = pose[:, :3, 3], pose[:, :3, :3]
         else:
-            position = data["position"].values[keep]
-            rotation = Rotation.from_quat(data["quaternion"].values[keep]).as_matrix()
-        reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
-        return Rows(
-            keep,
-            position,
-            rotation,
-            q,
-            reached,
-            data["index"].values[keep],
-            data["by_failure"].values[keep],
-            data["worst"].values[keep].astype(np.int64),
-            data["weight"].values[keep] if "weight" in data else None,
-        )
+            data = self.a.dataset
+            position = data["position"].values[s.number]
+            rotation = Rotation.from_quat(data["quaternion"].values[s.number]).as_matrix()
+        return Rows(s.number, position, rotation, s.q, s.reached, s.value, s.by_failure, s.worst, s.weight)
+
+    @cached_property
+    def best_rows(self) -> Rows | None:
+        """The same poses at their best configurations; None if the run was not optimised or the rows were not kept."""
+        if self.rows is None or self.a.optimised is None:
+            return None
+        s = sample(self.a, optimised=True)
+        return replace(self.rows, q=s.q, reached=s.reached, value=s.value, by_failure=s.by_failure, worst=s.worst)
+
+    @property
+    def samples(self) -> list[tuple[str, Distribution, Rows | None]]:
+        """The samples of the run: what each is, its distribution, its rows."""
+        first = ("found by inverse kinematics", self.d, self.rows)
+        return [first] if self.a.optimised is None else [first, ("after optimisation", self.a.optimised, self.best_rows)]
 
     @cached_property
     def provenance(self) -> dict[str, object]:

@@ -18,7 +18,7 @@ _MOST_DOTS = 20_000
 def gain(f: Facts) -> list[Block]:
     """Before and after, if the run was optimised; Abdi et al. 2012, Figs. 5 to 7."""
     best = f.a.optimised
-    if best is None or not f.d.reached:
+    if best is None or not best.reached:
         return []
     blocks: list[Block] = [
         Text(

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.assess import sections
+from holdfast.assess import places, sections, worst
 from holdfast.assess.assess import Assessment
 from holdfast.assess.facts import Facts
 from holdfast.assess.gain import gain
@@ -44,8 +44,9 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         Section("How the index is distributed", sections.distribution(facts)),
         Section("What choosing configurations gains", gain(facts)),
         Section("What survives a locked joint", survival(facts)),
-        Section("Which failure is the worst", sections.worst_failures(facts)),
-        Section(f"The worst {facts.noun}s, and where tolerance is low", sections.places(facts)),
+        Section("Which failure is the worst", worst.worst_failures(facts)),
+        Section("Which joint deserves the redundant motor or brake", worst.upgrades(facts)),
+        Section(f"The worst {facts.noun}s, and where tolerance is low", places.places(facts)),
         Section("How it was computed", sections.method(facts)),
     ]
     a = assessment

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 
 import numpy as np
 import yaml
 from markupsafe import Markup
 
 from holdfast import arms
+from holdfast.arm.attachment import attachment, attachment_text
 from holdfast.arm.model import Arm
 from holdfast.arm.task import NAMES, ROWS, Task, as_task
 from holdfast.assess.assess import Assessment
@@ -33,14 +35,21 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     if asked is None:
         return None, "The task is of your own making, so no command line makes this run again; keep the script."
     remark = ""
-    if a.arm.name in arms.names() and arms.load(a.arm.name).fingerprint == a.arm.fingerprint:
+    tool = {}
+    known_arm = arms.load(a.arm.name) if a.arm.name in arms.names() else None
+    if known_arm is not None and known_arm.fingerprint == a.arm.fingerprint:
         spec = a.arm.name
+    elif known_arm is not None and replace(a.arm, tool=known_arm.tool).fingerprint == known_arm.fingerprint:
+        spec, text = a.arm.name, attachment_text(a.arm)
+        tool = {"tool": f"tool={text}"}
+        if known_arm.with_tool(attachment(text.split(","))).fingerprint != a.arm.fingerprint:
+            remark = "the tool to 12 digits"
     else:
         known = a.arm.source.lower().endswith((*arms.URDF_ENDINGS, *arms.TABLE_ENDINGS)) and "\n" not in a.arm.source
         spec = a.arm.source if known else "ARM"
         what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
         remark = f"{what}; for a URDF file also its --base and --tip, if any"
-    options = {"region": "region.yaml", "index": index.slug, "task": asked}
+    options = {**tool, "region": "region.yaml", "index": index.slug, "task": asked}
     if task.length != 1.0:
         options["length"] = repr(task.length)
     if index.failures != failure_sets(a.arm, "single"):

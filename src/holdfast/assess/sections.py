@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import warnings
-from typing import Any
-
 import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
 from holdfast.assess.assess import Assessment
-from holdfast.assess.facts import Facts, Rows
-from holdfast.assess.region import Region, rpy_from_rotation
+from holdfast.assess.facts import Facts
 from holdfast.assess.rerun import command_line, region_files
 from holdfast.assess.structure import explain
 from holdfast.failures import failure_sets
-from holdfast.report import figures, maps, scenes
+from holdfast.report import figures, scenes
 from holdfast.report.page import Block, Callout, Code, Picture, Table, Text
-from holdfast.report.scenes import View
-from holdfast.report.words import as_given, counted, fixed, interval, number, percent
+from holdfast.report.words import as_given, counted, interval, number, percent
 
 Array = NDArray[np.float64]
 
@@ -89,14 +84,17 @@ def key_numbers(f: Facts) -> list[Block]:
             )
         )
     if index.bound is not None and d.reached:
-        median, best = (0.0 if f.nothing else x for x in (float(d.quantile(0.5)), d.highest))
-        facts.append(
-            (
-                "Largest possible value",
-                f"{index.bound:.4f}; the median of the {f.reached} is {percent(median / index.bound)} of it "
-                f"(gap {number(index.bound - median)}), the best one found {percent(best / index.bound)}",
+        parts = []
+        for name, which, _ in f.samples:
+            if not which.reached:
+                continue
+            median, best = (0.0 if f.nothing else x for x in (float(which.quantile(0.5)), which.highest))
+            parts.append(
+                f"{name + ', ' if len(f.samples) > 1 else ''}the "
+                f"median of the {f.reached} is {percent(median / index.bound)} of it "
+                f"(gap {number(index.bound - median)}), the best one {percent(best / index.bound)}"
             )
-        )
+        facts.append(("Largest possible value", "; ".join([f"{index.bound:.4f}", *parts])))
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     if d.reached:
         blocks.append(_quantiles(f))
@@ -224,137 +222,6 @@ def distribution(f: Facts) -> list[Block]:
     total = f"the {percent(1 - d.infinite / d.reached)} with a finite value" if d.infinite else "1"
     text += f" The density is a histogram of {len(f.histogram.heights)} bins over {over} and adds up to {total}."
     return [Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)]
-
-
-def worst_failures(f: Facts) -> list[Block]:
-    """Which failure is the worst, how often."""
-    names, counts = _failure_labels(f), f.a.worst_counts
-    if not f.d.reached:
-        return []
-    blocks: list[Block] = []
-    weighted = f.d.weighted
-    total = float(counts.sum()) if weighted else int(counts.sum())
-    chosen = np.arange(len(names))
-    note = ""
-    if len(names) > _MOST_ROWS // 2:
-        chosen = np.argsort(-counts, kind="stable")[: _MOST_ROWS // 2]
-        note = f" The {len(chosen)} most frequent of {len(names)} failures are shown."
-    if total:
-        figure = figures.bar_figure(
-            [names[k] for k in chosen],
-            counts[chosen].tolist(),
-            f"{'weight of ' if weighted else ''}{f.noun}s at which this failure is the worst",
-            total,
-        )
-        whole = f"the weight, {total:,.4g}, of the" if weighted else f"{total:,}"
-        text = f"Of {whole} {f.reached} that are not singular; where several failures are equally bad, the first counts."
-        blocks.append(Picture(figures.svg(figure, "worst", "How often each failure is the worst"), text + note))
-    else:
-        blocks.append(Text(f"Every {f.noun} reached is singular, so no failure is worse than another."))
-    blocks.append(_failure_table(f, names, counts))
-    return blocks
-
-
-def _failure_labels(f: Facts) -> list[str]:
-    """Numbers from 1 and names: ``4 elbow``, ``2+4 shoulder+elbow``."""
-    pairs = zip(f.index.failures, f.index.failure_names, strict=True)
-    return [f"{'+'.join(str(k + 1) for k in s)}  {name}" for s, name in pairs]
-
-
-def _failure_table(f: Facts, names: list[str], counts: NDArray[Any]) -> Block:
-    rows = f.rows
-    total = counts.sum() or 1
-    if rows is None:
-        return Text(
-            "The values after each failure were not kept; assess again with a store or with keep=True for them.", quiet=True
-        )
-    values = rows.by_failure[rows.reached]
-    bad = 0.05 if f.larger else 0.95
-    weight = None if rows.weight is None else rows.weight[rows.reached]
-    middle, low = np.quantile(values, [0.5, bad], axis=0, method="inverted_cdf", weights=weight)
-    met = np.average(values >= f.threshold if f.larger else values <= f.threshold, axis=0, weights=weight)
-    chosen = np.arange(len(names))
-    if len(chosen) > _MOST_ROWS:
-        chosen = np.sort(np.argsort(-counts, kind="stable")[:_MOST_ROWS])
-    cells = [
-        [names[k], number(float(middle[k])), number(float(low[k])), percent(counts[k] / total), f"{met[k]:.3f}"] for k in chosen
-    ]
-    sign = "≥" if f.larger else "≤"
-    head = ["If this locks", "median", f"{100 * bad:.0f} % quantile", "worst of all", f"P({sign} {as_given(f.threshold)})"]
-    if not f.decided:
-        head, cells = head[:-1], [c[:-1] for c in cells]
-    caption = f"The {f.index.name} after each failure, over {len(values):,} {f.reached}."
-    return Table(cells, head, frozenset(range(1, 5)), caption=caption, wide=True)
-
-
-def places(f: Facts) -> list[Block]:
-    """The worst poses, and where in the region tolerance is low."""
-    rows = f.rows
-    if rows is None and not f.d.reached:
-        return []
-    if rows is None:
-        return [Text(f"The {f.noun}s of this run were not kept (keep=False), so the report cannot list or map them.")]
-    if not rows.reached.any():
-        return []
-    if f.nothing:
-        return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
-    blocks: list[Block] = [_worst_table(f, rows)]
-    low, high = rows.position.min(axis=0), rows.position.max(axis=0)
-    flat = (high - low) < 1e-6 * max(float((high - low).max()), 1e-6)
-    views = [v for v in (View(0, 2, "Seen from the side"), View(0, 1, "Seen from above")) if not (flat[v.right] or flat[v.up])]
-    if int(rows.reached.sum()) < _LEAST_FOR_MAP or not views:
-        return blocks
-    average = "Mean" if f.larger else "Median"
-    ok = rows.reached
-    figure = maps.map_figure(
-        rows.position[ok],
-        rows.value[ok],
-        rows.position[~ok],
-        views,
-        f.log,
-        not f.larger,
-        figures.plain(f"{average.lower()} {f.index.name}"),
-    )
-    text = (
-        f"{average} index of the {f.reached} in each cell, over the whole depth of the region, and below it how many "
-        f"{'poses were reached of how many drawn' if f.d.unreached else f'{f.noun}s there are'}; {len(rows.value):,} in all."
-    )
-    if f.a.region.kind == "joints":
-        text += " Positions are those of the tool."
-    if f.d.weighted:
-        text += " Within a cell all count alike."
-    return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
-
-
-def _worst_table(f: Facts, rows: Rows) -> Table:
-    some = np.flatnonzero(rows.reached)
-    order = np.argsort(rows.value[some] if f.larger else -rows.value[some], kind="stable")
-    labels = _failure_labels(f)
-    chosen = some[order[:10]]
-    angles = np.rad2deg(_angles(rows.rotation[chosen], f.a.region))
-    cells = []
-    for k, rpy in zip(chosen, angles, strict=True):
-        worst = labels[rows.worst[k]] if rows.worst[k] >= 0 else "singular"
-        place = [*(fixed(x, 3) for x in rows.position[k]), *(fixed(x, 1) for x in rpy)]
-        cells.append([f"{rows.number[k] + 1:,}", *place, number(float(rows.value[k])), worst])
-    head = [f.noun.capitalize(), "x, m", "y, m", "z, m", "roll, deg", "pitch, deg", "yaw, deg", "index", "worst failure"]
-    caption = f"The {len(chosen)} worst of {len(some):,} {f.reached}; R = Rz(roll) Ry(pitch) Rx(yaw)."
-    if f.d.unreached:
-        caption += f" The {counted(f.d.unreached, 'pose')} without one count as worse still and are not listed."
-    return Table(cells, head, frozenset(range(8)), caption=caption, wide=True)
-
-
-def _angles(rotations: Array, region: Region) -> Array:
-    """Roll, pitch, yaw: of the two triples of a rotation, and their turns, the one next to the middle of the region."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # at pitch +-90 degrees one of many triples is as good as another
-        first = rpy_from_rotation(rotations)
-    center = np.array(region.center[3:]) if region.kind == "box" else np.zeros(3)
-    second = np.stack([first[:, 0] + np.pi, np.pi - first[:, 1], first[:, 2] + np.pi], axis=1)
-    both = np.stack([first, second])
-    both = center + (both - center + np.pi) % (2 * np.pi) - np.pi
-    nearest = np.linalg.norm(both - center, axis=2).argmin(axis=0)
-    return np.asarray(both[nearest, np.arange(len(nearest))])
 
 
 def method(f: Facts) -> list[Block]:

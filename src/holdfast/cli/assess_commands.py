@@ -9,24 +9,22 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from holdfast.cli.assess_output import comparison_summary, print_assessment, print_comparison, summary
+from holdfast.cli.candidates import TOOL_HELP, read_candidates
 from holdfast.cli.options import (
-    ArmArgument,
+    TASK_HELP,
     BaseOption,
     FailuresOption,
     IndexOption,
     JsonOption,
     LengthOption,
-    TaskOption,
     TipOption,
-    console,
-    number,
     print_json,
-    read_arm,
     read_by_joint,
     read_failures,
     read_task,
 )
-from holdfast.errors import InputError
+from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -44,12 +42,21 @@ FailureRateOption = Annotated[
 
 
 def assess(
-    arm: ArmArgument,
+    arm: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.", show_default=False
+        ),
+    ],
     region: Annotated[
         Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
     ] = None,
     index: IndexOption = "relative-manipulability",
-    task: TaskOption = None,
+    task: Annotated[
+        list[str] | None,
+        typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False),
+    ] = None,
+    tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP, show_default=False)] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     poses: Annotated[
@@ -83,11 +90,15 @@ def assess(
 ) -> None:
     """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
 
+    Several arms, tools or tasks are compared: each with each, over one region, in one report.
+
     Example: holdfast assess pa10-9dof --poses 2000 --seed 1 --out results
+
+    Example: holdfast assess panda iiwa14 --task pose --task position --region cell.yaml --out results
     """
     from holdfast.assess import assess as run
-    from holdfast.assess import explain, structures
-    from holdfast.assess.assess import check_rates
+    from holdfast.assess import compare, explain, structures
+    from holdfast.assess.assess import make_plan
     from holdfast.assess.structure import structure
     from holdfast.indices import by_name
     from holdfast.kernels import set_threads
@@ -95,43 +106,69 @@ def assess(
     check_thresholds(at_least)
     if threads is not None:
         set_threads(threads)
-    model = read_arm(arm, base, tip)
-    chosen = read_region(region, arm, model)
-    locks, rates = read_by_joint(model, lock_at, "--lock-at"), read_by_joint(model, failure_rate, "--failure-rate")
-    if rates:
-        check_rates(model, rates)
-    for name in rates:
-        if not after_lock and name not in locks:
-            raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock-at {name}=ANGLE")
-    measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
+    candidates = read_candidates(arm, tool or [], task or [], base, tip)
+    several = len(candidates) > 1
+    first = candidates[0]
+    chosen = read_region(region, first.spec, first.arm)
     if sampling not in ("random", "sobol"):
         raise InputError(f"sampling '{sampling}' is not known; use 'random' or 'sobol'")
-    if not json_:
-        found = structure(model, measure.task)
-        if not found.survives:
-            typer.echo(explain(model, found, structures(model)), err=True)
-    with _progress(json_) as progress:
-        result = run(
-            model,
-            chosen,
-            measure,
-            poses=poses,
-            seed=seed,
-            sampling="sobol" if sampling == "sobol" else "random",
-            restarts=restarts,
-            store=out,
-            progress=progress,
-            optimise=optimise,
-            after_lock=after_lock,
-            lock_at=locks,
+    if several and failure_rate:
+        raise InputError(
+            "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
+            "leave it out: a comparison counts every joint alike"
         )
-    page = None if out is None else result.report(out / "report.html", at_least[0] if at_least else None)
+    rates = _read_rates(first.arm, failure_rate, after_lock, lock_at)
+    asked = []
+    for c in candidates:
+        measure = by_name(index, c.arm, read_task(c.task, c.spec, c.arm), read_failures(c.arm, failures), length)
+        options: dict[str, Any] = {
+            "poses": poses,
+            "seed": seed,
+            "sampling": sampling,
+            "restarts": restarts,
+            "optimise": optimise,
+            "after_lock": after_lock,
+            "lock_at": read_by_joint(c.arm, lock_at, "--lock-at"),
+        }
+        if several:  # what cannot run is said before the first candidate takes its time
+            make_plan(c.arm, chosen, measure, **options)
+        asked.append((measure, options))
+    if several and out is not None and (out / "run.json").exists():
+        raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
+    if several and region is None:
+        typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)
+    results = []
+    for c, (measure, options) in zip(candidates, asked, strict=True):
+        if not json_:
+            found = structure(c.arm, measure.task)
+            if not found.survives:
+                typer.echo(explain(c.arm, found, structures(c.arm)), err=True)
+        with _progress(json_, c.name if several else "poses") as progress:
+            result = run(
+                c.arm,
+                chosen,
+                measure,
+                store=out / c.name if out is not None and several else out,
+                progress=progress,
+                **options,
+            )
+        results.append(result)
+    threshold = at_least[0] if at_least else None
+    if not several:
+        _finish(results[0], None if out is None else out / "report.html", at_least, rates, json_)
+        return
+    comparison = compare(results, [c.name for c in candidates], threshold)
+    page = None
+    if out is not None:
+        for c, result in zip(candidates, results, strict=True):
+            result.report(out / c.name / "report.html", comparison.threshold)
+        page = comparison.report(out / "report.html")
     if json_:
-        print_json({**_summary(result, at_least, rates), "report": None if page is None else str(page)})
-    else:
-        _print(result, at_least, rates)
-        if page is not None:
-            typer.echo(f"report: {page}")
+        print_json(comparison_summary(comparison, candidates, at_least, page))
+        return
+    print_comparison(comparison)
+    if page is not None:
+        typer.echo(f"report: {page}")
 
 
 def report(
@@ -154,11 +191,35 @@ def report(
     rates = read_by_joint(result.arm, failure_rate, "--failure-rate")
     if rates and result.distribution.samples:
         result.expected_survival(rates)  # before anything is written
-    page = result.report(to or folder / "report.html", at_least[0] if at_least else None)
+    _finish(result, to or folder / "report.html", at_least, rates, json_)
+
+
+def _read_rates(
+    arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock_at: list[str] | None
+) -> dict[str | int, float]:
+    """--failure-rate, each of a joint whose lock is asked for."""
+    from holdfast.assess.assess import check_rates
+
+    rates = read_by_joint(arm, failure_rate, "--failure-rate")
+    locks = read_by_joint(arm, lock_at, "--lock-at") if rates else {}
+    if rates:
+        check_rates(arm, rates)
+    for name in rates:
+        if not after_lock and name not in locks:
+            raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock-at {name}=ANGLE")
+    return rates
+
+
+def _finish(
+    result: Assessment, to: Path | None, at_least: list[float] | None, rates: dict[str | int, float], json_: bool
+) -> None:
+    """Write the report of one run and say what it found."""
+    page = None if to is None else result.report(to, at_least[0] if at_least else None)
     if json_:
-        print_json({**_summary(result, at_least, rates), "report": str(page)})
-    else:
-        _print(result, at_least, rates)
+        print_json({**summary(result, at_least, rates), "report": None if page is None else str(page)})
+        return
+    print_assessment(result, at_least, rates)
+    if page is not None:
         typer.echo(f"report: {page}")
 
 
@@ -185,7 +246,8 @@ def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
 class _progress:
     """A bar on stderr while a person looks, nothing otherwise."""
 
-    def __init__(self, quiet: bool) -> None:
+    def __init__(self, quiet: bool, label: str) -> None:
+        self._label = label
         self._quiet = quiet or not sys.stderr.isatty()
         self._bar: Any = None
 
@@ -199,162 +261,12 @@ class _progress:
             *Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True
         )
         self._bar.start()
-        job = self._bar.add_task("poses", total=None)
+        job = self._bar.add_task(self._label, total=None)
         return lambda done, total: self._bar.update(job, completed=done, total=total)
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:
             self._bar.stop()
-
-
-def _summary(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> dict[str, Any]:
-    d = result.distribution
-    names = result.index.failure_names
-    reached = d.reached > 0
-    return {
-        "arm": result.arm.name,
-        "fingerprint": result.arm.fingerprint,
-        "index": result.index.slug,
-        "unit": result.index.unit,
-        "better": result.index.better,
-        "bound": result.index.bound,
-        "task": result.index.task.name,
-        "characteristic_length_m": result.index.task.length,
-        "region": result.region.to_dict(),
-        "poses": result.poses,
-        "seed": result.seed,
-        "sampling": result.sampling,
-        "restarts": result.restarts,
-        "complete": result.complete,
-        "evaluated": d.samples,
-        "reached": d.reached,
-        "not_found": d.unreached,
-        "singular": d.singular,
-        "effective_sample_size": d.effective() if d.weighted and d.samples else None,
-        "mean": d.mean if reached else None,
-        "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True))
-        if reached
-        else None,
-        "band_95": d.band() if d.samples else None,
-        "probability": [_probability(result, h) for h in _thresholds(result, at_least)] if d.samples else [],
-        "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
-        "optimised": _optimised(result, at_least),
-        "after_lock": _after_lock(result),
-        "expected_survival": result.expected_survival(rates) if rates and d.samples else None,
-        "seconds": result.seconds,
-    }
-
-
-def _optimised(result: Assessment, at_least: list[float] | None) -> dict[str, Any] | None:
-    d, counts = result.optimised, result.optimised_worst_counts
-    if d is None or counts is None or not d.reached:
-        return None
-    return {
-        "mean": d.mean,
-        "quantiles": dict(zip(["0.05", "0.5", "0.95"], d.quantile([0.05, 0.5, 0.95]).tolist(), strict=True)),
-        "probability": [_probability(result, h, optimised=True) for h in _thresholds(result, at_least)],
-        "worst_counts": dict(zip(result.index.failure_names, counts.tolist(), strict=True)),
-    }
-
-
-def _after_lock(result: Assessment) -> dict[str, Any] | None:
-    if result.survivors is None or not result.distribution.samples:
-        return None
-    locks = result.locks
-    return {
-        name: {"value": p.value, "low": p.low, "high": p.high, "locked_at": locks[name]}
-        for name, p in result.survival().items()
-    }
-
-
-def _thresholds(result: Assessment, given: list[float] | None) -> list[float]:
-    if given:
-        return given
-    if result.index.bound is not None:
-        return [h for h in (0.05, 0.1, 0.2, 0.3) if h < result.index.bound]
-    if not result.distribution.reached:
-        return []
-    return [float(f"{x:.3g}") for x in result.distribution.quantile([0.25, 0.5, 0.75]).tolist()]
-
-
-def _probability(result: Assessment, h: float, optimised: bool = False) -> dict[str, Any]:
-    key = "at_least" if result.index.better == "larger" else "at_most"
-    p = result.interval(optimised=optimised, **{key: h})  # type: ignore[arg-type]
-    return {key: h, "value": p.value, "low": p.low, "high": p.high, "confidence": p.confidence}
-
-
-def _print(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    out = console()
-    d = result.distribution
-    out.print(f"[bold]{escape(result.arm.name)}[/]: {escape(result.index.describe())}", soft_wrap=True)
-    out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
-    if not result.complete:
-        out.print(
-            f"[yellow]not finished: {d.samples} of {result.poses} poses; the same 'holdfast assess' command goes on[/]",
-            soft_wrap=True,
-        )
-    lost = f"{d.unreached_share if d.samples else 0:.1%}{' of the weight' if d.weighted else ''}"
-    out.print(
-        f"{d.samples} poses, seed {result.seed}: {d.reached} reached, {d.unreached} not found within the limits "
-        f"({lost}, counted as failed), {d.singular} singular",
-        soft_wrap=True,
-    )
-    if not d.samples:
-        return
-    if d.weighted:
-        text = f"poses count by weight: effective sample size {d.effective():.4g}, from which the intervals are approximated"
-        out.print(text, soft_wrap=True)
-    both = [(result.distribution, "as inverse kinematics found them")]
-    if result.optimised is not None:
-        both.append((result.optimised, "best configurations found"))
-    if d.reached:
-        for which, name in both:
-            low, middle, high = which.quantile([0.05, 0.5, 0.95]).tolist()
-            spread = f"median {number(middle)}, 5 % {number(low)}, 95 % {number(high)}, mean {number(which.mean)}"
-            out.print(f"over reached poses, {name}: {spread}", soft_wrap=True)
-        if result.index.bound is not None:
-            out.print(f"no configuration can beat {number(result.index.bound)}", soft_wrap=True)
-    sign = "at least" if result.index.better == "larger" else "at most"
-    after = ["optimised", "95 % interval"] if result.optimised is not None else []
-    table = Table(result.index.name, "probability", "95 % interval", *after, box=None, pad_edge=False)
-    for h in _thresholds(result, at_least):
-        cells = []
-        for optimised in (False, True)[: len(both)]:
-            p = _probability(result, h, optimised)
-            cells += [f"{p['value']:.4f}", f"{p['low']:.4f} to {p['high']:.4f}"]
-        table.add_row(f"{sign} {h:g}", *cells)
-    out.print(table)
-    columns = [result.worst_counts, *([] if result.optimised_worst_counts is None else [result.optimised_worst_counts])]
-    if any(c.sum() for c in columns):
-        head = "is the worst in" + (" weight" if d.weighted else "")
-        table = Table("failure", head, *["optimised"][: len(columns) - 1], box=None, pad_edge=False)
-        for k, name in enumerate(result.index.failure_names):
-            if any(c[k] for c in columns):
-                table.add_row(
-                    escape(name), *[f"{c[k]:{'.4g' if d.weighted else 'd'}} ({c[k] / (c.sum() or 1):.1%})" for c in columns]
-                )
-        out.print(table)
-    if result.survivors is not None:
-        table = Table("once it has locked", "where", "poses still reached", "95 % interval", box=None, pad_edge=False)
-        for name, share in result.survival().items():
-            where = _where(result, name)
-            table.add_row(escape(name), where, f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
-        out.print(table)
-        if rates:
-            left = result.expected_survival(rates)
-            out.print(f"after a failure, by how often each joint fails: {left:.4f} of the poses still reached", soft_wrap=True)
-
-
-def _where(result: Assessment, joint: str) -> str:
-    """Where a joint locks, in degrees or metres."""
-    angle = result.locks[joint]
-    if angle is None:
-        return "as at another pose"
-    prismatic = result.arm.prismatic[result.arm.joint_index(joint)]
-    return f"{angle:.4g} m" if prismatic else f"{math.degrees(angle):.4g} deg"
 
 
 def add(app: typer.Typer) -> None:

@@ -35,14 +35,8 @@ TipOption = Annotated[
     typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end there is.", show_default=False),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
-TaskOption = Annotated[
-    str | None,
-    typer.Option(
-        "--task",
-        help="pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own.",
-        show_default=False,
-    ),
-]
+TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
+TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
 IndexOption = Annotated[
     str,

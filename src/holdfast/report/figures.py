@@ -34,6 +34,9 @@ Array = NDArray[np.float64]
 
 INK, SOFT, FAINT = "#1b1f24", "#59636e", "#d4d9de"
 BLUE, ORANGE, SKY = "#0a5c9e", "#c8500a", "#a9cbe6"  # after Okabe and Ito, darkened for thin lines
+# Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
+_COLORS = (BLUE, ORANGE, "#007a5e", "#a8497f", INK, "#c58a00", "#4aa3d6")
+_LINES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))
 WIDTH = 10.0  # inches: 960 px in a page
 
 _STYLE: dict[str, Any] = {
@@ -243,6 +246,34 @@ def distribution_figure(
         left.set_title(titles[0])
         right.set_title(titles[1])
         legend_below(figure, right)
+        return finished(figure)
+
+
+def compare_cdf_figure(
+    panels: Sequence[tuple[str, Sequence[Curve]]],
+    marks: Sequence[Mark],
+    xlabel: str,
+    ylabel: str,
+    log: bool = False,
+) -> Figure:
+    """Many cumulative distributions without their bands, a panel per title.
+
+    A curve looks the same in every panel that has its label.
+    """
+    labels = list(dict.fromkeys(c.label for _, curves in panels for c in curves))
+    with style():
+        rows = -(-(len(labels) + len(marks)) // 3)
+        figure = Figure(figsize=(WIDTH if len(panels) > 1 else 0.75 * WIDTH, 3.9 + 0.2 * rows))
+        every = figure.subplots(1, len(panels), squeeze=False)[0]
+        for axes, (title, curves) in zip(every, panels, strict=True):
+            for c in curves:
+                k = labels.index(c.label)
+                color, line = _COLORS[k % len(_COLORS)], _LINES[k % len(_LINES)]
+                axes.plot(c.x, c.share, color=color, linestyle=line, linewidth=1.7, label=plain(c.label, 40))
+            _marks(axes, marks)
+            axes.set(xlabel=xlabel, ylabel=ylabel, ylim=(0, 1.02), title=title)
+            _x_axis(axes, curves[0].x, log)
+        legend_below(figure, every[0], 3)
         return finished(figure)
 
 

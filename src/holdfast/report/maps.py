@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,8 +18,7 @@ Array = NDArray[np.float64]
 
 def map_figure(
     points: Array,
-    values: Array,
-    missing: Array,
+    samples: Mapping[str, Array],
     views: Sequence[View],
     log: bool,
     smaller_is_better: bool,
@@ -29,28 +28,38 @@ def map_figure(
     """The value over a projection: per cell the mean (the median if smaller is better), and how many points have one.
 
     Args:
-        points: (N, 3) with a value each, m.
-        values: (N,)
-        missing: (M, 3) points without a value.
+        points: (N, 3) m.
+        samples: (N,) values of each sample by its name, NaN where a point has none: a row of panels each, all in the same
+            colours.
         views: One panel each.
         log: Colours on a log scale.
         smaller_is_better: Reverses the colours; medians instead of means.
         label: Of the colour bar.
         bins: Cells along the longer edge.
     """
-    everything = np.concatenate([points, missing])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    grids = [_grid(points, values, missing, v, low, high, bins, smaller_is_better) for v in views]
-    cells = np.concatenate([g[2].ravel() for g in grids])
+    low, high = points.min(axis=0), points.max(axis=0)
+    grids = [[_grid(points, values, v, low, high, bins, smaller_is_better) for v in views] for values in samples.values()]
+    cells = np.concatenate([g[2].ravel() for row in grids for g in row])
+    lost = any(bool(np.isnan(values).any()) for values in samples.values())
     scale = replace(Scale.of(cells[~np.isnan(cells)], log, smaller_is_better), pale=True)
     with style():
         tall = max(float((high - low)[v.up] / (high - low)[v.right]) for v in views)
-        figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
-        panels = figure.subplots(1, len(views), squeeze=False)[0]
-        for axes, view, (x, y, mean, reached, drawn) in zip(panels, views, grids, strict=True):
-            _draw_cells(axes, x, y, mean, reached, drawn, scale, len(missing) > 0)
-            axes.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=view.title)
-        b = figure.colorbar(scale.mappable, ax=list(panels), shrink=0.85, aspect=26, pad=0.015, extend=scale.extend(cells))
+        height = float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8
+        figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, height * len(samples)))
+        panels = figure.subplots(len(samples), len(views), squeeze=False)
+        for name, line, row in zip(samples, panels, grids, strict=True):
+            for axes, view, (x, y, mean, reached, drawn) in zip(line, views, row, strict=True):
+                _draw_cells(axes, x, y, mean, reached, drawn, scale, lost)
+                title = f"{view.title}, {name}" if len(samples) > 1 else view.title
+                axes.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=title)
+        b = figure.colorbar(
+            scale.mappable,
+            ax=list(panels.ravel()),
+            shrink=0.85,
+            aspect=26 * len(samples),
+            pad=0.015,
+            extend=scale.extend(cells),
+        )
         finish_bar(b, label, scale)
         return finished(figure)
 
@@ -74,7 +83,7 @@ def share_figure(
         figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for a, (title, having) in zip(axes, panels, strict=True):
-            x, y, share, count, _ = _grid(points, having.astype(np.float64), points[:0], view, low, high, bins, False)
+            x, y, share, count, _ = _grid(points, having.astype(np.float64), view, low, high, bins, False)
             _draw_cells(a, x, y, share, count, count, scale, False)
             a.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=title)
         finish_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
@@ -82,7 +91,7 @@ def share_figure(
 
 
 def _grid(
-    points: Array, values: Array, missing: Array, view: View, low: Array, high: Array, bins: int, median: bool
+    points: Array, values: Array, view: View, low: Array, high: Array, bins: int, median: bool
 ) -> tuple[Array, Array, Array, Array, Array]:
     pick = [view.right, view.up]
     size = (high - low)[pick]
@@ -93,12 +102,14 @@ def _grid(
         at = np.minimum(((p[:, pick] - low[pick]) / size * count).astype(np.int64), count - 1)
         return np.asarray(at[:, 1] * count[0] + at[:, 0])
 
-    cell, lost = place(points), place(missing)
+    there = ~np.isnan(values)
+    cell = place(points)
     total = int(count.prod())
+    drawn = np.bincount(cell, minlength=total)
+    cell = cell[there]
     reached = np.bincount(cell, minlength=total)
-    drawn = reached + np.bincount(lost, minlength=total)
     order = np.argsort(cell, kind="stable")
-    groups = np.split(values[order], np.cumsum(reached)[:-1])
+    groups = np.split(values[there][order], np.cumsum(reached)[:-1])
     average = np.array([np.nan if not len(g) else float(np.median(g) if median else np.mean(g)) for g in groups])
     shape = (count[1], count[0])
     return x, y, average.reshape(shape), reached.reshape(shape), drawn.reshape(shape)

@@ -1,0 +1,29 @@
+"""Where a tool sits, as six numbers that a person types: x, y, z in m, then roll, pitch, yaw in degrees as URDF has them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.urdf import rpy_rotation
+
+Array = NDArray[np.float64]
+
+
+def attachment(numbers: ArrayLike) -> Array:
+    """The pose (4, 4) of six numbers, m and degrees; ``R = Rz(yaw) Ry(pitch) Rx(roll)``."""
+    values = np.asarray(numbers, dtype=np.float64)
+    pose = np.eye(4)
+    pose[:3, 3] = values[:3]
+    pose[:3, :3] = rpy_rotation(np.deg2rad(values[3:]).tolist())
+    return pose
+
+
+def attachment_text(arm: Arm) -> str:
+    """The six numbers of an arm's tool in the last link's own frame, separated by commas, to 12 digits."""
+    from scipy.spatial.transform import Rotation
+
+    pose = np.linalg.inv(arm.flange) @ arm.tool
+    yaw, pitch, roll = Rotation.from_matrix(pose[:3, :3]).as_euler("ZYX", degrees=True, suppress_warnings=True)
+    return ",".join(f"{round(float(x), 12) + 0.0:.12g}" for x in (*pose[:3, 3], roll, pitch, yaw))
