@@ -9,7 +9,6 @@ from concurrent.futures import Future
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from holdfast.errors import StoreError
 from holdfast.kernels import pool, thread_count
 from holdfast.status import Status
 from holdfast.study import Store
+from holdfast.versions import versions
 
 Progress = Callable[[int, int], None]
 
@@ -204,16 +204,10 @@ class Tally:
 
 def provenance(seconds: float | None) -> dict[str, Any]:
     """When, with what and on what a run was computed; none of it defines the rows."""
-    found = {}
-    for name in ("holdfast", "numpy", "scipy", "casadi", "heyoka", "xarray", "zarr"):
-        try:
-            found[name] = version(name)
-        except ModuleNotFoundError:
-            continue
     return {
         "seconds": seconds,
         "finished": datetime.now(UTC).isoformat(timespec="seconds"),
-        "versions": found,
+        "versions": versions("holdfast", "numpy", "scipy", "casadi", "heyoka", "xarray", "zarr"),
         "python": platform.python_version(),
         "machine": platform.machine(),
         "threads": thread_count(),

@@ -12,6 +12,7 @@ from holdfast.cli import (
     arm_commands,
     assess_commands,
     configure_commands,
+    follow_commands,
     index_commands,
     susceptibility_commands,
     swing_commands,
@@ -52,6 +53,7 @@ index_commands.add(app)
 susceptibility_commands.add(app)
 configure_commands.add(app)
 assess_commands.add(app)
+follow_commands.add(app)
 swing_commands.add(app)
 
 

@@ -14,6 +14,7 @@ Source: English and Maciejewski 1998, section VI-B, Figs. 6 to 8.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property, partial
 
 import casadi as ca
@@ -30,9 +31,14 @@ from holdfast.kernels import Kernel
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-FLAT = 1e-3  # of the largest curvature along a path: at most this is singular
-_DIFFERENCE = 1e-5  # rad
+FLAT = 1e-2  # of the median curvature along a path: this much below 0 is no local best
+_CLOSE = 0.2  # of the median curvature along a path: where it is less and rates are high, an extremum nearly ends
+_FAST = 4.0  # times the median rate: this is high
 NOTHING = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little
+_KEPT = 0.01  # of the value, or of its range
+_JUMP = 0.02  # of the range of the values, in one step
+_BRIDGE = 0.01  # of the steps: events less apart are one
+_DIFFERENCE = 1e-5  # rad
 
 
 class Curvature:
@@ -80,95 +86,136 @@ class Curvature:
         return found
 
 
-def events(
-    objective: Objective,
-    time: Array,
-    value: Array,
-    curvature: Array,
-    rate_norm: Array,
-    self_motion: Array,
-    task_share: Array,
-    damping: Array,
-    at_limit: dict[str, Flags],
-) -> tuple[Event, ...]:
-    """What happened, in order of time; all arrays (T,), ``at_limit`` by joint name."""
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A motion at each step of its computation, N steps.
+
+    Attributes:
+        time: (N,) s.
+        value: (N,) of the objective.
+        curvature: (N,) see :meth:`Curvature.smallest`.
+        rate_norm: (N,) rad/s.
+        self_motion, task_share, damping: (N,) see :class:`holdfast.control.Rates`.
+        at_limit: (N,) by joint name.
+    """
+
+    time: Array
+    value: Array
+    curvature: Array
+    rate_norm: Array
+    self_motion: Array
+    task_share: Array
+    damping: Array
+    at_limit: dict[str, Flags]
+
+
+def events(objective: Objective, c: Course, tracks: bool, wanted: float | None, cap: str) -> tuple[Event, ...]:
+    """What happened, in order of time.
+
+    Args:
+        objective: What the self-motion served.
+        c: The motion.
+        tracks: The self-motion was meant to stay at a local best.
+        wanted: The value that it was meant to keep, if so.
+        cap: What limited the self-motion, for people.
+    """
     found: list[Event] = []
-    positive = objective.better == "smaller" and bool((value >= 0).all())
-    nothing = positive & (value <= NOTHING * max(float(value.max()), 1e-300))
-    if positive and value.max() > 0 and nothing.any():
-        found += _spans(
-            "zero cost",
-            time,
-            nothing,
-            lambda a, b: f"{objective.name} is zero (below {NOTHING:.1%} of its largest value) from {a:.4g} s to {b:.4g} s",
+
+    def add(kind: str, flags: Flags, say: Callable[[str], str]) -> None:
+        for a, b in _runs(flags, max(1, round(_BRIDGE * len(flags)))):
+            start, end = float(c.time[a]), float(c.time[b])
+            found.append(Event(kind, start, end, say(_when(start, end))))
+
+    positive = objective.better == "smaller" and bool((c.value >= 0).all())
+    nothing = positive & (c.value <= NOTHING * max(float(c.value.max()), 1e-300)) & (c.value.max() > 0)
+    add("zero cost", nothing, lambda when: f"{when}: {objective.name} is zero (below {NOTHING:.1%} of its largest value)")
+    range_ = float(np.ptp(c.value))
+    jump = np.r_[False, np.abs(np.diff(c.value)) > _JUMP * range_] & (range_ > 0)
+    add(
+        "value jump",
+        jump,
+        lambda when: (
+            f"{when}: {objective.name} jumps by more than {_JUMP:.0%} of its range in one step; swing angles do where a joint "
+            "is balanced about its axis or upright, and the worst of several failures may"
+        ),
+    )
+    found += _troubles(objective, c, tracks, nothing)
+    if wanted is not None:
+        off = np.abs(c.value - wanted) > _KEPT * max(abs(wanted), float(np.ptp(c.value)))
+        add(
+            "value not kept", off, lambda when: f"{when}: {objective.name} is more than {_KEPT:.0%} off the wanted {wanted:.4g}"
         )
-    scale = float(np.nanmax(np.abs(curvature))) if np.isfinite(curvature).any() else 0.0
-    flat = np.abs(curvature) <= FLAT * scale
-    crossing = np.r_[np.sign(curvature[1:]) * np.sign(curvature[:-1]) < 0, False]
-    for start, end in _runs((flat | crossing) & (scale > 0)):
-        found.append(_algorithmic(objective, time, curvature, rate_norm, nothing, start, end, scale))
-    lost = (curvature < -FLAT * scale) & (scale > 0)
-    found += _spans(
-        "not at an extremum",
-        time,
-        lost,
-        lambda a, b: (
-            f"from {a:.4g} s to {b:.4g} s the arm is not near a local best of {objective.name} along its self-motion: "
-            "the one it followed has ended, or it is on the way to another"
-        ),
-    )
-    found += _spans(
-        "rate cap",
-        time,
-        self_motion < 1 - 1e-9,
-        lambda a, b: f"from {a:.4g} s to {b:.4g} s the rate cap slows the self-motion; the hand is not affected",
-    )
-    found += _spans(
+    add("rate cap", c.self_motion < 1 - 1e-9, lambda when: f"{when}: {cap} slows the self-motion; the hand is not affected")
+    add(
         "hand slowed",
-        time,
-        task_share < 1 - 1e-9,
-        lambda a, b: f"from {a:.4g} s to {b:.4g} s joint limits leave no motion that keeps up: the hand falls behind its path",
+        c.task_share < 1 - 1e-9,
+        lambda when: f"{when}: joint limits leave no motion that keeps up: the hand falls behind its path",
     )
-    found += _spans(
+    add(
         "near a singularity",
-        time,
-        damping > 0,
-        lambda a, b: (
-            f"from {a:.4g} s to {b:.4g} s the arm is close to a singularity: rates are damped and the hand lags a little"
-        ),
+        c.damping > 0,
+        lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped, so the hand may lag",
     )
-    for name, flags in at_limit.items():
-        found += _spans("joint limit", time, flags, partial(_at_limit, name))
+    for name, flags in c.at_limit.items():
+        add("joint limit", flags, partial(_at_limit, name))
     return tuple(sorted(found, key=lambda e: (e.start, e.kind)))
 
 
-def _at_limit(name: str, start: float, end: float) -> str:
-    return f"'{name}' is at its limit from {start:.4g} s to {end:.4g} s"
+def _at_limit(name: str, when: str) -> str:
+    return f"{when}: '{name}' is at its limit"
 
 
-def _algorithmic(
-    objective: Objective, time: Array, curvature: Array, rate_norm: Array, nothing: Flags, start: int, end: int, scale: float
-) -> Event:
-    window = slice(max(start - 2, 0), min(end + 3, len(time)))
-    k = start + int(np.nanargmin(np.abs(curvature[start : end + 1])))
-    peak = float(rate_norm[window].max())
-    before, after = bool(nothing[window][0]), bool(nothing[window][-1])
-    why = "the extremum of the self-motion that is followed ends or splits here"
-    if before != after:
-        why = f"the region of zero cost {'ends' if before else 'begins'} here"
-    text = (
-        f"at {time[k]:.4g} s: algorithmic singularity of {objective.name}: its curvature along the self-motion falls to "
-        f"{abs(curvature[k]) / scale:.1g} of the largest on the path, though the arm is not singular; {why}; "
-        f"joint rates reach {peak:.4g} rad/s"
-    )
-    return Event("algorithmic singularity", float(time[start]), float(time[end]), text)
+def _troubles(objective: Objective, c: Course, tracks: bool, nothing: Flags) -> list[Event]:
+    """Where the self-motion lost the extremum that it followed, or ran much faster than elsewhere: one event for each."""
+    count = len(c.time)
+    good = np.isfinite(c.curvature)
+    typical = float(np.median(np.abs(c.curvature[good]))) if good.any() else 0.0
+    usual = float(np.median(c.rate_norm))
+    flags = (c.rate_norm > _FAST * usual) & (c.rate_norm > 1e-9)
+    if tracks and typical > 0:
+        flags |= c.curvature < -FLAT * typical
+    found = []
+    near = max(2, round(_BRIDGE * count))
+    for first, last in _runs(flags, near):
+        start, end = float(c.time[first]), float(c.time[last])
+        window = slice(max(first - near, 0), min(last + near + 1, count))
+        peak = float(c.rate_norm[window].max())
+        reach = f"joint rates reach {peak:.4g} rad/s ({peak / max(usual, 1e-12):.2g} times their median)"
+        bend = c.curvature[window]
+        least = float(np.nanmin(bend)) if np.isfinite(bend).any() else np.nan
+        lost = tracks and least < -FLAT * typical
+        closing = "; it has not reached one by the end" if lost and last >= count - 2 else ""
+        if tracks and first == 0:
+            text = f"{_when(start, end)}: the arm does not start at a local best of {objective.name} and moves to one; {reach}"
+            found.append(Event("not at an extremum", start, end, text + closing))
+        elif tracks and least <= _CLOSE * typical:
+            why = "the local best that the arm follows " + ("ends or splits here" if lost else "nearly ends or splits here")
+            inside = nothing[window]
+            if inside.any() and not inside.all():
+                why = "here is the border of the region in which it can be zero"
+            way = f", and until {end:.4g} s the arm is on its way to another local best" if lost and end > start else ""
+            text = (
+                f"at {start:.4g} s: {'' if lost or inside.any() else 'close to an '}algorithmic singularity of "
+                f"{objective.name}, though the arm itself is not singular: {why}{way}{closing}; {reach}"
+            )
+            found.append(Event("algorithmic singularity", start, end, text))
+        else:
+            found.append(Event("fast motion", start, end, f"{_when(start, end)}: {reach}"))
+    return found
 
 
-def _runs(flags: Flags) -> list[tuple[int, int]]:
-    """First and last position of every stretch of True."""
+def _when(start: float, end: float) -> str:
+    a, b = f"{start:.4g}", f"{end:.4g}"
+    return f"at {a} s" if a == b else f"from {a} s to {b} s"
+
+
+def _runs(flags: Flags, bridge: int) -> list[tuple[int, int]]:
+    """First and last position of every stretch of True; stretches less than ``bridge`` apart are one."""
     edges = np.flatnonzero(np.diff(np.r_[False, flags, False].astype(np.int8)))
-    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
-
-
-def _spans(kind: str, time: Array, flags: Flags, say: Callable[[float, float], str]) -> list[Event]:
-    return [Event(kind, float(time[a]), float(time[b]), say(time[a], time[b])) for a, b in _runs(np.asarray(flags))]
+    runs: list[tuple[int, int]] = []
+    for a, b in zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True):
+        if runs and a - runs[-1][1] <= bridge:
+            runs[-1] = (runs[-1][0], b)
+        else:
+            runs.append((a, b))
+    return runs

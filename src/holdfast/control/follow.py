@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.control.events import Curvature, events
-from holdfast.control.resolution import AugmentedJacobian, ExtendedJacobian, GradientProjection, Resolution
+from holdfast.control.events import Course, Curvature, events
+from holdfast.control.laws import AugmentedJacobian, ExtendedJacobian, GradientProjection
+from holdfast.control.resolution import Resolution
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices import Objective, Opposite
@@ -25,11 +26,16 @@ from holdfast.solve.inverse import clipped, hand_error
 
 Array = NDArray[np.float64]
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
+TRACKING = ("gradient-projection", "extended-jacobian")  # these stay at a local best
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
-_SUBSTEPS = 10  # of control between two samples: the hand is off by the square of a step
-_SETTLE = 0.01  # of the duration: time constant of the gain that is chosen if none is given
+_STEPS = 20_000  # of control, at least: the hand is off by the square of a step
+_SETTLING = 400  # steps before the first
+_SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
+_FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the hand off its path
 _PROBES = 64
+_CATCH_UP = 3.0  # times the largest twist of the path
+_AT = 1e-6  # rad and m from a limit
 _GRID = 101  # poses whose whole manifold is traced
 
 
@@ -62,9 +68,11 @@ def follow(
             keeps the value ``wanted``, ``none`` moves as little as possible (least-norm rates) and only reports.
         q: (n,) where to start, on the first pose. Default: the best configuration of the first pose.
         gain: Of the law; for gradient projection rad/s per unit of the objective and rad, otherwise 1/s. Default: chosen so
-            that the self-motion settles within about 1 % of the duration, from the curvature of the objective on the path.
+            that the self-motion settles within about 0.05 % of the duration, from the curvature of the objective on the path:
+            it hardly lags, and shows the rates that staying at the best takes.
         wanted: Value that the augmented Jacobian keeps. Default: that of the start.
-        rate_cap: Largest norm of the joint rates, rad/s; slows the self-motion only.
+        rate_cap: Largest norm of the joint rates, rad/s; slows the self-motion only. Without it that is still kept to what
+            20,000 steps resolve: 0.02 rad each.
         task: Rows of the poses to keep. Default: the objective's, or ``position`` for a path of positions, or ``pose``.
         samples: Number of samples, evenly spaced in time.
         limits: Keep the joints within their position and velocity limits.
@@ -91,52 +99,89 @@ def follow(
     poses = path.pose(time)
     start = _start(arm, objective, chosen, poses[0], q, seed)
     curvature = Curvature(objective, chosen)
-    step = path.duration / (samples - 1) / _SUBSTEPS
+    substeps = -(-_STEPS // (samples - 1))
+    step = path.duration / (samples - 1) / substeps
     if method == "none":
         gain = 0.0
     elif gain is None:
-        gain = _gain(method, curvature, poses, path.duration, seed)
+        gain = _gain(method, curvature, poses, step, seed)
     law: Resolution
     period = step if limits else None
+    finest = _FARTHEST / step
+    cap = finest if rate_cap is None else min(rate_cap, finest)
+    if rate_cap is not None and not rate_cap > 0:
+        raise InputError(f"rate_cap is {rate_cap:g}; it must be above 0, or None")
+    keep: float | None = None
     if method == "extended-jacobian":
-        law = ExtendedJacobian(arm, objective, gain, chosen, rate_cap, period, damping)
+        law = ExtendedJacobian(arm, objective, gain, chosen, cap, period, damping)
     elif method == "augmented-jacobian":
         keep = float(objective(start)) if wanted is None else wanted
-        law = AugmentedJacobian(arm, objective, keep, gain, chosen, rate_cap, period, damping)
+        law = AugmentedJacobian(arm, objective, keep, gain, chosen, cap, period, damping)
     else:
-        law = GradientProjection(arm, objective, gain, chosen, rate_cap, period, damping)
-    joints, rates, shares = _integrate(law, path, start, samples, step, limits)
-    position_error, rotation_error = solver(arm, chosen).errors(joints, poses)
-    found = curvature.smallest(joints)
-    value = np.asarray(objective(joints))
-    inside = 1e-6
-    at_limit = {
-        joint.name: limits & ((joints[:, k] <= joint.lower + inside) | (joints[:, k] >= joint.upper - inside))
-        for k, joint in enumerate(arm.joints)
-    }
-    norm = np.linalg.norm(rates, axis=1)
-    happened = events(objective, time, value, found, norm, shares[:, 0], shares[:, 1], shares[:, 2], at_limit)
+        law = GradientProjection(arm, objective, gain, chosen, cap, period, damping)
+    if wanted is not None and keep is None:
+        raise InputError(f"wanted is what the augmented Jacobian keeps; {method} does not, leave it out")
+    settle = q is None and method in TRACKING
+    joints, rates, shares = _integrate(law, path, start, (samples - 1) * substeps, step, limits, settle)
+    course = _course(arm, objective, curvature, path.duration, joints, rates, shares, limits)
+    limited = f"the rate cap of {cap:.4g} rad/s" if cap == rate_cap else f"the finest step of {_FARTHEST:g} rad"
+    happened = events(objective, course, method in TRACKING, keep, limited)
+    fastest = int(course.rate_norm.argmax())
+    few = slice(None, None, substeps)
+    position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
     best_value, best_q = _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed) if best else (None, None)
     return Trajectory(
         arm,
         chosen,
         objective,
         law.name if method != "none" else "least-norm rates",
+        gain,
+        seed,
+        rate_cap,
         time,
-        joints,
-        rates,
-        np.gradient(rates, time, axis=0, edge_order=2),
+        joints[few],
+        rates[few],
+        np.gradient(rates[few], time, axis=0, edge_order=2),
         poses,
         position_error,
         rotation_error,
-        value,
-        found,
-        shares[:, 0],
-        shares[:, 1],
-        shares[:, 2],
+        course.value[few],
+        course.curvature[few],
+        shares[few, 0],
+        shares[few, 1],
+        shares[few, 2],
+        len(joints) - 1,
+        float(course.rate_norm[fastest]),
+        float(course.time[fastest]),
         happened,
         best_value,
         best_q,
+    )
+
+
+def _course(
+    arm: Arm,
+    objective: Objective,
+    curvature: Curvature,
+    duration: float,
+    joints: Array,
+    rates: Array,
+    shares: Array,
+    limits: bool,
+) -> Course:
+    at_limit = {
+        joint.name: limits & ((joints[:, k] <= joint.lower + _AT) | (joints[:, k] >= joint.upper - _AT))
+        for k, joint in enumerate(arm.joints)
+    }
+    return Course(
+        np.linspace(0.0, duration, len(joints)),
+        np.asarray(objective(joints)),
+        curvature.smallest(joints),
+        np.linalg.norm(rates, axis=1),
+        shares[:, 0],
+        shares[:, 1],
+        shares[:, 2],
+        at_limit,
     )
 
 
@@ -180,9 +225,9 @@ def _start(arm: Arm, objective: Objective, task: Task, first: Array, q: ArrayLik
     return start
 
 
-def _gain(method: str, curvature: Curvature, poses: Array, duration: float, seed: int) -> float:
-    """A gain with which the self-motion settles in a small part of the duration, without ever overshooting a step."""
-    rate = 1 / (_SETTLE * duration)
+def _gain(method: str, curvature: Curvature, poses: Array, step: float, seed: int) -> float:
+    """A gain with which the self-motion settles in a few steps, without overshooting."""
+    rate = 1 / (_SETTLE * step)
     if method != "gradient-projection":
         return rate
     chosen = poses[np.linspace(0, len(poses) - 1, _PROBES).astype(int)]
@@ -197,45 +242,53 @@ def _gain(method: str, curvature: Curvature, poses: Array, duration: float, seed
 
 
 def _integrate(
-    law: Resolution, path: TimedPath, start: Array, samples: int, step: float, limits: bool
+    law: Resolution, path: TimedPath, start: Array, count: int, step: float, limits: bool, settle: bool
 ) -> tuple[Array, Array, Array]:
-    """Joints (T, n), rates (T, n) and shares (T, 3): see :class:`holdfast.control.Rates`.
+    """Joints (N + 1, n), rates (N + 1, n) and shares (N + 1, 3) at N steps and the end: see :class:`holdfast.control.Rates`.
 
     In each step the hand is sent to where the path is at its end, so that errors do not add up.
     """
-    n = law.arm.n
-    kernel = _step_kernel(law, step, limits)
-    count = (samples - 1) * _SUBSTEPS
-    targets = path.pose(np.arange(1, count + 1) * step)
+    # A hand that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
+    fastest = float(np.linalg.norm(path.twist((np.arange(count) + 0.5) * step), axis=1).max())
+    kernel = _step_kernel(law, step, limits, _CATCH_UP * fastest * step)
+    if settle:  # what a search left open would be made up for at once, with rates that no motion needs
+        start = _run(kernel, start, np.broadcast_to(path.pose(0.0), (_SETTLING, 4, 4)), step)[0][-1]
+    joints, rates, shares = _run(kernel, start, path.pose(np.arange(1, count + 1) * step), step)
+    last = law.rates(joints[-1], path.twist(path.duration))
+    rates[-1], shares[-1] = last.rates, (last.self_motion, last.task, last.damping)
+    return joints, rates, shares
+
+
+def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Array, Array, Array]:
+    """Joints (N + 1, n), rates and shares of which the last row is empty, from a start (n,) after targets (N, 4, 4)."""
+    count, n = len(targets), len(start)
     data = np.concatenate([targets[:, :3, 3], targets[:, :3, :3].reshape(count, 9)], axis=1)
     columns = np.zeros((n + 12, kernel.lanes))
     out = np.zeros((2 * n + 3, kernel.lanes))
-    joints, rates, shares = np.empty((samples, n)), np.empty((samples, n)), np.empty((samples, 3))
+    joints, rates, shares = np.empty((count + 1, n)), np.empty((count + 1, n)), np.empty((count + 1, 3))
     columns[:n] = start[:, None]
     for k in range(count):
-        if k % _SUBSTEPS == 0:
-            joints[k // _SUBSTEPS] = columns[:n, 0]
+        joints[k] = columns[:n, 0]
         columns[n:] = data[k][:, None]
         kernel.evaluate_columns(columns, out)
         if not np.isfinite(out[:, 0]).all():
             raise HoldfastError(
                 f"the motion breaks down at {k * step:.4g} s: the arm is exactly singular there; start elsewhere"
             )
-        if k % _SUBSTEPS == 0:
-            rates[k // _SUBSTEPS], shares[k // _SUBSTEPS] = out[n : 2 * n, 0], out[2 * n :, 0]
+        rates[k], shares[k] = out[n : 2 * n, 0], out[2 * n :, 0]
         columns[:n] = out[:n]
     joints[-1] = columns[:n, 0]
-    last = law.rates(joints[-1], path.twist(path.duration))
-    rates[-1], shares[-1] = last.rates, (last.self_motion, last.task, last.damping)
     return joints, rates, shares
 
 
-def _step_kernel(law: Resolution, step: float, limits: bool) -> Kernel:
+def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) -> Kernel:
     """From q and a target pose to the next q, the rates that lead there, and the shares."""
     arm = law.arm
     q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     chain = kinematics.chain(arm, q)
-    out = law.expression(q, hand_error(law.task, chain.position, chain.rotation, p, r) / step)
+    error = hand_error(law.task, chain.position, chain.rotation, p, r)
+    size = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
+    out = law.expression(q, error * ca.if_else(size > farthest, farthest / size, 1) / step)
     following = q + step * out[: arm.n]
     if limits:
         following = clipped(arm, ca.vertsplit(following))

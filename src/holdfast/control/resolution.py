@@ -22,17 +22,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel
-from holdfast.linalg import Cholesky, damped_least_norm, gram, householder, lowest
+from holdfast.linalg import Cholesky, gram, householder, lowest
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
-_BLUNT = 1e-12  # keeps a factorisation of a singular matrix finite
+BLUNT = 1e-12  # keeps a factorisation of a singular matrix finite
 _CLOSE_TO_SINGULAR = 0.02  # share of the arm's typical manipulability below which rates are damped
 _SAMPLES = 512
 _FAR = 1e9  # stands for no limit, rad/s
@@ -127,27 +128,63 @@ class Resolution(ABC):
         j = ca.horzcat(*[self.task.error(full[:, k] * scale, c.rotation) for k in range(n)])
         v = self.task.error(twist * scale, c.rotation)
         low, high = self._bounds(q)
+        alone, _, task, damp = self._kept(q, j, v, low, high, serve=False)
+        rates, share, served, served_damp = self._kept(q, j, v, low, high, serve=True)
+        bounded = self._bounded(low, high)
+        if not bounded:
+            return ca.vertcat(rates, share, served, served_damp)
+        # Where the limits leave no room for all of the self-motion that is wanted, as much of it as they do leave: both
+        # motions keep the task, so does every motion between them.
+        between = ca.SX(1)
+        for k in bounded:
+            way = rates[k] - alone[k]
+            for bound, towards in ((high[k], way > 1e-12), (low[k], way < -1e-12)):
+                if bound is not None:
+                    reach = (bound - alone[k]) / ca.if_else(towards, way, 1)
+                    between = ca.if_else(towards, ca.if_else(reach < between, reach, between), between)
+        between = ca.if_else(between > 0, between, 0)
+        mixed = alone + between * (rates - alone)
+        yields = served < task
+        return ca.vertcat(
+            ca.if_else(yields, mixed * task, rates * served),
+            ca.if_else(yields, between * share, share),
+            ca.if_else(yields, task, served),
+            ca.if_else(yields, damp + between * served_damp, served_damp),
+        )
+
+    @staticmethod
+    def _bounded(low: list[SX | None], high: list[SX | None]) -> list[int]:
+        return [k for k in range(len(low)) if low[k] is not None or high[k] is not None]
+
+    def _kept(self, q: SX, j: SX, v: SX, low: list[SX | None], high: list[SX | None], serve: bool) -> tuple[SX, SX, SX, SX]:
+        """Rates (n,) for the task, with the self-motion that is wanted or without, and joints taken out at their bounds.
+
+        Also the share of the self-motion that the cap lets pass, the share of all of it that no bound forbids, and the damping.
+        """
+        n = self.arm.n
         fixed, free = ca.SX(n, 1), ca.SX.ones(n, 1)
         wanted: SX = None
-        bounded = [k for k in range(n) if low[k] is not None or high[k] is not None]
+        bounded = self._bounded(low, high)
         passes = min(self.redundancy, len(bounded)) + 1
         for number in range(passes):
             masked = ca.horzcat(*[j[:, k] * free[k] for k in range(n)]) if number else j
-            regular = Cholesky(gram(masked, _BLUNT))
+            regular = Cholesky(gram(masked, BLUNT))
             volume = regular.determinant() / self._typical_volume
-            damp = ca.if_else(volume < 1, self.damping**2 * (1 - volume) + _BLUNT, _BLUNT)
+            damp = ca.if_else(volume < 1, self.damping**2 * (1 - volume) + BLUNT, BLUNT)
             factor = Cholesky(gram(masked, damp))
 
             def pinv(e: SX, masked: SX = masked, factor: Cholesky = factor) -> SX:
                 return masked.T @ ca.vertcat(*factor.solve(ca.vertsplit(ca.densify(e))))
 
             particular = fixed + pinv(v - j @ fixed)
-            if number == 0:
-                wanted = self._wanted(q, j, particular)
-            own = wanted * free
-            self_motion = own - pinv(j @ own)
-            share = self._share(particular, self_motion)
-            rates = particular + share * self_motion
+            rates, share = particular, ca.SX(1)
+            if serve:
+                if number == 0:
+                    wanted = self._wanted(q, j, particular)
+                own = wanted * free
+                self_motion = own - pinv(j @ own)
+                share = self._share(particular, self_motion)
+                rates = particular + share * self_motion
             if number < passes - 1:
                 worst, which, bound = ca.SX(1 + 1e-9), ca.SX(-1), ca.SX(0)
                 for k in bounded:
@@ -162,13 +199,13 @@ class Resolution(ABC):
                 taken = [ca.if_else(which == k, 1.0, 0.0) if k in bounded else ca.SX(0) for k in range(n)]
                 fixed = ca.vertcat(*[fixed[k] + taken[k] * bound for k in range(n)])
                 free = ca.vertcat(*[free[k] * (1 - taken[k]) for k in range(n)])
-        # What is beyond a bound now cannot be avoided by self-motion: everything slows down together.
+        # What is beyond a bound now cannot be avoided like this: everything slows down together.
         task = ca.SX(1)
         for k in bounded:
             ratio, _ = self._excess(rates[k], low[k], high[k])
             slower = ca.if_else(ratio > 1 + 1e-9, 1 / ratio, 1.0)
             task = ca.if_else(slower < task, slower, task)
-        return ca.vertcat(rates * task, share, task, damp - _BLUNT)
+        return rates, share, task, damp - BLUNT
 
     def _bounds(self, q: SX) -> tuple[list[SX | None], list[SX | None]]:
         """Smallest and largest rate of every joint; None where there is none."""
@@ -213,7 +250,7 @@ class Resolution(ABC):
         high = np.where(np.isfinite(self.arm.upper), self.arm.upper, np.pi)
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)
-        volume = Kernel("volume", [q], [Cholesky(gram(j, _BLUNT)).determinant()])
+        volume = Kernel("volume", [q], [Cholesky(gram(j, BLUNT)).determinant()])
         samples = np.random.default_rng(0).uniform(low, high, (_SAMPLES, self.arm.n))
         return float(np.median(volume.rows(samples))) * _CLOSE_TO_SINGULAR**2
 
@@ -232,9 +269,10 @@ class Resolution(ABC):
             twist: (6,) or (N, 6), linear (m/s) and angular (rad/s), in the world frame.
 
         Raises:
-            InputError: A wrong shape.
+            InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        a = self.arm.check_configurations(q)
+        rows, single = configurations(self.arm, q)
+        a = rows[0] if single else rows
         t = np.asarray(twist, dtype=np.float64)
         if t.shape[-1:] != (6,) or t.ndim > 2 or (t.ndim == 2 and a.ndim == 2 and len(t) != len(a)):
             raise InputError(f"twist has shape {t.shape}; it must be (6,) or (N, 6), one for each configuration")
@@ -278,132 +316,6 @@ class Step:
         self._twist[:] = twist[:, None]
         self._call(self._in, self._out)
         return self._rates.copy()
-
-
-class GradientProjection(Resolution):
-    """Self-motion down (or up) the gradient of the objective, kept off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
-
-    Args:
-        arm: The arm.
-        objective: Made better all the time; which way that is, it knows.
-        gain: Of the gradient, rad/s per unit of the objective and rad.
-        task: As for every law.
-        rate_cap: As for every law.
-        period: As for every law.
-        damping: As for every law.
-
-    Source: Liegeois 1977; English and Maciejewski 1998, section II.
-    """
-
-    name = "gradient projection"
-    source = "Liegeois 1977; English and Maciejewski 1998, section II"
-
-    def __init__(
-        self,
-        arm: Arm,
-        objective: Objective,
-        gain: float = 1.0,
-        task: str | Task | Sequence[str] | None = None,
-        rate_cap: float | None = None,
-        period: float | None = 0.01,
-        damping: float = 0.05,
-    ) -> None:
-        super().__init__(arm, objective, task, rate_cap, period, damping)
-        if not (np.isfinite(gain) and gain >= 0):
-            raise InputError(f"gain is {gain:g}; it must be 0 or more: the objective knows which way is better")
-        self.gain = gain
-
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        return self.gain * oriented_gradient(self.objective, q, j)
-
-
-class ExtendedJacobian(Resolution):
-    """Keeps the objective at an extremum along the self-motion: the null-space part of its gradient stays 0.
-
-    The rows ``d(N' grad)/dq`` are added to J. Where they lose rank although J does not, the extremum that is tracked ends
-    or splits: an algorithmic singularity, at which the rates grow without bound.
-
-    Args:
-        arm: The arm.
-        objective: The objective.
-        gain: Of the return to the extremum, 1/s.
-        task: As for every law.
-        rate_cap: As for every law.
-        period: As for every law.
-        damping: As for every law.
-
-    Source: Baillieul 1985; English and Maciejewski 1998, sections II and VI-B.
-    """
-
-    name = "extended Jacobian"
-    source = "Baillieul 1985; English and Maciejewski 1998, section VI-B"
-
-    def __init__(
-        self,
-        arm: Arm,
-        objective: Objective,
-        gain: float = 5.0,
-        task: str | Task | Sequence[str] | None = None,
-        rate_cap: float | None = None,
-        period: float | None = 0.01,
-        damping: float = 0.05,
-    ) -> None:
-        super().__init__(arm, objective, task, rate_cap, period, damping)
-        if not (np.isfinite(gain) and gain > 0):
-            raise InputError(f"gain is {gain:g}; it must be above 0")
-        self.gain = gain
-
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        null, slope = slope_along(self.objective, self.task, q)
-        rows = ca.jacobian(slope, q)
-        return null @ damped_least_norm(rows @ null, -self.gain * slope - rows @ particular, _BLUNT)
-
-
-class AugmentedJacobian(Resolution):
-    """Brings the objective to a wanted value and keeps it there: its gradient is one more row of the task.
-
-    Args:
-        arm: The arm.
-        objective: The objective.
-        wanted: Its value. The path may make it impossible; then it comes as close as the damping lets it.
-        gain: Of the way there, 1/s.
-        task: As for every law.
-        rate_cap: As for every law.
-        period: As for every law.
-        damping: As for every law.
-
-    Source: Egeland 1987; Sciavicco and Siciliano 1988; English and Maciejewski 1998, section II.
-    """
-
-    name = "augmented Jacobian"
-    source = "Sciavicco and Siciliano 1988; English and Maciejewski 1998, section II"
-
-    def __init__(
-        self,
-        arm: Arm,
-        objective: Objective,
-        wanted: float,
-        gain: float = 5.0,
-        task: str | Task | Sequence[str] | None = None,
-        rate_cap: float | None = None,
-        period: float | None = 0.01,
-        damping: float = 0.05,
-    ) -> None:
-        super().__init__(arm, objective, task, rate_cap, period, damping)
-        if not np.isfinite(wanted):
-            raise InputError(f"the wanted value is {wanted:g}; it must be a finite number")
-        if not (np.isfinite(gain) and gain > 0):
-            raise InputError(f"gain is {gain:g}; it must be above 0")
-        self.wanted, self.gain = wanted, gain
-
-    def _wanted(self, q: SX, j: SX, particular: SX) -> SX:
-        sign = 1.0 if self.objective.better == "larger" else -1.0
-        slope = oriented_gradient(self.objective, q, j)
-        missing = self.gain * (sign * self.wanted - oriented_value(self.objective, q, j)) - ca.dot(slope, particular)
-        # Least norm within the null space; where the objective does not change there, it cannot be helped.
-        across = slope - j.T @ ca.vertcat(*Cholesky(gram(j, _BLUNT)).solve(ca.vertsplit(ca.densify(j @ slope))))
-        steep = ca.sumsqr(across)
-        return across * missing / (steep + 1e-6 * (steep + ca.sumsqr(slope)) + 1e-30)
 
 
 # ---- the objective as symbols ------------------------------------------------------------------------------------------

@@ -124,7 +124,7 @@ def _environment() -> Environment:
 
 
 def render(page: Page) -> str:
-    """The page as HTML that needs nothing else: no scripts, no files, no network."""
+    """The page as HTML that needs nothing else: no files, no network, and no scripts but those of an animation in it."""
     return _environment().get_template("page.html").render(page=page)
 
 
