@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, plane_normal
+from holdfast.arm.task import Task
 from holdfast.assess.distribution import Distribution, Interval
-from holdfast.assess.plan import Plan, Rows, read_locks
+from holdfast.assess.plan import Plan, Rows, make_plan
 from holdfast.assess.region import Region, Sampling
 from holdfast.assess.run import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
 from holdfast.assess.upgrade import Upgrade, if_never_fails, upgrades
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_POSES = 2000  # unless asked otherwise
 ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 _CHUNK_BLOCKS = 8
@@ -388,40 +387,6 @@ def assess(
     return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
 
 
-def make_plan(
-    arm: Arm,
-    region: Region,
-    index: Index,
-    poses: int | None,
-    seed: int,
-    sampling: Sampling,
-    restarts: int,
-    optimise: bool,
-    after_lock: bool,
-    lock_at: Mapping[str | int, float] | None = None,
-    clearance: Clearance | bool | None = None,
-    margin: float = 0.0,
-) -> Plan:
-    """What :func:`assess` would compute; raises what it would raise, before anything is computed."""
-    if index.arm.fingerprint != arm.fingerprint:
-        raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
-    if poses is None:
-        poses = _POSES if region.listed is None else len(region.listed)
-    return Plan(
-        region,
-        index,
-        poses,
-        seed,
-        sampling,
-        restarts,
-        optimise,
-        after_lock,
-        read_locks(arm, lock_at or {}),
-        _apart(arm, clearance, optimise),
-        margin,
-    )
-
-
 def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
     """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
     weights = np.zeros(arm.n)
@@ -468,14 +433,6 @@ def _finished(
         complete,
         rows,
     )
-
-
-def _apart(arm: Arm, clearance: Clearance | bool | None, optimise: bool) -> Clearance | None:
-    if clearance is None:
-        clearance = optimise and plane_normal(arm) is None
-    if clearance is True:
-        return Clearance(arm)
-    return clearance or None
 
 
 def _open_store(path: Path, plan: Plan) -> Store:

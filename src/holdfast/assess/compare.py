@@ -160,6 +160,9 @@ class Comparison:
             found.append("The numbers of restarts differ, so 'not found' was decided with unequal effort.")
         if len({a.optimised is None for a in runs}) > 1:
             found.append("Only some candidates were optimised.")
+        chosen = [a.plan for a in runs if a.optimised is not None]
+        if len({(p.clearance is None, p.margin) for p in chosen}) > 1:
+            found.append("The best configurations are not equally clear of the arm itself: the clearances asked for differ.")
         return found
 
     def report(self, path: str | Path) -> Path:

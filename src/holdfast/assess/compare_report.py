@@ -13,7 +13,7 @@ from holdfast.arm.model import Arm
 from holdfast.assess.assess import Assessment
 from holdfast.assess.compare import Comparison
 from holdfast.assess.facts import Facts
-from holdfast.assess.rerun import command_line, region_files
+from holdfast.assess.rerun import capsule_files, command_line, region_files
 from holdfast.assess.worst import paired
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
@@ -261,9 +261,15 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
     ]
     if len(seeds) == 1 and len({x.sampling for x in c.assessments}) == 1:
         facts.append(("Same poses", "every candidate was tried at the same poses of the region"))
+    shapes = [
+        (n, x.plan.clearance.capsules.describe(x.arm)) for n, x in zip(c.names, c.assessments, strict=True) if x.plan.clearance
+    ]
+    if shapes and any(x.optimised is not None for x in c.assessments):
+        what = "; ".join(f"{name}: {shape}" for name, shape in shapes)
+        facts.append(("Clearance", f"best configurations keep the arm clear of itself, by capsules ({what})"))
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     for name, run in zip(c.names, c.assessments, strict=True):
-        blocks.append(_again(name, run))
+        blocks += [_again(name, run), *capsule_files(run)]
     if a.region.storable:
         blocks += region_files(a.region)
     return blocks

@@ -10,7 +10,7 @@ from holdfast.assess.facts import Facts
 from holdfast.report import figures
 from holdfast.report.figures import Curve
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.report.words import as_given, interval, number
+from holdfast.report.words import as_given, counted, interval, number
 
 _MOST_DOTS = 20_000
 
@@ -22,7 +22,7 @@ def gain(f: Facts) -> list[Block]:
         return []
     blocks: list[Block] = [
         Text(
-            "After: for each pose the best configuration found that keeps the pose and the joint limits. "
+            f"After: for each pose the best configuration found that keeps the pose{_kept(f)}. "
             "Found by a local search from several starts: a lower bound of what is possible."
         ),
         _table(f, best),
@@ -33,10 +33,24 @@ def gain(f: Facts) -> list[Block]:
             Picture(
                 figures.svg(figure, "gain", "Distribution of the index before and after choosing configurations"),
                 f"{f.d.samples:,} poses. Right: the {f.d.reached:,} reached poses in the order of the index before; "
-                "what a pose gains is the height of its dot above the line.",
+                "what a pose gains is the height of its dot above the line." + _lost(f),
             )
         )
     return blocks
+
+
+def _kept(f: Facts) -> str:
+    """What the best configurations keep besides the pose."""
+    clearance, margin = f.a.plan.clearance, f.a.plan.margin
+    if clearance is None:
+        return " and the joint limits, even where the arm runs through itself"
+    apart = f"a clearance of {margin:g} m" if margin else "the arm clear of itself"
+    return f", the joint limits and {apart} ({clearance.capsules.describe(f.a.arm)})"
+
+
+def _lost(f: Facts) -> str:
+    hopeless = f.a.collisions.hopeless if f.a.collisions is not None else 0
+    return f" {counted(hopeless, 'pose')} without a configuration clear of the arm itself have no dot." if hopeless else ""
 
 
 def _table(f: Facts, best: Distribution) -> Table:
@@ -46,6 +60,7 @@ def _table(f: Facts, best: Distribution) -> Table:
     for name, d, optimised in (("before", f.d, False), ("after", best, True)):
         chance = f.a.interval(optimised=optimised, **ask)  # type: ignore[arg-type]
         top = d.highest if f.larger else d.lowest
+        name += f", {d.reached:,} poses" if best.reached < f.d.reached else ""
         rows.append([name, *[number(float(x)) for x in d.quantile(steps)], number(d.mean), number(top), interval(chance)])
     sign = "≥" if f.larger else "≤"
     head = [

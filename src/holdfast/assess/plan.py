@@ -25,6 +25,7 @@ from holdfast.study import Column
 Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
+_POSES = 2000  # unless asked otherwise
 TOLERANCE = 1e-6  # of the pose, m and rad
 LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
 
@@ -311,6 +312,46 @@ class Plan:
         )
         result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
         return result
+
+
+def make_plan(
+    arm: Arm,
+    region: Region,
+    index: Index,
+    poses: int | None,
+    seed: int,
+    sampling: Sampling,
+    restarts: int,
+    optimise: bool,
+    after_lock: bool,
+    lock_at: Mapping[str | int, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    margin: float = 0.0,
+) -> Plan:
+    """What :func:`assess` would compute; raises what it would raise, before anything is computed."""
+    if index.arm.fingerprint != arm.fingerprint:
+        raise InputError(f"the index belongs to '{index.arm.name}', not to '{arm.name}'; make it with the arm you assess")
+    if poses is None:
+        poses = _POSES if region.listed is None else len(region.listed)
+    return Plan(
+        region,
+        index,
+        poses,
+        seed,
+        sampling,
+        restarts,
+        optimise,
+        after_lock,
+        read_locks(arm, lock_at or {}),
+        _apart(arm, clearance, optimise),
+        margin,
+    )
+
+
+def _apart(arm: Arm, clearance: Clearance | bool | None, optimise: bool) -> Clearance | None:
+    if clearance is None:
+        return Clearance.by_default(arm) if optimise else None
+    return Clearance(arm) if clearance is True else clearance or None
 
 
 def read_locks(arm: Arm, given: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:

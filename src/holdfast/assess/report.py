@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from holdfast.assess import places, sections, worst
 from holdfast.assess.assess import Assessment
+from holdfast.assess.collisions import collisions
 from holdfast.assess.facts import Facts
 from holdfast.assess.gain import gain
 from holdfast.assess.survival import survival
@@ -43,6 +44,7 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         Section("The arm and the region", sections.views(facts)),
         Section("How the index is distributed", sections.distribution(facts)),
         Section("What choosing configurations gains", gain(facts)),
+        Section("Does the arm run through itself?", collisions(facts)),
         Section("What survives a locked joint", survival(facts)),
         Section("Which failure is the worst", worst.worst_failures(facts)),
         Section("Which joint deserves the redundant motor or brake", worst.upgrades(facts)),

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from holdfast import arms
 from holdfast.arm.attachment import attachment, attachment_text
 from holdfast.arm.model import Arm
-from holdfast.arm.task import NAMES, ROWS, Task, as_task
+from holdfast.arm.task import NAMES, ROWS, Task, as_task, plane_normal
 from holdfast.assess.assess import Assessment
 from holdfast.assess.region import Region
 from holdfast.assess.weights import Density
@@ -21,6 +21,7 @@ from holdfast.indices import BY_NAME
 from holdfast.report.page import Block, Code, Text
 
 _POSES_FILE = "poses.csv"
+_CAPSULES_FILE = "capsules.yaml"
 _MOST_POSES = 50  # of a list in a report; a results folder holds any number
 
 
@@ -57,17 +58,43 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
     if a.region.kind != "joints":
         options["restarts"] = str(a.restarts)
+    apart = _clearance_options(a)
     locks = [f"--lock-at {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
     lines = [f"holdfast assess {shlex.quote(spec)}"]
     words = [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
     flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
-    for word in [*words, *flags, *locks]:
+    for word in [*words, *flags, *apart, *locks]:
         if len(lines[-1]) + len(word) > 90:
             lines[-1] += " \\"
             lines.append("    " + word)
         else:
             lines[-1] += " " + word
     return "\n".join(lines), remark
+
+
+def _clearance_options(a: Assessment) -> list[str]:
+    """What says how clear of itself the arm stays, where that is not what a run does anyway."""
+    clearance, arm = a.plan.clearance, a.arm
+    planar = plane_normal(arm) is not None
+    looks = a.plan.optimise and not planar  # unless told otherwise
+    if clearance is None:
+        return ["--no-clearance"] if looks else []
+    radius = clearance.capsules.radius_along(arm)
+    if clearance.capsules.assumed(arm):
+        words = [] if looks else ["--clearance"]
+    else:
+        words = [f"--capsules {_CAPSULES_FILE}"] if radius is None else [f"--radius {radius!r}"]
+    return [*words, *([f"--margin {a.plan.margin!r}"] if a.plan.margin and a.plan.optimise else [])]
+
+
+def capsule_files(a: Assessment) -> list[Block]:
+    """The capsule file that the command needs, if any, to copy."""
+    clearance = a.plan.clearance
+    if clearance is None or clearance.capsules.radius_along(a.arm) is not None:
+        return []
+    data = clearance.capsules.to_dict(a.arm)
+    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
+    return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(_CAPSULES_FILE))]
 
 
 def _task_option(arm: Arm, task: Task) -> str | None:

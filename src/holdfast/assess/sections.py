@@ -6,9 +6,10 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from holdfast.assess import collisions
 from holdfast.assess.assess import Assessment
 from holdfast.assess.facts import Facts
-from holdfast.assess.rerun import command_line, region_files
+from holdfast.assess.rerun import capsule_files, command_line, region_files
 from holdfast.assess.structure import explain
 from holdfast.failures import failure_sets
 from holdfast.report import figures, scenes
@@ -70,6 +71,9 @@ def key_numbers(f: Facts) -> list[Block]:
     facts.append(("Singular", f.share(d.singular) + (f"; count as {'0' if f.larger else 'infinite'}" if d.singular else "")))
     if d.infinite:
         facts.append(("Infinite", f.share(d.infinite) + ", of those with a configuration"))
+    through = collisions.summary(f)
+    if through:
+        facts.append(("Runs through itself", through))
     if d.samples and f.decided:
         facts.append((f"P({f.condition})", f"{interval(f.answer)}; {_why(f)}"))
         if d.unreached and d.reached:
@@ -295,7 +299,7 @@ def method(f: Facts) -> list[Block]:
     if command is None:
         return [*blocks, Text(note)]
     blocks.append(Code(command, "The same run again" + (f" ({note}):" if note else ":")))
-    return [*blocks, *region_files(a.region)]
+    return [*blocks, *region_files(a.region), *capsule_files(a)]
 
 
 def _ranges(a: Assessment) -> str:

@@ -123,6 +123,24 @@ class Capsules:
         width = _SHARE * sum(lengths) if radius is None else radius
         return cls(tuple(part for link in range(BASE, arm.n) for part in _along(arm, link, width)))
 
+    def radius_along(self, arm: Arm) -> float | None:
+        """The radius, m, if these are the capsules of :meth:`along` and nothing is ignored; else None."""
+        radius = self.parts[0].radius if self.parts else None
+        same = radius is not None and np.linalg.norm(_ends(arm)) >= _POINT and self == Capsules.along(arm, radius)
+        return radius if same else None
+
+    def assumed(self, arm: Arm) -> bool:
+        """True if the radius along the links is the one that :meth:`along` assumes."""
+        radius = self.radius_along(arm)
+        return radius is not None and radius == Capsules.along(arm).parts[0].radius
+
+    def describe(self, arm: Arm) -> str:
+        """What they are and where they come from, for people."""
+        radius = self.radius_along(arm)
+        if radius is None:
+            return f"{len(self)} capsule{'' if len(self) == 1 else 's'}, as given"
+        return f"{'assumed' if self.assumed(arm) else 'given'} radius {radius:.3g} m along each link"
+
     @classmethod
     def load(cls, path: str | Path, arm: Arm) -> Capsules:
         """The capsules in a YAML file; see :mod:`holdfast.clearance.capsules`.

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations, finite_limits
 from holdfast.arm.model import Arm
+from holdfast.arm.task import plane_normal
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
@@ -78,6 +79,14 @@ class Clearance:
         self.ignored: list[IgnoredPair] = []
         self._choose_pairs()
         self.pair_names = [self._name(pair) for pair in self.pairs]
+
+    @classmethod
+    def by_default(cls, arm: Arm) -> Clearance | None:
+        """What is kept where nothing else is said: capsules of an assumed radius, :meth:`Capsules.along`.
+
+        None for an arm that moves in a plane, whose links lie beside each other, not in one plane.
+        """
+        return cls(arm) if plane_normal(arm) is None else None
 
     # ---- which pairs -------------------------------------------------------------------------------------------
 
@@ -264,6 +273,11 @@ class Clearance:
 
     def __repr__(self) -> str:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pairs)} pairs checked>"
+
+
+def too_close(margin: float) -> str:
+    """What an arm does whose clearance is below the margin, m, for people."""
+    return f"comes closer than {margin:g} m to itself" if margin else "runs through itself"
 
 
 def _constant(rows: Array, value: float) -> Array:

@@ -11,6 +11,14 @@ import typer
 
 from holdfast.cli.assess_output import comparison_summary, print_assessment, print_comparison, summary
 from holdfast.cli.candidates import TOOL_HELP, read_candidates
+from holdfast.cli.clearance_options import (
+    CapsulesOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_clearance,
+)
 from holdfast.cli.options import (
     TASK_HELP,
     BaseOption,
@@ -75,6 +83,10 @@ def assess(
         typer.Option("--lock-at", help="joint=angle, rad or m, at which it locks; may be given again.", show_default=False),
     ] = None,
     failure_rate: FailureRateOption = None,
+    clearance: ClearanceOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    margin: MarginOption = None,
     at_least: Annotated[
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
@@ -98,12 +110,13 @@ def assess(
     """
     from holdfast.assess import assess as run
     from holdfast.assess import compare, explain, structures
-    from holdfast.assess.assess import make_plan
+    from holdfast.assess.plan import make_plan
     from holdfast.assess.structure import structure
     from holdfast.indices import by_name
     from holdfast.kernels import set_threads
 
     check_thresholds(at_least)
+    check_clearance(clearance, capsules, radius, margin)
     if threads is not None:
         set_threads(threads)
     candidates = read_candidates(arm, tool or [], task or [], base, tip)
@@ -117,6 +130,10 @@ def assess(
             "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
             "leave it out: a comparison counts every joint alike"
         )
+    if capsules is not None and len(arm) > 1:
+        raise InputError(
+            f"--capsules is the shape of one arm and there are {len(arm)}; assess each alone with its own, or give --radius"
+        )
     rates = _read_rates(first.arm, failure_rate, after_lock, lock_at)
     asked = []
     for c in candidates:
@@ -129,6 +146,8 @@ def assess(
             "optimise": optimise,
             "after_lock": after_lock,
             "lock_at": read_by_joint(c.arm, lock_at, "--lock-at"),
+            "clearance": read_clearance(c.arm, clearance, capsules, radius, margin, optimise) or False,
+            "margin": margin or 0.0,
         }
         if several:  # what cannot run is said before the first candidate takes its time
             make_plan(c.arm, chosen, measure, **options)

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from holdfast.cli.clearance_options import shape_summary, shape_text
 from holdfast.cli.options import console, number
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ def summary(result: Assessment, at_least: list[float] | None, rates: dict[str | 
         "worst_counts": dict(zip(names, result.worst_counts.tolist(), strict=True)),
         "upgrades": _upgrades(result, at_least),
         "optimised": _optimised(result, at_least),
+        "clearance": _clearance(result),
         "after_lock": _after_lock(result),
         "expected_survival": result.expected_survival(rates) if rates and d.samples else None,
         "seconds": result.seconds,
@@ -67,6 +69,18 @@ def _optimised(result: Assessment, at_least: list[float] | None) -> dict[str, An
         "worst_counts": dict(zip(result.index.failure_names, counts.tolist(), strict=True)),
         "upgrades": _upgrades(result, at_least, optimised=True),
     }
+
+
+def _clearance(result: Assessment) -> dict[str, Any] | None:
+    """How often the arm runs through itself; None if that was not looked at."""
+    found, clearance = result.collisions, result.plan.clearance
+    if found is None or clearance is None:
+        return None
+    counts = {"found": found.found, "best_without_regard": found.blocked, "none_clear": found.hopeless}
+    if result.optimised is None:
+        counts = {"found": found.found, "best_without_regard": None, "none_clear": None}
+    shares = {f"{name}_share": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
+    return {"reached": found.reached, **counts, **shares, **shape_summary(clearance, found.margin)}
 
 
 def _upgrades(result: Assessment, at_least: list[float] | None, optimised: bool = False) -> dict[str, Any] | None:
@@ -141,6 +155,7 @@ def print_assessment(result: Assessment, at_least: list[float] | None, rates: di
             gaps = [f"{number(result.index.bound - float(which.quantile(0.5)))} ({name})" for which, name in some]
             below = f"the median is below that by {', '.join(gaps)}"
             out.print(f"no configuration can beat {number(result.index.bound)}; {below}", soft_wrap=True)
+    _print_clearance(result)
     sign = "at least" if result.index.better == "larger" else "at most"
     after = ["optimised", "95 % interval"] if result.optimised is not None else []
     table = Table(result.index.name, "probability", "95 % interval", *after, box=None, pad_edge=False)
@@ -180,6 +195,25 @@ def _where(result: Assessment, joint: str) -> str:
         return "as at another pose"
     prismatic = result.arm.prismatic[result.arm.joint_index(joint)]
     return f"{angle:.4g} m" if prismatic else f"{math.degrees(angle):.4g} deg"
+
+
+def _print_clearance(result: Assessment) -> None:
+    """How often the arm runs through itself."""
+    from rich.markup import escape
+
+    from holdfast.clearance import too_close
+
+    found, clearance = result.collisions, result.plan.clearance
+    if found is None or clearance is None or not found.reached:
+        return
+    whole = found.reached
+    text = f"the arm runs through itself in {found.found / whole:.1%} of the {whole} configurations found"
+    if result.optimised is not None:
+        text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {too_close(found.margin)}"
+        text += ", so a clear one was chosen instead" if found.blocked else ""
+        if found.hopeless:
+            text += f", but {found.hopeless} ({found.hopeless / whole:.1%}) have no clear one and count as failed"
+    console().print(escape(f"{text} ({shape_text(clearance, found.margin)})"), soft_wrap=True)
 
 
 def _print_upgrades(result: Assessment, at_least: list[float] | None) -> None:

@@ -10,6 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
+from holdfast.cli.clearance_options import (
+    CapsulesOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_clearance,
+    shape_summary,
+    shape_text,
+)
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -39,6 +49,7 @@ if TYPE_CHECKING:
 
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
+    from holdfast.clearance import Clearance
     from holdfast.indices import Objective
     from holdfast.solve import Optimum
 
@@ -97,6 +108,10 @@ def configure(
             show_default=False,
         ),
     ] = None,
+    clearance: ClearanceOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    margin: MarginOption = None,
     mount: MountOption = "floor",
     gravity: GravityOption = None,
     payload: PayloadOption = None,
@@ -112,8 +127,10 @@ def configure(
     Example: holdfast configure panda --at "0 -45 0 -135 0 90 45" --degrees --minimise torque:effort
     """
     from holdfast.arm.task import as_task
+    from holdfast.clearance import too_close
     from holdfast.solve import optimise
 
+    check_clearance(clearance, capsules, radius, margin)
     model = placed(read_arm(arm, base, tip), mount, gravity, payload)
     chosen = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
@@ -124,11 +141,18 @@ def configure(
         raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv and --at "joint values"')
     given = None if at is None else np.array([read_configuration(model, x, degrees, "--at") for x in at])
     targets = model.forward_kinematics(given) if given is not None else _targets(chosen, pose or [], poses)
-    optimum = optimise(model, targets, objective, seed, starts, task=chosen)
+    apart = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
+    optimum = optimise(model, targets, objective, seed, starts, task=chosen, clearance=apart, margin=margin or 0.0)
     if not optimum.success.any():
         first = Status(int(optimum.status[0]))
-        raise HoldfastError(f"no configuration of {'the pose' if len(targets) == 1 else 'any pose'}: {first.advice}")
-    result = _Result(model, chosen, objective, " ".join(wish).removeprefix("--"), targets, given, optimum)
+        advice = first.advice
+        if first == Status.INFEASIBLE and apart is not None:
+            advice = (
+                f"the arm {too_close(margin or 0.0)} in each that was found ({shape_text(apart, 0.0)}): choose another pose, "
+                "give the real shape by --capsules or a smaller --margin, or let it by --no-clearance"
+            )
+        raise HoldfastError(f"no configuration of {'the pose' if len(targets) == 1 else 'any pose'}: {advice}")
+    result = _Result(model, chosen, objective, " ".join(wish).removeprefix("--"), targets, given, optimum, apart, margin or 0.0)
     if csv is not None:
         _write(result, csv)
     if json_:
@@ -169,6 +193,8 @@ class _Result:
     targets: Array
     given: Array | None
     optimum: Optimum
+    clearance: Clearance | None
+    margin: float
 
     @property
     def before(self) -> Array:
@@ -182,12 +208,17 @@ class _Result:
         """(N,)."""
         return self.optimum.start_value if self.given is None else self.objective(self.given)
 
+    def apart(self, q: Array) -> Array:
+        """(N,) clearance of the arm from itself, m; NaN where it is not looked at."""
+        return np.full(len(q), np.nan) if self.clearance is None else self.clearance(q)
+
     @property
     def worse(self) -> NDArray[np.bool_]:
-        """(N,) True where the configuration given is better than the one found."""
+        """(N,) True where the configuration given is better than the one found, and as clear."""
         sign = 1 if self.objective.better == "larger" else -1
         lost = sign * (self.values_before - self.optimum.value)
-        return np.asarray(lost > 1e-9 * np.abs(self.optimum.value))
+        better = lost > 1e-9 * np.abs(self.optimum.value)
+        return np.asarray(better & ~(self.apart(self.before) < self.margin))
 
     def measures(self) -> list[tuple[str, tuple[str, ...], Array, Array]]:
         """Of every summand: its name, the unit of each joint, and what each joint has before and after, (N, n)."""
@@ -219,6 +250,7 @@ def _summands(objective: Objective) -> list[Objective]:
 
 def _data(result: _Result, seed: int) -> dict[str, Any]:
     names, optimum, measures = result.arm.joint_names, result.optimum, result.measures()
+    before_apart, after_apart = result.apart(result.before), result.apart(optimum.q)
 
     def row(k: int) -> dict[str, Any]:
         return {
@@ -229,6 +261,9 @@ def _data(result: _Result, seed: int) -> dict[str, Any]:
             "worse_than_given": bool(result.worse[k]),
             "q_before": dict(zip(names, result.before[k].tolist(), strict=True)),
             "q": dict(zip(names, optimum.q[k].tolist(), strict=True)),
+            "clearance_before_m": before_apart[k],
+            "clearance_m": after_apart[k],
+            "blocked": bool(optimum.blocked[k]) if result.clearance is not None else None,
             "starts": optimum.starts[k],
             "agreeing": optimum.agreeing[k],
             "position_error_m": optimum.position_error[k],
@@ -250,6 +285,7 @@ def _data(result: _Result, seed: int) -> dict[str, Any]:
         "task": result.task.name,
         "before": "found" if result.given is None else "given",
         "seed": seed,
+        "clearance": None if result.clearance is None else shape_summary(result.clearance, result.margin),
         "poses": [row(k) for k in range(len(result.targets))],
     }
 
@@ -276,6 +312,7 @@ def _print(result: _Result, file: Path | None) -> None:
             )
         out.print(table)
         out.print(f"before: the {first}; configurations go to --csv FILE or --json", soft_wrap=True)
+    _print_clearance(result, out)
     for status in sorted({int(s) for s in optimum.status if s != Status.OK}):
         out.print(f"[yellow]{Status(status).name.lower().replace('_', ' ')}: {Status(status).advice}[/]", soft_wrap=True)
     if result.given is not None and result.worse.any():
@@ -283,6 +320,27 @@ def _print(result: _Result, file: Path | None) -> None:
         out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)
     if file is not None:
         out.print(f"written: {escape(str(file))}", soft_wrap=True)
+
+
+def _print_clearance(result: _Result, out: Console) -> None:
+    """What keeps the arm from running through itself, and where it would have."""
+    from rich.markup import escape
+
+    from holdfast.clearance import too_close
+
+    if result.clearance is None:
+        return
+    before, after = result.apart(result.before), result.apart(result.optimum.q)
+    close, blocked = too_close(result.margin), int(result.optimum.blocked.sum())
+    if len(before) == 1:
+        apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
+        text = f"clearance of the arm from itself: {apart}"
+        text += f"; a better configuration {close} and was not taken" if blocked else ""
+    else:
+        counts = [int((x < result.margin).sum()) for x in (before, after)]
+        text = f"the arm {close} in {counts[0]} of {len(before)} configurations before, in {counts[1] or 'none'} after"
+        text += f"; at {blocked} poses a better configuration does and was not taken" if blocked else ""
+    out.print(escape(f"{text} ({shape_text(result.clearance, result.margin)})"), soft_wrap=True)
 
 
 def _print_one(result: _Result, out: Console, first: str, unit: str) -> None:

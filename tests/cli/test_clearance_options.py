@@ -1,0 +1,123 @@
+"""--capsules, --radius, --margin and --no-clearance of ``holdfast assess`` and ``holdfast configure``."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast import Capsules, Clearance, arms
+
+CLOSE = "box: {center: [0.2, 0.1, 0], size: [0.5, 0.5, 0]}\n"
+POSE = "0.3,0.2,0,0,0,0"
+BEST = ("configure", "planar-3r", "--pose", POSE, "--maximise", "relative-manipulability", "--task", "planar")
+
+
+@pytest.fixture
+def close(tmp_path):
+    file = tmp_path / "close.yaml"
+    file.write_text(CLOSE)
+    return file
+
+
+def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tmp_path):
+    arm = arms.load("planar-3r")
+    common = ("assess", "planar-3r", "--region", close, "--poses", 200, "--optimise")
+    data = ask(*common, "--radius", 0.13, "--margin", 0.01)["clearance"]
+    thick = Clearance(arm, Capsules.along(arm, 0.13))
+    region = hf.Region.load(close)
+    run = hf.assess(arm, region, task="planar", poses=200, optimise=True, clearance=thick, margin=0.01)
+    found = run.collisions
+    assert [data[k] for k in ("found", "best_without_regard", "none_clear", "reached")] == [
+        found.found,
+        found.blocked,
+        found.hopeless,
+        found.reached,
+    ]
+    assert data["found_share"] == found.found / found.reached
+    assert (data["capsules"], data["radius_m"], data["margin_m"]) == ("given radius", 0.13, 0.01)
+    assert data["pairs_checked"] == thick.pair_names
+    assert ask(*common)["clearance"] is None
+    file = tmp_path / "shape.yaml"
+    file.write_text("radius: 0.13\n")
+    assert ask(*common, "--capsules", file, "--margin", 0.01)["clearance"] == data
+    code, out, _ = cli(*common, "--radius", 0.13, "--margin", 0.01)
+    text = " ".join(out.split())
+    assert code == 0
+    for part in (
+        f"the arm runs through itself in {found.found / found.reached:.1%} of the {found.reached} configurations found",
+        "it comes closer than 0.01 m to itself",
+        "given radius 0.13 m along each link; margin 0.01 m",
+    ):
+        assert part in text, part
+    assert "runs through itself" not in cli(*common, "--no-clearance")[1]
+
+
+def test_a_run_that_is_not_optimised_looks_if_told_to(ask, close):
+    common = ("assess", "planar-3r", "--region", close, "--poses", 50)
+    data = ask(*common, "--clearance")["clearance"]
+    assert (data["capsules"], data["best_without_regard"]) == ("assumed radius", None)
+    assert ask(*common)["clearance"] is None
+
+
+def test_configure_keeps_the_arm_clear_of_itself(cli, ask):
+    arm = arms.load("planar-3r")
+    thick = Clearance(arm, Capsules.along(arm, 0.13))
+    data = ask(*BEST, "--radius", 0.13, "--margin", 0.02)
+    row = data["poses"][0]
+    pose = np.eye(4)
+    pose[:3, 3] = [0.3, 0.2, 0]
+    index = hf.indices.relative_manipulability(arm, "planar")
+    best = hf.optimise(arm, pose, index, clearance=thick, margin=0.02)
+    assert row["value"] == best.value
+    assert row["blocked"] == best.blocked
+    assert row["clearance_m"] == thick(best.q) >= 0.02
+    assert data["clearance"]["description"] == "given radius 0.13 m along each link"
+    free = ask(*BEST, "--no-clearance")
+    assert free["clearance"] is None
+    assert free["poses"][0]["clearance_m"] is free["poses"][0]["blocked"] is None
+    assert free["poses"][0]["value"] >= row["value"]
+    code, out, _ = cli(*BEST, "--radius", 0.13)
+    assert code == 0
+    assert "clearance of the arm from itself" in out
+
+
+def test_configure_says_why_nothing_is_clear(cli):
+    code, out, err = cli(*BEST, "--radius", 5)
+    assert (code, out) == (2, "")
+    assert "the arm runs through itself in each that was found (capsules: given radius 5 m along each link)" in err
+    assert "--no-clearance" in err
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--no-clearance", "--radius", 0.1), "--radius says how clear of itself the arm stays and --no-clearance lets it"),
+        (("--no-clearance", "--margin", 0.1), "--margin says"),
+        (("--no-clearance", "--capsules", "x.yaml"), "--capsules says"),
+        (("--radius", 0.1, "--capsules", "x.yaml"), "give one of --capsules and --radius"),
+        (("--radius", 0), "--radius is 0; it must be a finite number of metres above 0"),
+        (("--radius", "nan"), "--radius is nan"),
+        (("--margin", "inf"), "--margin is inf"),
+        (("--capsules", "missing.yaml"), "missing.yaml"),
+        (("--margin", 0.1), "--margin has nothing to keep"),
+    ],
+)
+def test_options_that_make_no_sense(options, sentence, refused, close):
+    assert sentence in refused(*BEST, *options)
+    assert sentence in refused("assess", "planar-3r", "--region", close, "--poses", 5, "--optimise", *options)
+
+
+def test_capsules_of_one_arm_are_not_those_of_another(refused, tmp_path):
+    file = tmp_path / "shape.yaml"
+    file.write_text("radius: 0.13\n")
+    sentence = refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--poses", 5, "--capsules", file)
+    assert "--capsules is the shape of one arm and there are 2" in sentence
+    file.write_text("links: {elbow: []}\n")
+    assert "has no link 'elbow'" in refused("assess", "planar-3r", "--poses", 5, "--capsules", file)
+    assert "add --optimise" in refused("assess", "planar-3r", "--poses", 5, "--margin", 0.1)
+
+
+def test_failure_rates_are_of_one_arm(refused):
+    sentence = refused("assess", "planar-3r", "planar-2r", "--task", "vx", "--after-lock", "--failure-rate", "1=2")
+    assert "--failure-rate is about the joints of one arm" in sentence
