@@ -29,13 +29,17 @@ class Checker(HTMLParser):
         assert self.open.pop() == tag
 
 
-def check(html: str) -> Checker:
-    """Well-formed, loads nothing, runs nothing, no id twice, every reference there."""
+def check(html: str, scripts: int = 0) -> Checker:
+    """Well-formed, loads nothing, runs nothing but so many scripts of its own, no id twice, every reference there."""
     checker = Checker()
     checker.feed(html)
     checker.close()
     assert checker.open == []
-    assert "script" not in checker.tags
+    assert html.count("<script") == scripts
+    assert ("script" in checker.tags) == (scripts > 0)
+    for script in re.findall(r"<script>(.*?)</script>", html, re.DOTALL):
+        for reach in ("fetch(", "XMLHttpRequest", "http:", "https:", "eval(", "innerHTML", "import "):
+            assert reach not in script, reach
     assert len(checker.ids) == len(set(checker.ids))
     for target in re.findall(r"(?:src|href|srcset|action)\s*=\s*[\"']([^\"']*)", html):
         assert target.startswith(("#", "data:image/png")), target

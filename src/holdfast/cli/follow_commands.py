@@ -136,7 +136,8 @@ def follow(
     result = control.follow(
         model,
         timed,
-        **{"minimise" if objective.better == "smaller" else "maximise": objective},
+        minimise=objective if objective.better == "smaller" else None,
+        maximise=objective if objective.better == "larger" else None,
         method=method,  # type: ignore[arg-type]
         q=start,
         gain=gain,

@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task
 from holdfast.control.events import Course, Curvature, events
 from holdfast.control.laws import AugmentedJacobian, ExtendedJacobian, GradientProjection
-from holdfast.control.resolution import Resolution
+from holdfast.control.resolution import Resolution, chosen_task
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices import Objective, Opposite
@@ -90,11 +90,13 @@ def follow(
     Source: English and Maciejewski 1998, sections II and VI.
     """
     objective = _objective(minimise, maximise)
-    chosen = _task(arm, path, objective, task)
+    chosen = chosen_task(arm, objective, task, "pose" if path.path.oriented else "position")
     if samples < 3:
         raise InputError(f"samples is {samples}; it must be 3 or more")
     if method not in METHODS:
         raise InputError(f"method '{method}' is not known; use one of {', '.join(METHODS)}")
+    if rate_cap is not None and not rate_cap > 0:
+        raise InputError(f"rate_cap is {rate_cap:g}; it must be above 0, or None")
     time = np.linspace(0.0, path.duration, samples)
     poses = path.pose(time)
     start = _start(arm, objective, chosen, poses[0], q, seed)
@@ -109,8 +111,6 @@ def follow(
     period = step if limits else None
     finest = _FARTHEST / step
     cap = finest if rate_cap is None else min(rate_cap, finest)
-    if rate_cap is not None and not rate_cap > 0:
-        raise InputError(f"rate_cap is {rate_cap:g}; it must be above 0, or None")
     keep: float | None = None
     if method == "extended-jacobian":
         law = ExtendedJacobian(arm, objective, gain, chosen, cap, period, damping)
@@ -192,14 +192,6 @@ def _objective(minimise: Objective | None, maximise: Objective | None) -> Object
         return minimise if minimise.better == "smaller" else Opposite(minimise)
     assert maximise is not None
     return maximise if maximise.better == "larger" else Opposite(maximise)
-
-
-def _task(arm: Arm, path: TimedPath, objective: Objective, task: str | Task | Sequence[str] | None) -> Task:
-    if task is not None:
-        return as_task(arm, task)
-    if objective.own_task is not None:
-        return objective.own_task
-    return as_task(arm, "pose" if path.path.oriented else "position")
 
 
 def _start(arm: Arm, objective: Objective, task: Task, first: Array, q: ArrayLike | None, seed: int) -> Array:

@@ -111,7 +111,8 @@ class Trajectory:
         for error, unit, used in ((self.position_error, "mm", rows[:, :3]), (self.rotation_error, "mrad", rows[:, 3:])):
             if np.any(used):
                 most = 1000 * float(np.nanmax(error))
-                parts.append(f"{most:.3g} {unit}" if most >= 1e-3 else f"less than 0.001 {unit}")
+                shown = f"{most:.0f}" if most >= 100 else f"{most:.3g}" if most >= 1e-3 else "less than 0.001"
+                parts.append(f"{shown} {unit}")
         return " and ".join(parts)
 
     @property

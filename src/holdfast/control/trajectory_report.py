@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.task import plane_normal
+from holdfast.control.slow_motion import SlowMotion
 from holdfast.control.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.errors import ArmError
 from holdfast.kernels import Kernel
@@ -36,8 +37,9 @@ def write(t: Trajectory, path: Path, command: str = "", torque_bound: float | No
 
 def build(t: Trajectory, command: str = "", torque_bound: float | None = None) -> Page:
     """The report as blocks, before it becomes HTML."""
+    slowness = None if torque_bound is None else t.slowness(torque_bound)  # first: it may be refused
     f = _Facts(t)
-    alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad", "The hand does not do its task")]
+    alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad")]
     parts = [
         Section("Key numbers", f.numbers()),
         Section("The motion", f.motion()),
@@ -45,7 +47,7 @@ def build(t: Trajectory, command: str = "", torque_bound: float | None = None) -
         Section("What happened", f.events()),
         Section("Joint rates", f.rates()),
         Section("Joint positions", f.joints()),
-        Section("Torques, and how slow is slow enough", f.torques(torque_bound)),
+        Section("Torques, and how slow is slow enough", f.torques(torque_bound, slowness)),
         Section("Curvature along the self-motion", f.curvature()),
         Section("Where the hand was", f.hand()),
         Section("How it was computed", f.method(command)),
@@ -74,8 +76,9 @@ class _Facts:
     def headline(self) -> str:
         t = self.t
         unit = f" ({t.objective.unit})" if self.unit else ""
+        hand = _upper(t.headline) if t.on_path else "The hand does not stay on its path"
         return (
-            f"{_upper(t.headline)}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
+            f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
             f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
         )
 
@@ -195,15 +198,13 @@ class _Facts:
         image = figures.svg(small_multiples(t.time, panels), "joints", "Joint positions over time")
         return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
 
-    def torques(self, bound: float | None) -> list[Block]:
+    def torques(self, bound: float | None, slowness: list[SlowMotion] | None) -> list[Block]:
         """Torques that hold the arm, and those of the motion at three speeds."""
         t = self.t
         try:
             gravity = t.arm.gravity_torque(t.q)
             fast = {share: t.torques(share) for share in SPEEDS}
         except ArmError as error:
-            if bound is not None:
-                raise
             return [Text(f"No torques: {error}.", quiet=True)]
         looks = ("first", "second", "third")
         panels = []
@@ -224,13 +225,12 @@ class _Facts:
                 "(5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
             )
         ]
-        if bound is None:
+        if slowness is None:
             return blocks
-        found = t.slowness(bound)
-        worst = max(found, key=lambda s: s.time_scale)
+        worst = max(slowness, key=lambda s: s.time_scale)
         rows = [
             [j.name, f"{s.time_scale:.3g}", f"{s.time_scale * t.time[-1]:.4g}", f"{t.time[s.worst_time_index]:.4g}"]
-            for j, s in zip(t.arm.joints, found, strict=True)
+            for j, s in zip(t.arm.joints, slowness, strict=True)
         ]
         verdict = "The motion is slow enough" if worst.time_scale <= 1 else "The motion is too fast for gravity alone to matter"
         blocks.append(
@@ -296,7 +296,7 @@ class _Facts:
                 Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,
                 f"{e.start:.4g}",
                 f"{e.end:.4g}",
-                e.text,
+                _upper(e.text.split(": ", 1)[1]),  # the times have columns of their own
             ]
             for e in t.events
         ]

@@ -96,7 +96,7 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
         )
     data = {
         "seconds": shown_seconds(motion.time),
-        "frames": [p["frames"].tolist() for p in panels],  # type: ignore[attr-defined]
+        "frames": [p["frames"].tolist() for p in panels],
         "readings": list(motion.readings),
     }
     environment = Environment(

@@ -93,7 +93,7 @@ def timeline_figure(time: Array, panels: Sequence[Timeline]) -> Figure:
 
 
 def small_multiples(time: Array, panels: Sequence[Timeline]) -> Figure:
-    """Small panels, three in a row, over one time (T,), s; the lines of the first are named below for all of them."""
+    """Small panels, three in a row, over one time (T,), s; the lines of the one with most are named below."""
     across = min(3, len(panels))
     down = -(-len(panels) // across)
     with style():
@@ -109,5 +109,5 @@ def small_multiples(time: Array, panels: Sequence[Timeline]) -> Figure:
             if k >= len(panels) - across:
                 axes.set_xlabel("time, s")
                 axes.tick_params(labelbottom=True)
-        legend_below(figure, grid[0, 0], 5)
+        legend_below(figure, max(grid.flat, key=lambda axes: len(axes.get_lines())), 5)
         return finished(figure)
