@@ -30,6 +30,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Array|ArrayLike|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
     (r"py:.*", r"(Callable|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|Store|optional|default.*)"),
     (r"py:.*", r"holdfast\.study\..*"),
+    (r"py:class", r"holdfast\.assess\.interval\.Sums"),
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]
