@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -87,3 +88,7 @@ class Damped(Law):
     def inverse(self, j: SX, v: SX) -> SX:
         """See :meth:`Law.inverse`."""
         return damped_least_norm(j, v, self.fixed_damping**2)
+
+    def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
+        """See :meth:`Law.damping`."""
+        return self._constant(q, v, self.fixed_damping)
