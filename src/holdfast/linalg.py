@@ -210,7 +210,8 @@ def _rotation(a: SX, b: SX, g: SX) -> tuple[SX, SX, SX]:
     difference = b - a
     root = ca.fabs(difference) + ca.sqrt(difference * difference + 4 * g * g)
     sign = ca.if_else(difference < 0, -1.0, 1.0)
-    t = ca.if_else(root > 0, 2 * sign * g / root, 0.0)
+    # Not "root > 0 ? ... : 0": CasADi would carry the condition through every product.
+    t = 2 * sign * g / ca.if_else(root > 0, root, 1.0)
     c = 1 / ca.sqrt(1 + t * t)
     return c, c * t, t
 

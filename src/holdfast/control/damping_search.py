@@ -23,12 +23,13 @@ from holdfast.linalg import Vector, dot, singular_rows
 
 SINGULAR = 1e-12  # of the largest singular value: at most this counts as 0
 FLOOR = 1e-3  # damping where none is allowed, in the unit of the singular values
-_SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 5, 6: 6}  # of Jacobi rotations, by m: to rounding (measured)
+_SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # of Jacobi rotations, by m: to rounding (measured)
 _BISECTIONS, _NEWTON = 6, 4  # for the largest damping: to rounding (measured)
 _REFINEMENTS = 8
 _EDGE = 0.05  # of a cell: the next point keeps this far from its ends
 _FIRST = 0.2  # of the smallest sigma^2: below about this the grid is even in s
 _NEVER = 1e300
+_NOTHING = 1e-200  # its square is 0; CasADi would carry a condition with a real 0 through every product
 _SAME = 1e-12  # relative: two peak errors closer than this are one, and the last point of the refinement is taken
 
 
@@ -65,7 +66,7 @@ def search(j: SX, u: SX, allowed: SX | float) -> Choice:
     for k in range(m):
         none = squares[k] <= SINGULAR**2 * top
         missing = missing + ca.if_else(none, c[k] * c[k], 0.0)
-        c[k] = ca.if_else(none, 0.0, c[k])
+        c[k] = ca.if_else(none, _NOTHING, c[k])
         squares[k] = ca.if_else(none, ca.if_else(top > 0, top, 1.0), squares[k])
     error = _PeakError(squares, c, [[r * c[k] for r in rows[k]] for k in range(m)], columns, missing)
     room = allowed * allowed - missing

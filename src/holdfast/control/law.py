@@ -12,6 +12,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import casadi as ca
@@ -21,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.control import deviation
+from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
 from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
@@ -209,6 +210,23 @@ class Law(ABC):
             )
         count = max(len(np.atleast_2d(a)), len(np.atleast_2d(b)))
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
+
+    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path]:
+        """Write the law as a C99 file that needs nothing but ``math.h``, and its header.
+
+        The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0; or 1 and zero rates
+        where an input is not finite or the law has no answer. What else the law computes (:meth:`outputs`) follows the rates.
+        The same inputs give what :meth:`velocity` gives, to rounding.
+
+        Args:
+            folder: Where ``NAME.c`` and ``NAME.h`` go; made if it is not there.
+            name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
+
+        Raises:
+            InputError: A name that C does not take.
+            StoreError: The files cannot be written.
+        """
+        return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
 
     def describe(self) -> str:
         """One phrase for people."""
