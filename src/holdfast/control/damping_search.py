@@ -7,7 +7,8 @@ With ``J J' = V diag(sigma^2) V'``, ``c = V' u`` and ``s = lambda^2``, the dampe
 
 The healthy error ``s |y|`` grows with s, so the allowed one fixes the largest s; below it PKE may have several minima. The
 search evaluates PKE^2 and its slope on a grid that is even in s near 0 and in log s far from it, because nothing changes
-faster than log s does between the poles ``-sigma_k^2``, and refines the best cells in which the slope turns from down to up.
+faster than log s does between the poles ``-sigma_k^2``, and refines the best cells in which the slope turns from down to up,
+by the tangents at both ends if PKE has a kink there (another joint becomes the worst), else by the secant of the slope.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9). The search is ours.
 """
@@ -25,8 +26,8 @@ SINGULAR = 1e-12  # of the largest singular value: at most this counts as 0
 FLOOR = 1e-3  # damping where none is allowed, in the unit of the singular values
 _SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # of Jacobi rotations, by m: to rounding (measured)
 _BISECTIONS, _NEWTON = 6, 4  # for the largest damping: to rounding (measured)
-_REFINEMENTS = 8
 _EDGE = 0.05  # of a cell: the next point keeps this far from its ends
+_SMOOTH = 0.02  # of a cell: tangents that meet this close to its middle belong to a parabola rather than to a kink
 _FIRST = 0.2  # of the smallest sigma^2: below about this the grid is even in s
 _NEVER = 1e300
 _NOTHING = 1e-200  # its square is 0; CasADi would carry a condition with a real 0 through every product
@@ -150,7 +151,7 @@ def _largest(squares: Vector, parts: Vector, room: SX) -> SX:
 
 
 def _minimise(error: _PeakError, largest: SX, m: int) -> SX:
-    cells, kept = (16, 1 if m < 3 else 2) if m <= 3 else (32, 2)
+    cells, kept, rounds = (16, 1 if m < 3 else 2, 12) if m <= 3 else (32, 2, 9)
     smallest = error.squares[0]
     for x in error.squares[1:]:
         smallest = ca.if_else(x < smallest, x, smallest)
@@ -179,7 +180,7 @@ def _minimise(error: _PeakError, largest: SX, m: int) -> SX:
             cell = [ca.if_else(better, x, y) for x, y in zip(here, cell, strict=True)]
         if number < kept - 1:
             estimates = [ca.if_else(which == k, _NEVER, x) for k, x in enumerate(estimates)]
-        best, least = _refine(error, cell, best, least)
+        best, least = _refine(error, cell, best, least, rounds)
     return best
 
 
@@ -195,12 +196,14 @@ def _meet(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
     return (fa - fb + gb * (b - a)) / ca.if_else(bend > 0, bend, _NEVER)
 
 
-def _refine(error: _PeakError, cell: Vector, best: SX, least: SX) -> tuple[SX, SX]:
+def _refine(error: _PeakError, cell: Vector, best: SX, least: SX, rounds: int) -> tuple[SX, SX]:
     a, fa, ga, b, fb, gb = cell
     x, value = best, least
-    for _ in range(_REFINEMENTS):
-        width = b - a
-        step = _larger(_meet(a, fa, ga, b, fb, gb), _EDGE * width)
+    for _ in range(rounds):
+        width, bend = b - a, gb - ga
+        meet = _meet(a, fa, ga, b, fb, gb)
+        flat = -ga * width / ca.if_else(bend > 0, bend, _NEVER)  # where the slope of a parabola is 0
+        step = _larger(ca.if_else(ca.fabs(meet - width / 2) < _SMOOTH * width, flat, meet), _EDGE * width)
         x = a + ca.if_else(step < (1 - _EDGE) * width, step, (1 - _EDGE) * width)
         value, slope = error(x)
         better = value < least

@@ -92,6 +92,4 @@ def _compare(u: SX, w: SX) -> tuple[SX, SX, SX]:
 
 def read(out: Array, n: int) -> Deviations:
     """What :func:`expression` gave, (3 n + 2,) or (N, 3 n + 2)."""
-    return Deviations(
-        out[..., :n], out[..., n : 2 * n], out[..., 2 * n : 3 * n] > 0, out[..., 3 * n], out[..., 3 * n + 1]
-    )
+    return Deviations(out[..., :n], out[..., n : 2 * n], out[..., 2 * n : 3 * n] > 0, out[..., 3 * n], out[..., 3 * n + 1])

@@ -42,7 +42,9 @@ def c_source(law: Law, name: str) -> tuple[str, str]:
     generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
     generator.add(inner)
     others = list(told)[1:]
-    arguments = ", ".join([f"const double q[{n}]", f"const double v[{m}]", f"double rates[{n}]"] + [f"double *{x}" for x in others])
+    arguments = ", ".join(
+        [f"const double q[{n}]", f"const double v[{m}]", f"double rates[{n}]"] + [f"double *{x}" for x in others]
+    )
     signature = f"int {name}({arguments})"
     guard = f"{name.upper()}_H"
     header = f"{_about(law, name, others)}\n#ifndef {guard}\n#define {guard}\n\n{signature};\n\n#endif\n"
@@ -83,19 +85,21 @@ def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path]:
         for file, text in zip(files, (source, header), strict=True):
             file.write_text(text, encoding="utf-8")
     except OSError as error:
-        raise StoreError(f"cannot write '{name}.c' into '{target}': {error.strerror or error}; choose another folder") from error
+        raise StoreError(
+            f"cannot write '{name}.c' into '{target}': {error.strerror or error}; choose another folder"
+        ) from error
     return files
 
 
 def _about(law: Law, name: str, others: list[str]) -> str:
     units = ", ".join(f"{j.name} [{j.unit}]" for j in law.arm.joints)
     lines = [
-        f"{name}: {law.describe()}, for the arm '{law.arm.name}'. Made by holdfast; C99, needs only math.h.",
+        f"{name}: {law.phrase()}, for the arm '{law.arm.name}'. Made by holdfast; C99, needs only math.h.",
         "",
         f"q      joint positions: {units}",
         f"v      velocity of the task's rows ({law.task.name}, {law.task.frame} frame), m/s and rad/s",
         "rates  joint rates in the order of q, per second",
-        *[f"{x}  may be NULL" for x in others],
+        *([f"{', '.join(others)}: what else the law computes; each may be NULL"] if others else []),
         "",
         "Returns 0; or 1 and zero rates where an input is not finite or the law has no answer (the arm is exactly singular).",
         "Gain, speed limit and joint limits are not in it. Compile without -ffast-math.",

@@ -22,8 +22,8 @@ class FailureTolerant(Law):
 
     At every instant the damping lambda minimises PKE (8) among those with which the *healthy* arm's velocity error stays
     within ``pre_failure_error`` (9); it depends on the configuration and on the direction of the command, not on its size.
-    PKE may have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0 and
-    logarithmic beyond, and a refinement of its best cells, all of fixed length. @MEASURED@
+    PKE may have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0
+    and logarithmic beyond, and a refinement of its best cells, all of fixed length. @MEASURED@
 
     Where the arm is singular and the part of the command that it cannot produce is the allowed error or more, no damping
     meets (9): :meth:`feasible` is False, and lambda is 1e-3 in the unit of the scaled Jacobian (m for a position task). A
@@ -75,7 +75,9 @@ class FailureTolerant(Law):
         size = ca.sqrt(ca.sumsqr(v))
         moving = size > 0
         first = np.eye(int(v.numel()))[0]
-        u = ca.vertcat(*[ca.if_else(moving, x / ca.if_else(moving, size, 1.0), e) for x, e in zip(ca.vertsplit(v), first, strict=True)])
+        u = ca.vertcat(
+            *[ca.if_else(moving, x / ca.if_else(moving, size, 1.0), e) for x, e in zip(ca.vertsplit(v), first, strict=True)]
+        )
         found = damping_search.search(j, u, self.pre_failure_error)
         return {
             "rates": size * ca.vertcat(*found.rates),
@@ -102,6 +104,6 @@ class FailureTolerant(Law):
         values = np.ascontiguousarray(out[:, self.arm.n + k])
         return values[0] if single else values
 
-    def describe(self) -> str:
-        """One phrase for people."""
-        return f"{super().describe()}, pre-failure error at most {self.pre_failure_error:g}"
+    def phrase(self) -> str:
+        """The law and its task, without gain and speed limit, for people."""
+        return f"{super().phrase()}, pre-failure error at most {self.pre_failure_error:g}"

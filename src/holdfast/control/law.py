@@ -111,7 +111,9 @@ class Law(ABC):
     @cached_property
     def _deviation_kernel(self) -> Kernel:
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
-        return Kernel(f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)])
+        return Kernel(
+            f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)]
+        )
 
     @cached_property
     def step(self) -> Step:
@@ -228,10 +230,14 @@ class Law(ABC):
         """
         return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
 
+    def phrase(self) -> str:
+        """The law and its task, without gain and speed limit, for people."""
+        return f"{self.name}, task {self.task.describe()}"
+
     def describe(self) -> str:
         """One phrase for people."""
         limit = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
-        return f"{self.name}, task {self.task.describe()}, gain {self.gain:g}/s{limit}"
+        return f"{self.phrase()}, gain {self.gain:g}/s{limit}"
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"

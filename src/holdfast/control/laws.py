@@ -32,9 +32,7 @@ def weighted(
     return Weighted(arm, weights, task, gain, speed_limit)
 
 
-def damped(
-    arm: Arm, damping: float, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None
-) -> Damped:
+def damped(arm: Arm, damping: float, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None) -> Damped:
     """Damped least squares with fixed damping; see :class:`Damped`."""
     return Damped(arm, damping, task, gain, speed_limit)
 
@@ -56,7 +54,8 @@ def by_name(name: str, arm: Arm, **options: Any) -> Law:
     Args:
         name: The law's ``slug``.
         arm: The arm.
-        options: What the law takes besides: ``task``, ``gain``, ``speed_limit``; ``weights``; ``damping``; ``pre_failure_error``.
+        options: What the law takes besides: ``task``, ``gain``, ``speed_limit``, and ``weights``, ``damping`` or
+            ``pre_failure_error``.
 
     Raises:
         InputError: Unknown name, an option that the law does not have, or one that is missing.

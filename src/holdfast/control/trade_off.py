@@ -84,7 +84,7 @@ class TradeOff:
                 figure.subplots(1, 2),
                 ("gain", "healthy_error"),
                 ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
-                ("What the failed arm gains", "What the healthy arm pays"),
+                ("What the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
                 strict=True,
             )
             for axes, of, ylabel, title in panels:
@@ -132,7 +132,9 @@ def trade_off(
         raise InputError(f"samples is {samples}; give 10 or more")
     chosen = as_task(arm, task)
     if chosen.m > arm.n:
-        raise TaskError(f"task '{chosen.name}' prescribes {chosen.m} rows, but '{arm.name}' has {arm.n} joints; prescribe fewer")
+        raise TaskError(
+            f"task '{chosen.name}' prescribes {chosen.m} rows, but '{arm.name}' has {arm.n} joints; prescribe fewer"
+        )
     rng = np.random.default_rng(seed)
     free = np.where(arm.prismatic, 1.0, np.pi)
     low, high = np.where(np.isfinite(arm.lower), arm.lower, -free), np.where(np.isfinite(arm.upper), arm.upper, free)
