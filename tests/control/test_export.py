@@ -8,10 +8,10 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import damping_oracle
 import numpy as np
 import pytest
 
-import damping_oracle
 import holdfast as hf
 from holdfast.errors import InputError, StoreError
 
@@ -60,7 +60,7 @@ def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
         size = np.abs(rates[k]).max()
         assert code == 0
         np.testing.assert_allclose(got, rates[k], rtol=0, atol=1e-12 * size)
-        np.testing.assert_allclose(got, compiled_here[k], rtol=0, atol=1e-9 * size**2 + 1e-9)
+        np.testing.assert_allclose(got, compiled_here[k], rtol=0, atol=1e-7 * (1 + size**2))
         if others:
             np.testing.assert_allclose(told, [damping[k], law.largest_damping(q[k], v[k]), 1], rtol=1e-12)
             assert call(q[k], v[k], nulls=True)[0] == 0
@@ -79,9 +79,9 @@ def test_what_has_no_answer_stops_the_arm(tmp_path):
 @needs_compiler
 def test_seven_joints(rng, tmp_path, monkeypatch):
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
-    law = hf.control.failure_tolerant(damping_oracle.arm_7r(), "position")
-    call = compiled(*law.export_c(tmp_path, "seven"), 3, 7, 3, "-O0")
-    q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 3))
+    law = hf.control.failure_tolerant(damping_oracle.arm_7r(), ["vx", "vz"])
+    call = compiled(*law.export_c(tmp_path, "seven"), 2, 7, 3, "-O0")
+    q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 2))
     for a, b, rates in zip(q, v, law.velocity(q, v), strict=True):
         np.testing.assert_allclose(call(a, b)[1], rates, rtol=1e-12, atol=1e-12 * np.abs(rates).max())
 

@@ -16,11 +16,12 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9). The search 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import casadi as ca
 
 from holdfast.kernels import SX
-from holdfast.linalg import Vector, dot, singular_rows
+from holdfast.linalg import Vector, dot, singular_rows, smallest
 
 SINGULAR = 1e-12  # of the largest singular value: at most this counts as 0
 FLOOR = 1e-3  # damping where none is allowed, in the unit of the singular values
@@ -31,7 +32,7 @@ _SMOOTH = 0.02  # of a cell: tangents that meet this close to its middle belong 
 _FIRST = 0.2  # of the smallest sigma^2: below about this the grid is even in s
 _NEVER = 1e300
 _NOTHING = 1e-200  # its square is 0; CasADi would carry a condition with a real 0 through every product
-_SAME = 1e-12  # relative: two peak errors closer than this are one, and the last point of the refinement is taken
+_SAME = 1e-9  # relative: two peak errors closer than this are one, and the last point of the refinement is taken
 
 
 @dataclass(frozen=True)
@@ -113,14 +114,14 @@ class _PeakError:
 
 
 def _largest(squares: Vector, parts: Vector, room: SX) -> SX:
-    """s at which the squared healthy error ``sum parts s^2 / (sigma^2 + s)^2`` is ``room``.
+    """S at which the squared healthy error ``sum parts s^2 / (sigma^2 + s)^2`` is ``room``.
 
     In ``t = 1/s`` one over the error is concave and nearly straight (as the trust-region equation), so Newton's method
     from the left never passes the root. Bounds by the parts up to, and below, each singular value come first, and then
     bisections of the logarithm: with singular values far apart Newton's method alone would take long.
     """
     m, total = len(squares), dot(parts, [ca.SX(1)] * len(parts))
-    low = high = None
+    least, most = [], []
     for k in range(m):
         below = ca.SX(0)
         for x, p in zip(squares, parts, strict=True):
@@ -128,12 +129,14 @@ def _largest(squares: Vector, parts: Vector, room: SX) -> SX:
         upto = ca.SX(0)
         for x, p in zip(squares, parts, strict=True):
             upto = upto + ca.if_else(x <= squares[k], p, 0.0)
-        least = (ca.sqrt(upto / room) - 1) / squares[k]
+        least.append((ca.sqrt(upto / room) - 1) / squares[k])
         left = room - below
-        open_ = left > 0
-        most = ca.if_else(open_, (ca.sqrt((total - below) / ca.if_else(open_, left, 1.0)) - 1) / squares[k], _NEVER)
-        low = least if low is None else _larger(least, low)
-        high = most if high is None else ca.if_else(most < high, most, high)
+        some = left > 0
+        longest = (ca.sqrt((total - below) / ca.if_else(some, left, 1.0)) - 1) / squares[k]
+        most.append(ca.if_else(some, longest, _NEVER))
+    low, high = least[0], smallest(most)
+    for x in least[1:]:
+        low = _larger(x, low)
     for _ in range(_BISECTIONS):
         middle = ca.sqrt(low * high)
         error = dot(parts, [1 / ((1 + middle * x) * (1 + middle * x)) for x in squares])
@@ -152,12 +155,8 @@ def _largest(squares: Vector, parts: Vector, room: SX) -> SX:
 
 def _minimise(error: _PeakError, largest: SX, m: int) -> SX:
     cells, kept, rounds = (16, 1 if m < 3 else 2, 12) if m <= 3 else (32, 2, 9)
-    smallest = error.squares[0]
-    for x in error.squares[1:]:
-        smallest = ca.if_else(x < smallest, x, smallest)
     # s = first (ratio^k - 1), from 0 to the largest
-    first = _FIRST * smallest
-    first = _larger(first, 1e-12 * largest)
+    first = _larger(_FIRST * smallest(error.squares), 1e-12 * largest)
     first = ca.if_else(first < largest / 3, first, largest / 3)
     ratio = ca.exp(ca.log(1 + largest / first) / cells)
     points, power = [ca.SX(0)], ca.SX(1)
@@ -170,7 +169,7 @@ def _minimise(error: _PeakError, largest: SX, m: int) -> SX:
     for s, value, _ in values[1:]:
         better = value < least
         best, least = ca.if_else(better, s, best), ca.if_else(better, value, least)
-    estimates = [_estimate(*a, *b) for a, b in zip(values[:-1], values[1:], strict=True)]
+    estimates = [_estimate(*a, *b) for a, b in pairwise(values)]
     for number in range(kept):
         lowest, which, cell = estimates[0], ca.SX(0), [*values[0], *values[1]]
         for k in range(1, cells):

@@ -14,10 +14,10 @@ from holdfast.errors import InputError, StoreError
 if TYPE_CHECKING:
     from holdfast.control.law import Law
 
-_KEYWORDS = frozenset(
-    "auto break case char const continue default do double else enum extern float for goto if inline int long register "
-    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while main".split()
-)
+_KEYWORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
+return short signed sizeof static struct switch typedef union unsigned void volatile while main
+"""
 
 
 def check_name(name: str) -> str:
@@ -26,7 +26,7 @@ def check_name(name: str) -> str:
     Raises:
         InputError: It is none.
     """
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,62}", name) or name in _KEYWORDS:
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,62}", name) or name in _KEYWORDS.split():
         raise InputError(f"'{name}' cannot name a C function; use letters, digits and underscores, a letter first")
     return name
 
