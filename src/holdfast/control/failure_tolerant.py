@@ -24,8 +24,9 @@ class FailureTolerant(Law):
     within ``pre_failure_error`` (9); it depends on the configuration and on the direction of the command, not on its size.
     PKE may have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0
     and logarithmic beyond, and a refinement of its best cells, all of fixed length. Measured against the exact
-    optimum from polynomial roots on 8,000 random cases each of a 3R arm (m = 2) and a 7R arm (m = 3 and m = 6), none is
-    worse by more than 1e-8; on 20,000 of m = 6 with a dense grid as the reference, 1 in 20,000 misses a narrow minimum, by up to 1.3e-4.
+    optimum from polynomial roots on 8,000 random cases each of a 3R arm (m = 2) and a 7R arm (m = 3), and against a dense
+    grid on 20,000 each, none was worse by more than 1e-9; for the 7R
+    arm's pose (m = 6) 1 in 20,000 was, by more than 1e-6: a narrow minimum was missed, and PKE was 6e-4 of itself too large.
 
     Where the arm is singular and the part of the command that it cannot produce is the allowed error or more, no damping
     meets (9): :meth:`feasible` is False, and lambda is 1e-3 in the unit of the scaled Jacobian (m for a position task). A
