@@ -1,6 +1,6 @@
 """holdfast: what happens to the task when a joint of a redundant arm fails, and what can be done about it beforehand."""
 
-from holdfast import arms, indices, paths
+from holdfast import arms, control, indices, paths
 from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
@@ -42,6 +42,7 @@ __all__ = [
     "arms",
     "assess",
     "compare",
+    "control",
     "follow",
     "free_swing",
     "indices",

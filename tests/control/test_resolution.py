@@ -74,7 +74,7 @@ def test_gradient_projection_is_the_formula(cases, case, rng):
     assert (found.task == 1).all()
     step = law.step(q[3], twist[3])
     np.testing.assert_array_equal(step, found.rates[3])
-    np.testing.assert_array_equal(law.step.shares, (found.self_motion[3], found.task[3], found.damping[3]))
+    np.testing.assert_array_equal(law.step.others, (found.self_motion[3], found.task[3], found.damping[3]))
 
 
 def test_an_objective_wanted_the_other_way_moves_the_other_way(cases, rng):

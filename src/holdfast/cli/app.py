@@ -12,6 +12,7 @@ from holdfast.cli import (
     arm_commands,
     assess_commands,
     configure_commands,
+    export_commands,
     follow_commands,
     index_commands,
     susceptibility_commands,
@@ -55,6 +56,7 @@ configure_commands.add(app)
 assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
+export_commands.add(app)
 
 
 def main() -> None:

@@ -20,7 +20,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -30,6 +29,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel
@@ -283,38 +283,14 @@ class Resolution(ABC):
 
     @cached_property
     def step(self) -> Step:
-        """``step(q, twist) -> rates`` for one configuration, (n,), (6,) -> (n,): for a control loop, without any checks."""
+        """``step(q, twist) -> rates`` for one configuration, (n,), (6,) -> (n,): for a control loop, without any checks.
+
+        ``step.others`` then holds the shares of self-motion and of the task and the damping, as in :class:`Rates`.
+        """
         return Step(self._kernel, self.arm.n)
 
     def __repr__(self) -> str:
         return f"<{self.name}, {self.objective.name}, arm {self.arm.name!r}, task {self.task.name!r}>"
-
-
-class Step:
-    """One control step with a buffer of its own: not for several threads at once. The bits are those of the law's ``rates``."""
-
-    def __init__(self, kernel: Kernel, n: int) -> None:
-        self._call, self._n = kernel.single(), n
-        self._in = np.zeros(kernel.program.n_in)
-        self._out = np.full(kernel.program.n_out, np.nan)
-        # Memory views are filled in half the time that NumPy's slices take.
-        self._q: Any = self._in.data[:n]
-        self._twist: Any = self._in.data[n:]
-
-    def __call__(self, q: Array, twist: Array) -> Array:
-        """Rates (n,) of a configuration (n,) and a twist (6,)."""
-        try:
-            self._q[:] = q
-            self._twist[:] = twist
-        except (TypeError, ValueError):  # whole numbers, or lists
-            self._in[: self._n], self._in[self._n :] = q, twist
-        self._out = out = self._call(self._in)
-        return out[: self._n]
-
-    @property
-    def shares(self) -> Array:
-        """Of the last call (3,): shares of self-motion and of the task, and the damping; see :class:`Rates`."""
-        return self._out[self._n :]
 
 
 def chosen_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str] | None, default: str) -> Task:
