@@ -26,15 +26,8 @@ def with_bodies(arm: hf.Arm, rng: np.random.Generator, payload: bool = False) ->
 
 
 def to_pinocchio(arm: hf.Arm) -> tuple[pin.Model, pin.Data, int]:
-    """Model with inertias, armatures and gravity, its data, and the id of the tool frame."""
+    """The oracles' model, its data, and the id of the tool frame."""
     model, tool = oracles.to_pinocchio(arm)
-    for k, link in enumerate(arm.links):
-        for body in (link, arm.payload if k == arm.n - 1 else None):
-            if body is not None:
-                inertia = pin.Inertia(body.mass, np.array(body.com), np.array(body.inertia))
-                model.appendBodyToJoint(k + 1, inertia, pin.SE3.Identity())
-    model.gravity.linear = np.array(arm.gravity)
-    model.armature = np.array([j.armature for j in arm.joints])
     return model, model.createData(), tool
 
 
