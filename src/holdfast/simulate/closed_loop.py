@@ -208,7 +208,7 @@ class Motion:
         self.law, self.cycles, self.fixed = law, method == "cycles", method == "rk4"
         self._system = System(law)
         self._steps: Steps | Cycles = (
-            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DORMAND_PRINCE)
+            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else __import__('sys').modules['holdfast.simulate.runge_kutta'].EIGHT if __import__('os').environ.get('EIGHT') else DORMAND_PRINCE)
         )
         s = self._system
         here = s.at(s.q)

@@ -121,16 +121,14 @@ def greater(a: SX, b: SX) -> SX:
 
 
 def turning_value(start: SX, end: SX, slope: SX, end_slope: SX) -> SX:
-    """Where the cubic through both ends with these slopes (per step) turns between them, its value there, else ``end``."""
-    a = 3 * (slope + end_slope + 2 * (start - end))
-    b = -2 * (2 * slope + end_slope + 3 * (start - end))
-    turns = slope * end_slope < 0  # then exactly one root lies between, and the root below is real
-    sign = ca.if_else(slope < 0, -1.0, 1.0)
-    root = ca.sqrt(ca.if_else(turns, b * b - 4 * a * slope, 1.0))
-    divisor = ca.if_else(turns, -b + sign * root, 1.0)
-    x = ca.if_else(turns, 2 * slope / divisor, 1.0)
+    """What lies between two ends with these slopes (per step) where the slope changes sign: the value there, else ``end``.
+
+    The place is that of a parabola, the value that of the cubic; being flat there, it is as good as the cubic's own.
+    """
+    turns = slope * end_slope < 0
+    x = ca.if_else(turns, slope / ca.if_else(turns, slope - end_slope, 1.0), 1.0)
     y = 1 - x
-    return (1 + 2 * x) * y * y * start + x * y * y * slope + x * x * (3 - 2 * x) * end - x * x * y * end_slope
+    return end + y * (y * ((1 + 2 * x) * (start - end) + x * slope) - x * x * end_slope)
 
 
 def chosen(condition: SX, yes: dict[str, SX], no: dict[str, SX]) -> dict[str, SX]:

@@ -194,8 +194,9 @@ class Steps:
             **watched(parts, speed, clock, self._limit),
             "code": code,
         }
-        refused = {**parts, "h": after, "code": ca.if_else(after < COLLAPSED, COLLAPSE, RUNNING)}
-        return chosen(running, chosen(good, moved, refused), parts)
+        # Everything else stays as it was, also where the run has ended.
+        code = ca.if_else(running, ca.if_else(after < COLLAPSED, COLLAPSE, RUNNING), parts["code"])
+        return chosen(ca.logic_and(running, good), moved, {**parts, "h": after, "code": code})
 
 
 def _mixed(weights: Sequence[SX | float], values: Sequence[SX]) -> SX:
