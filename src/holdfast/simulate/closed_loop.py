@@ -32,7 +32,7 @@ DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: 
 TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
 RADIUS = 0.1  # m
 TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-8, 1e-13
-MOST_STEPS = 1_000_000
+MOST_STEPS = 100_000
 
 
 def simulate(
@@ -60,7 +60,7 @@ def simulate(
     * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
       its greatest value in the last tenth is at least 0.99 of that in the tenth before;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
-      nothing, or the law has no answer), *steps* (a million steps), *bad input*.
+      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *bad input*.
 
     None of this looks at the steps that were taken, so that it does not depend on their size.
 
@@ -208,7 +208,7 @@ class Motion:
         self.law, self.cycles, self.fixed = law, method == "cycles", method == "rk4"
         self._system = System(law)
         self._steps: Steps | Cycles = (
-            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else __import__('sys').modules['holdfast.simulate.runge_kutta'].EIGHT if __import__('os').environ.get('EIGHT') else DORMAND_PRINCE)
+            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DORMAND_PRINCE)
         )
         s = self._system
         here = s.at(s.q)

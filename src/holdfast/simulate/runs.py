@@ -46,7 +46,7 @@ _SENTENCES = {
     Reason.NONE: "decided",
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
     Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet come to rest: give a longer time_limit",
-    Reason.STEPS: "the motion took too many steps: give a shorter time_limit or look at it with path()",
+    Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }
 
