@@ -321,16 +321,15 @@ class Motion:
         known = self._at.rows(parts["q"][rows], pose[:, :3], pose[:, 3:].reshape(-1, 3, 3), mask)
         good = np.isfinite(known).all(axis=1)
         code = np.where(good, RUNNING, COLLAPSE).astype(np.float64)
-        known[~good, : n + 2] = 0.0
-        if self.cycles:
-            parts["error"][rows] = known[:, n + 2 : n + 3]
-        else:
+        known[~good] = np.where(np.isfinite(known[~good]), known[~good], 0.0)
+        parts["error"][rows, 0] = known[:, n + 2]
+        parts["closest"][rows, 0] = np.minimum(parts["closest"][rows, 0], known[:, n + 2])
+        if not self.cycles:
             rest = np.linalg.norm(known[:, :n], axis=1) < REST_SPEED * known[:, n + 1]
             code[rest & good] = REST
-            for name, at in (("hand", n), ("share", n + 1), ("error", n + 2), ("slope", n + 3)):
+            for name, at in (("hand", n), ("share", n + 1), ("slope", n + 3)):
                 parts[name][rows, 0] = known[:, at]
             parts["rates"][rows] = known[:, :n]
-            parts["closest"][rows, 0] = np.minimum(parts["closest"][rows, 0], known[:, n + 2])
         parts["code"][rows, 0] = code
 
     # ---- on demand -----------------------------------------------------------------------------------------------
