@@ -1,6 +1,6 @@
 """holdfast: what happens to the task when a joint of a redundant arm fails, and what can be done about it beforehand."""
 
-from holdfast import arms, indices, paths
+from holdfast import arms, control, indices, paths
 from holdfast.arm import DH, Arm, Joint, Link
 from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Region, assess, load
@@ -41,6 +41,7 @@ __all__ = [
     "__version__",
     "arms",
     "assess",
+    "control",
     "follow",
     "free_swing",
     "indices",

@@ -12,6 +12,7 @@ from holdfast.cli import (
     arm_commands,
     assess_commands,
     configure_commands,
+    export_commands,
     index_commands,
     susceptibility_commands,
     swing_commands,
@@ -53,6 +54,7 @@ susceptibility_commands.add(app)
 configure_commands.add(app)
 assess_commands.add(app)
 swing_commands.add(app)
+export_commands.add(app)
 
 
 def main() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -62,6 +63,12 @@ class Weighted(Law):
         spread = ca.sparsify(ca.SX(ca.DM(root)))
         return spread @ damped_least_norm(j @ spread, v, 0.0)
 
+    def phrase(self) -> str:
+        """The law and its task, without gain and speed limit, for people."""
+        diagonal = np.diag(self.weights)
+        plain = np.array_equal(self.weights, np.diag(diagonal))
+        return f"{super().phrase()}, weights " + (", ".join(f"{x:g}" for x in diagonal) if plain else "as a full matrix")
+
 
 class Damped(Law):
     """Damped least squares with fixed damping, ``J' (J J' + damping^2 I)^-1 v``.
@@ -87,3 +94,11 @@ class Damped(Law):
     def inverse(self, j: SX, v: SX) -> SX:
         """See :meth:`Law.inverse`."""
         return damped_least_norm(j, v, self.fixed_damping**2)
+
+    def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
+        """See :meth:`Law.damping`."""
+        return self._constant(q, v, self.fixed_damping)
+
+    def phrase(self) -> str:
+        """The law and its task, without gain and speed limit, for people."""
+        return f"{super().phrase()}, damping {self.fixed_damping:g}"

@@ -12,6 +12,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
+from pathlib import Path
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -20,6 +22,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.control import deviation, export
+from holdfast.control.deviation import Deviations
+from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import SX, Kernel
 
@@ -92,12 +97,31 @@ class Law(ABC):
         """Joint rates (n,) of q (n,) and a task velocity v (m,), m/s and rad/s."""
         return self.inverse(self.jacobian(q), self.scaled(v))
 
+    def outputs(self, q: SX, v: SX) -> dict[str, SX]:
+        """What the law tells of q (n,) and a task velocity v (m,): ``rates`` (n,) first, then what else it computes."""
+        return {"rates": self.rates(q, v)}
+
     # ---- numbers -----------------------------------------------------------------------------------------------
 
     @cached_property
     def _velocity_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
-        return Kernel(self.name, [q, v], [self.rates(q, v)])
+        return Kernel(self.name, [q, v], list(self.outputs(q, v).values()))
+
+    @cached_property
+    def _deviation_kernel(self) -> Kernel:
+        q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
+        return Kernel(
+            f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)]
+        )
+
+    @cached_property
+    def step(self) -> Step:
+        """``step(q, v) -> rates`` for one configuration, (n,), (m,) -> (n,): for a control loop, without any checks.
+
+        ``step.others`` then holds what else :meth:`outputs` computes.
+        """
+        return Step(self._velocity_kernel, self.arm.n)
 
     def velocity(self, q: ArrayLike, v: ArrayLike) -> Array:
         """Commanded joint rates.
@@ -112,8 +136,70 @@ class Law(ABC):
         Raises:
             InputError: A wrong shape.
         """
+        out, single = self._evaluate(q, v)
+        rates = np.ascontiguousarray(out[:, : self.arm.n])
+        return rates[0] if single else rates
+
+    def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
+        """The damping lambda, not its square, in the unit of the scaled Jacobian; 0 for a law that has none.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+            v: (m,) or (N, m), m/s and rad/s.
+
+        Returns:
+            A number or (N,); NaN in a row where q or v is.
+
+        Raises:
+            InputError: A wrong shape.
+        """
+        return self._constant(q, v, 0.0)
+
+    def deviations(self, q: ArrayLike, v: ArrayLike) -> Deviations:
+        """How far the hand's velocity is from the one commanded, for the healthy arm and with each joint locked.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+            v: (m,) or (N, m), m/s and rad/s; only its direction counts. A row of zeros gives NaN.
+
+        Raises:
+            InputError: A wrong shape.
+
+        Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (10).
+        """
         rows, velocities, single = self._rows(q, v)
-        out = self._velocity_kernel.rows(rows, velocities)
+        rates = self._velocity_kernel.rows(rows, velocities)[:, : self.arm.n]
+        out = self._deviation_kernel.rows(rows, velocities, np.ascontiguousarray(rates))
+        return deviation.read(out[0] if single else out, self.arm.n)
+
+    def peak_velocity_error(self, q: ArrayLike, v: ArrayLike) -> Any:
+        """PKE (8): the largest velocity error over all single locked joints, for the unit velocity; a number or (N,)."""
+        return self.deviations(q, v).peak_velocity_error
+
+    def peak_angular_deviation(self, q: ArrayLike, v: ArrayLike) -> Any:
+        """PAD (10): the largest angle to the command over all single locked joints, rad; a number or (N,).
+
+        No choice of the pre-failure error bounds it: see :class:`holdfast.control.Deviations`.
+        """
+        return self.deviations(q, v).peak_angular_deviation
+
+    def healthy_angle(self, q: ArrayLike, v: ArrayLike) -> Any:
+        """Angle between the healthy arm's velocity and the command, rad; a number or (N,)."""
+        return self.deviations(q, v).healthy_angle
+
+    def velocity_errors(self, q: ArrayLike, v: ArrayLike) -> Array:
+        """Velocity error with each joint locked, for the unit velocity: (n,) or (N, n)."""
+        return self.deviations(q, v).errors
+
+    def _evaluate(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, bool]:
+        """All :meth:`outputs` in rows, and whether one row was asked for."""
+        rows, velocities, single = self._rows(q, v)
+        return self._velocity_kernel.rows(rows, velocities), single
+
+    def _constant(self, q: ArrayLike, v: ArrayLike, value: float) -> Any:
+        rows, velocities, single = self._rows(q, v)
+        good = np.isfinite(rows).all(axis=1) & np.isfinite(velocities).all(axis=1)
+        out = np.where(good, value, np.nan)
         return out[0] if single else out
 
     def _rows(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array, bool]:
@@ -127,10 +213,31 @@ class Law(ABC):
         count = max(len(np.atleast_2d(a)), len(np.atleast_2d(b)))
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
 
+    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path]:
+        """Write the law as a C99 file that needs nothing but ``math.h``, and its header.
+
+        The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0; or 1 and zero rates
+        where an input is not finite or the law has no answer. What else the law computes (:meth:`outputs`) follows the rates.
+        The same inputs give what :meth:`velocity` gives, to rounding.
+
+        Args:
+            folder: Where ``NAME.c`` and ``NAME.h`` go; made if it is not there.
+            name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
+
+        Raises:
+            InputError: A name that C does not take.
+            StoreError: The files cannot be written.
+        """
+        return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
+
+    def phrase(self) -> str:
+        """The law and its task, without gain and speed limit, for people."""
+        return f"{self.name}, task {self.task.describe()}"
+
     def describe(self) -> str:
         """One phrase for people."""
         limit = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
-        return f"{self.name}, task {self.task.describe()}, gain {self.gain:g}/s{limit}"
+        return f"{self.phrase()}, gain {self.gain:g}/s{limit}"
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"

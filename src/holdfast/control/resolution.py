@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel
@@ -250,34 +251,14 @@ class Resolution(ABC):
 
     @cached_property
     def step(self) -> Step:
-        """``step(q, twist) -> rates`` for one configuration, (n,), (6,) -> (n,): for a control loop, without any checks."""
+        """``step(q, twist) -> rates`` for one configuration, (n,), (6,) -> (n,): for a control loop, without any checks.
+
+        ``step.others`` then holds the shares of self-motion and of the task and the damping, as in :class:`Rates`.
+        """
         return Step(self._kernel, self.arm.n)
 
     def __repr__(self) -> str:
         return f"<{self.name}, {self.objective.name}, arm {self.arm.name!r}, task {self.task.name!r}>"
-
-
-class Step:
-    """One control step with buffers of its own: not for several threads at once.
-
-    Attributes:
-        shares: (3,) of the last call: shares of self-motion and of the task, and the damping; see :class:`Rates`.
-    """
-
-    def __init__(self, kernel: Kernel, n: int) -> None:
-        self._call, self._n = kernel.evaluate_columns, n
-        self._in = np.zeros((kernel.program.n_in, kernel.lanes))
-        self._out = np.zeros((kernel.program.n_out, kernel.lanes))
-        self._q, self._twist = self._in[:n], self._in[n:]
-        self._rates = self._out[:n, 0]
-        self.shares = self._out[n:, 0]
-
-    def __call__(self, q: Array, twist: Array) -> Array:
-        """Rates (n,) of a configuration (n,) and a twist (6,)."""
-        self._q[:] = q[:, None]
-        self._twist[:] = twist[:, None]
-        self._call(self._in, self._out)
-        return self._rates.copy()
 
 
 class GradientProjection(Resolution):

@@ -1,0 +1,66 @@
+"""``holdfast export``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    JsonOption,
+    TaskOption,
+    TipOption,
+    console,
+    print_json,
+    read_arm,
+    read_task,
+)
+from holdfast.errors import InputError
+
+LANGUAGES = ("c",)
+
+
+def export(
+    arm: ArmArgument,
+    out: Annotated[Path, typer.Option("--out", help="Folder for the files; made if it is not there.", show_default=False)],
+    law: LawOption = "failure-tolerant",
+    language: Annotated[str, typer.Option("--language", help="c: C99 that needs only math.h.")] = "c",
+    name: Annotated[
+        str | None,
+        typer.Option("--name", help="Of the function and the files. Default: the law's.", show_default=False),
+    ] = None,
+    task: TaskOption = None,
+    weights: WeightsOption = None,
+    damping: DampingOption = None,
+    pre_failure_error: PreFailureOption = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Write a control law as code for a robot's own controller.
+
+    Example: holdfast export panda --law failure-tolerant --language c --out controller
+    """
+    if language not in LANGUAGES:
+        raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
+    model = read_arm(arm, base, tip)
+    made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
+    source, header = made.export_c(out, name)
+    if json_:
+        print_json({"arm": model.name, "law": made.slug, "task": made.task.name, "source": str(source), "header": str(header)})
+        return
+    from rich.markup import escape
+
+    console().print(
+        f"{escape(made.phrase())}, arm {escape(model.name)}: wrote {escape(str(source))} and {escape(header.name)}",
+        soft_wrap=True,
+    )
+
+
+def add(app: typer.Typer) -> None:
+    """Register the command."""
+    app.command()(export)
