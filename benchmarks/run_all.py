@@ -11,7 +11,7 @@ import harness
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "RESULTS.md"
-WORKLOADS = ("w1_index", "w2_gradient", "w3_inverse", "w4_optimise", "spectral", "start_up", "memory")
+WORKLOADS = ("w1_index", "w2_gradient", "w3_inverse", "w4_optimise", "w8_closed_loop", "spectral", "start_up", "memory")
 
 INTRODUCTION = """# Results
 

@@ -14,6 +14,7 @@ from holdfast.cli import (
     configure_commands,
     export_commands,
     index_commands,
+    simulate_commands,
     susceptibility_commands,
     swing_commands,
 )
@@ -54,6 +55,7 @@ susceptibility_commands.add(app)
 configure_commands.add(app)
 assess_commands.add(app)
 swing_commands.add(app)
+simulate_commands.add(app)
 export_commands.add(app)
 
 

@@ -137,9 +137,7 @@ def _target(law: Law, target: ArrayLike) -> tuple[Array, Array | None]:
     if given.ndim in (2, 3) and given.shape[-2:] == (4, 4):
         return check_poses(given), None
     if task.angular or task.frame != "base":
-        raise InputError(
-            f"the target has shape {given.shape}; task '{task.name}' needs tool poses, (4, 4) or (N, 4, 4) arrays"
-        )
+        raise InputError(f"the target has shape {given.shape}; task '{task.name}' needs tool poses, (4, 4) or (N, 4, 4) arrays")
     if given.ndim not in (1, 2) or given.shape[-1] != task.m:
         raise InputError(
             f"the target has shape {given.shape}; task '{task.name}' takes ({task.m},) or (N, {task.m}), the wanted tool "
@@ -279,7 +277,9 @@ class Motion:
         converged = (codes == ARRIVED) | ((codes == REST) & (error < ARRIVES) & (not self.cycles))
         stuck = (codes == REST) & ~converged
         outcome = np.select([converged, stuck, moving], [Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING], Outcome.UNDECIDED)
-        reason = np.select([codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.SLOW, Reason.STEPS], 0)
+        reason = np.select(
+            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.SLOW, Reason.STEPS], 0
+        )
         reason[outcome != Outcome.UNDECIDED] = Reason.NONE
         return outcome.astype(np.uint8), reason.astype(np.uint8)
 

@@ -96,7 +96,11 @@ class Steps:
         self.state = State(q=n, rates=n, **scalars, **ends, **kept)
         self._next = self._stage if self.staged else self._step
         self.loop, self.unrolled = loop_of(
-            f"closed loop, {tableau.name}", self._next, self.state, self.parameters, stages * _UNROLL if self.staged else _UNROLL
+            f"closed loop, {tableau.name}",
+            self._next,
+            self.state,
+            self.parameters,
+            stages * _UNROLL if self.staged else _UNROLL,
         )
 
     def single(self) -> ca.Function:
@@ -135,10 +139,7 @@ class Steps:
             kept = ca.if_else(good, value, 1e30)
             old = parts[name]
             stored[name] = ca.vertcat(
-                *[
-                    ca.if_else(parts["stage"] == i, kept, old[i * width : (i + 1) * width])
-                    for i in range(len(rows) - 1)
-                ]
+                *[ca.if_else(parts["stage"] == i, kept, old[i * width : (i + 1) * width]) for i in range(len(rows) - 1)]
             )
         stored["stage"] = parts["stage"] + 1
         finished["stage"] = ca.SX(0)
