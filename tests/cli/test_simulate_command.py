@@ -30,9 +30,12 @@ def test_json_is_the_published_case_c(cli):
     code, out, err = cli(*CALL, "--target", "0,1.7320508", "--json")
     assert (code, err) == (0, "")
     data = json.loads(out)
-    assert data["outcome"] == "stuck" and data["reason"] == "none"
-    assert data["error"] == pytest.approx(1.133893, abs=1e-5) and data["least_error"] == pytest.approx(1, abs=1e-6)
-    assert len(data["locked"]) == 1 and list(data["locked"].values()) == [0]
+    assert data["outcome"] == "stuck"
+    assert data["reason"] == "none"
+    assert data["error"] == pytest.approx(1.133893, abs=1e-5)
+    assert data["least_error"] == pytest.approx(1, abs=1e-6)
+    assert len(data["locked"]) == 1
+    assert list(data["locked"].values()) == [0]
     assert np.rad2deg(list(data["q_final"].values())[1]) == pytest.approx(-261.7868, abs=1e-3)
 
 
@@ -40,10 +43,14 @@ def test_a_motion_is_printed_written_and_drawn(cli, tmp_path):
     table, figure = tmp_path / "run.csv", tmp_path / "run.png"
     code, out, err = cli(*CALL, "--target", "1.7071068 0.7071068", "--csv", table, "--plot", figure)
     assert (code, err) == (0, "")
-    assert "arrives" in out and "locked" in out and "-315 deg" in out
+    assert "arrives" in out
+    assert "locked" in out
+    assert "-315 deg" in out
     rows = np.loadtxt(table, delimiter=",", skiprows=1)
-    assert table.read_text().startswith("time_s,") and rows.shape == (1001, 7)
-    assert rows[-1, -1] < 1e-5 and (rows[:, 1] == 0).all()
+    assert table.read_text().startswith("time_s,")
+    assert rows.shape == (1001, 7)
+    assert rows[-1, -1] < 1e-5
+    assert (rows[:, 1] == 0).all()
     assert matplotlib.image.imread(figure).shape[1] > 600
 
 
@@ -61,11 +68,13 @@ def test_cycles_and_a_lock_on_the_way(cli):
         "--speed-limit",
         "0.05",
     )
-    assert code == 0 and "cycles" in out and "at 5 cycles" in out
+    assert code == 0
+    assert "cycles" in out
+    assert "at 5 cycles" in out
 
 
 @pytest.mark.parametrize(
-    "arguments, words",
+    ("arguments", "words"),
     [
         (["--target", "1"], "--target has 1 numbers; task 'planar' needs 2"),
         (["--target", "1,1", "--lock", "2@x"], "'x' is not a number"),
@@ -76,4 +85,7 @@ def test_cycles_and_a_lock_on_the_way(cli):
 )
 def test_wrong_input_is_one_sentence(cli, arguments, words):
     code, out, err = cli(*CALL, *arguments)
-    assert code == 2 and out == "" and words in err and "Traceback" not in err
+    assert code == 2
+    assert out == ""
+    assert words in err
+    assert "Traceback" not in err

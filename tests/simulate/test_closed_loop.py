@@ -56,7 +56,7 @@ def reference(rates, q0, end=3000.0):
 
 
 @pytest.mark.parametrize(
-    "rho, phi, outcome, angle, error, time",
+    ("rho", "phi", "outcome", "angle", "error", "time"),
     [
         (1, 45, "converged", -315.0, 0.0, None),
         (1, 0, "stuck", -30.0, 0.517638, 0.0),
@@ -70,7 +70,8 @@ def reference(rates, q0, end=3000.0):
 )
 def test_two_link_arm_ends_where_the_paper_says(two, rho, phi, outcome, angle, error, time):
     runs = simulate(two, RAD([0.0, -30.0]), around(rho, phi), locked=[0])
-    assert runs.outcome == outcome and runs.reason == Reason.NONE
+    assert runs.outcome == outcome
+    assert runs.reason == Reason.NONE
     assert np.rad2deg(runs.q_final[1]) == pytest.approx(angle, abs=1e-4)
     assert runs.error == pytest.approx(error, abs=1e-6)
     assert runs.closest <= runs.error + 1e-12
@@ -84,7 +85,8 @@ def test_two_link_arm_that_never_rests_turns_at_a_constant_rate(two):
     assert runs.closest == pytest.approx(1, abs=1e-3)
     assert runs.path_length == pytest.approx(np.sqrt(3) * 3000, rel=1e-6)  # the hand is 1 m from joint 2
     path = runs.path(0, 4000, until=3.6276)
-    assert path.error.max() == pytest.approx(3, abs=1e-3) and path.error.min() == pytest.approx(1, abs=1e-3)
+    assert path.error.max() == pytest.approx(3, abs=1e-3)
+    assert path.error.min() == pytest.approx(1, abs=1e-3)
     assert path.error[0] == pytest.approx(path.error[-1], abs=1e-4)
 
 
@@ -109,7 +111,7 @@ def test_excess_error_is_what_the_closed_form_leaves(two):
 
 
 @pytest.mark.parametrize(
-    "joint, start, q_final, error",
+    ("joint", "start", "q_final", "error"),
     [
         (1, (-79.3348, 45, 42.7735), (-5.6173, 45, 66.1698), 0),
         (1, (-35.6493, 45, -87.7735), (50.6173, 45, -111.1698), 0),
@@ -144,7 +146,8 @@ def test_a_limit_cycle_is_moving(three):
     middle = angle - angle.mean()
     rises = time[1:][(middle[1:] > 0) & (middle[:-1] <= 0)]
     assert np.diff(rises).mean() == pytest.approx(79.76, abs=0.01)
-    assert path.error[late].min() == pytest.approx(0.809, abs=1e-3) and path.error[late].max() == pytest.approx(0.997, abs=1e-3)
+    assert path.error[late].min() == pytest.approx(0.809, abs=1e-3)
+    assert path.error[late].max() == pytest.approx(0.997, abs=1e-3)
 
 
 def test_a_creeping_arm_is_undecided_until_it_has_the_time(three):
@@ -201,7 +204,8 @@ def test_the_outcome_does_not_depend_on_tolerance_or_steps(three, random_runs):
     assert (tight.code == runs.code[few]).all()
     assert np.abs(tight.x_final - runs.x_final[few]).max() < 1e-6
     smooth = np.isin(fixed.code, (Outcome.CONVERGED, Outcome.STUCK))
-    assert smooth.mean() > 0.9 and (fixed.code[smooth] == runs.code[few][smooth]).all()
+    assert smooth.mean() > 0.9
+    assert (fixed.code[smooth] == runs.code[few][smooth]).all()
     assert np.median(np.abs(fixed.x_final - runs.x_final[few])[smooth]) < 1e-7
 
 
@@ -212,9 +216,12 @@ def test_batch_is_single_and_threads_do_not_matter(three, random_runs, threads):
     for name in ("q_final", "error", "closest", "path_length", "q_low", "time", "code"):
         np.testing.assert_array_equal(getattr(again, name), getattr(runs, name)[:40])
     one = simulate(three, q0[7], x[7], [int(locked[7])])
-    assert one.q_final.shape == (3,) and one.code.shape == () and isinstance(str(one.outcome), str)
+    assert one.q_final.shape == (3,)
+    assert one.code.shape == ()
+    assert isinstance(str(one.outcome), str)
     np.testing.assert_array_equal(one.q_final, runs.q_final[7])
-    assert len(one) == 1 and sum(runs.counts().values()) == len(runs)
+    assert len(one) == 1
+    assert sum(runs.counts().values()) == len(runs)
 
 
 def test_gain_and_speed_limit_only_take_time(three, random_runs):
@@ -246,7 +253,8 @@ def test_a_joint_that_locks_on_the_way(three, rng):
     np.testing.assert_allclose(runs.q_final, end, atol=1e-6)
     path = runs.path(0, 301, until=2.0)
     np.testing.assert_allclose(path.q[path.time >= lock][:, 1], healthy[1], atol=1e-6)
-    assert (path.locked[:, 1] == (path.time >= lock)).all() and not path.locked[:, 0].any()
+    assert (path.locked[:, 1] == (path.time >= lock)).all()
+    assert not path.locked[:, 0].any()
     many = simulate(three, np.tile(q0, (3, 1)), x, locked=[(1, lock), (0, 2.5)])
     np.testing.assert_array_equal(many.q_final[0], many.q_final[2])
     assert many.q_final[0, 1] == runs.q_final[1]
@@ -322,7 +330,8 @@ def test_cycles(three, rng):
     x = start - 2 * start / np.linalg.norm(start, axis=1)[:, None] * np.where(np.linalg.norm(start, axis=1) > 1, 1, -1)[:, None]
     runs = simulate(law, q0, x, cycles=True)
     done = runs.outcome == "converged"
-    assert done.mean() > 0.8 and np.isin(runs.time[done], (38, 39, 40, 41)).mean() > 0.9
+    assert done.mean() > 0.8
+    assert np.isin(runs.time[done], (38, 39, 40, 41)).mean() > 0.9
     locked = rng.integers(0, 3, 40)
     failed = simulate(law, q0, x, locked, cycles=True)
     for k in np.flatnonzero(failed.outcome == "converged")[:5]:
@@ -338,11 +347,13 @@ def test_the_ready_made_trap_is_stuck_in_cycles(three):
     q0 = RAD([[fold, -66.0098, 155.7258], [fold, 89.7159, -155.7257]])
     runs = simulate(law, q0, [1.5, 1.5], locked=[0], cycles=True)
     assert list(runs.outcome) == ["stuck", "converged"]
-    assert runs.time[0] == pytest.approx(390, abs=15) and runs.time[1] == pytest.approx(420, abs=5)
+    assert runs.time[0] == pytest.approx(390, abs=15)
+    assert runs.time[1] == pytest.approx(420, abs=5)
     path = runs.path(1, 50)
     np.testing.assert_allclose(path.q[-1], runs.q_final[1], atol=1e-12)
     later = simulate(law, q0[1], [1.5, 1.5], locked=[(0, 10)], cycles=True)
-    assert later.outcome == "converged" and later.q_final[0] != q0[1, 0]
+    assert later.outcome == "converged"
+    assert later.q_final[0] != q0[1, 0]
 
 
 # ---- what may go wrong -----------------------------------------------------------------------------------------------
@@ -354,7 +365,8 @@ def test_rows_with_nan_are_undecided_and_alone(three, random_runs):
     starts[2, 1], targets[5, 0] = np.nan, np.nan
     found = simulate(three, starts, targets, locked[:8])
     bad = np.isin(np.arange(8), (2, 5))
-    assert (found.reason[bad] == Reason.BAD_INPUT).all() and np.isnan(found.q_final[bad]).all()
+    assert (found.reason[bad] == Reason.BAD_INPUT).all()
+    assert np.isnan(found.q_final[bad]).all()
     np.testing.assert_array_equal(found.q_final[~bad], runs.q_final[:8][~bad])
     assert np.isnan(found.least_error(2)[2])
     with pytest.raises(hf.InputError, match="has no path"):
@@ -363,7 +375,7 @@ def test_rows_with_nan_are_undecided_and_alone(three, random_runs):
 
 
 @pytest.mark.parametrize(
-    "options, words",
+    ("options", "words"),
     [
         ({"target": [1, 2, 3]}, "takes \\(2,\\) or \\(N, 2\\)"),
         ({"locked": ["elbow"]}, "no joint 'elbow'"),
@@ -393,6 +405,7 @@ def test_pose_tasks_want_poses(panda):
         simulate(panda, np.zeros(7), [0.3, 0.2, 0.1])
     damped = Damped(panda.arm, 0.1, "position")
     runs = simulate(damped, RAD([0, -45, 0, -135, 0, 90, 45]), [0.4, 0.2, 0.5], locked=[(3, 0.5)], time_limit=4.0)
-    assert runs.x_final.shape == (3,) and runs.target.shape == (3,)
+    assert runs.x_final.shape == (3,)
+    assert runs.target.shape == (3,)
     with pytest.raises(hf.InputError, match="no run 1"):
         runs.path(1)

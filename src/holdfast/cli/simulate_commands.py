@@ -142,7 +142,8 @@ def _target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
         return pose
     if task.angular or task.frame != "base":
         raise InputError(
-            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion x,y,z,w"
+            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "
+            "x,y,z,w"
         )
     if values.size != task.m:
         raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
@@ -194,11 +195,11 @@ def _print(runs: Runs, files: list[Path]) -> None:
     out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"
     facts = Table.grid(padding=(0, 2))
-    facts.add_row("error at the end", f"[bold]{number(runs.error)}[/] {size}")
-    facts.add_row("least that the failed arm can have", f"{number(runs.least_error())} {size}")
-    facts.add_row("closest on the way", f"{number(runs.closest)} {size}")
-    facts.add_row("path of the hand", f"{number(runs.path_length)} m")
-    facts.add_row("took", f"{number(runs.time)} {unit}")
+    facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
+    facts.add_row("least that the failed arm can have", f"{number(float(runs.least_error()))} {size}")
+    facts.add_row("closest on the way", f"{number(float(runs.closest))} {size}")
+    facts.add_row("path of the hand", f"{number(float(runs.path_length))} m")
+    facts.add_row("took", f"{number(float(runs.time))} {unit}")
     out.print(facts)
     table = Table("joint", "start", "end", "least", "greatest", "", box=None, pad_edge=False)
     for k, joint in enumerate(arm.joints):

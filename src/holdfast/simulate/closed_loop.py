@@ -398,7 +398,7 @@ class Motion:
     def _unpacked(self, parameters: Array) -> list[Array]:
         n = self.law.arm.n
         row = parameters[0]
-        return [row[:3], row[3:12].reshape(3, 3), row[12 : 12 + n], *row[12 + n :]]
+        return [row[:3], row[3:12].reshape(3, 3), row[12 : 12 + n], *row[12 + n :].reshape(-1, 1)]
 
 
 @lru_cache(maxsize=16)
