@@ -18,6 +18,7 @@ WORKLOADS = (
     "w4_optimise",
     "w5_susceptibility",
     "w6_control_step",
+    "w8_closed_loop",
     "spectral",
     "start_up",
     "memory",

@@ -2,27 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pinocchio as pin
 
 import holdfast as hf
 import oracles
-
-
-def random_body(rng: np.random.Generator, reach: float = 0.3) -> hf.Link:
-    """Six point masses: a physically possible inertia."""
-    masses, points = rng.uniform(0.05, 1.0, 6), rng.uniform(-reach, reach, (6, 3))
-    return hf.Link.joined([hf.Link(m, p, np.zeros((3, 3))) for m, p in zip(masses, points, strict=True)])
-
-
-def with_bodies(arm: hf.Arm, rng: np.random.Generator, payload: bool = False) -> hf.Arm:
-    """The arm with random links, rotor inertias and gravity."""
-    joints = tuple(replace(j, armature=rng.uniform(0, 0.1)) for j in arm.joints)
-    links = tuple(random_body(rng) for _ in joints)
-    held = random_body(rng, 0.1) if payload else None
-    return replace(arm, joints=joints, links=links, payload=held, gravity=rng.uniform(-10, 10, 3))
 
 
 def to_pinocchio(arm: hf.Arm) -> tuple[pin.Model, pin.Data, int]:

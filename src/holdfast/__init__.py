@@ -9,7 +9,7 @@ from holdfast.control import Trajectory, follow
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
-from holdfast.simulate import BrakedDrop, FreeSwing, free_swing
+from holdfast.simulate import BrakedDrop, FreeSwing, Runs, free_swing, simulate
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
@@ -33,6 +33,7 @@ __all__ = [
     "Optimum",
     "Reach",
     "Region",
+    "Runs",
     "Status",
     "StoreError",
     "Task",
@@ -50,6 +51,7 @@ __all__ = [
     "optimise",
     "paths",
     "set_threads",
+    "simulate",
     "solve_ik",
     "susceptibility",
 ]

@@ -34,7 +34,7 @@ def slide(lower: float, upper: float, axis=(0.0, 0, 1)) -> hf.Arm:
 
 
 def drawn(rng, **options) -> tuple[hf.Arm, np.ndarray]:
-    arm = dynamics.with_bodies(oracles.random_arm(rng, limits=3.0, **options), rng, payload=True)
+    arm = oracles.with_bodies(oracles.random_arm(rng, limits=3.0, **options), rng, payload=True)
     return arm, oracles.inside(arm, rng, 1)[0]
 
 

@@ -15,6 +15,7 @@ from holdfast.cli import (
     export_commands,
     follow_commands,
     index_commands,
+    simulate_commands,
     susceptibility_commands,
     swing_commands,
 )
@@ -56,6 +57,7 @@ configure_commands.add(app)
 assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
+simulate_commands.add(app)
 export_commands.add(app)
 
 

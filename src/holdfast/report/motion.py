@@ -35,7 +35,7 @@ class Panel:
     moments: tuple[tuple[float, float, str], ...] = ()
 
 
-def motion_figure(panels: Sequence[Panel], caption: str) -> Figure:
+def motion_figure(panels: Sequence[Panel], caption: str, xlabel: str = "time since the failure, s") -> Figure:
     """Panels side by side over time, with one line of text below that says what was computed."""
     with style():
         figure = Figure(figsize=(WIDTH * len(panels) / 2.4, 3.7))
@@ -47,7 +47,7 @@ def motion_figure(panels: Sequence[Panel], caption: str) -> Figure:
             for t, value, label in panel.moments:
                 axes.plot([t], [value], "o", color=ORANGE, markersize=5)
                 axes.annotate(plain(label), (t, value), (6, 5), textcoords="offset points", fontsize=9, color=INK)
-            axes.set(xlabel="time since the failure, s", ylabel=panel.ylabel, title=plain(panel.title))
+            axes.set(xlabel=xlabel, ylabel=panel.ylabel, title=plain(panel.title))
             axes.set_xlim(0, float(panel.time[-1]) or 1.0)
             axes.margins(y=0.12)
         figure.supxlabel(plain(caption, 200), fontsize=9, color=SOFT)
