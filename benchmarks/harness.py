@@ -22,7 +22,7 @@ import numpy as np
 Array = np.ndarray
 Function = Callable[[Array], Array]
 
-PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "heyoka", "jax", "pin", "roboticstoolbox-python", "pytracik")
+PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "heyoka", "jax", "numba", "pin", "roboticstoolbox-python", "pytracik")
 
 
 class MissingError(Exception):
