@@ -30,6 +30,7 @@ PACKAGES = (
     "casadi",
     "heyoka",
     "jax",
+    "numba",
     "pin",
     "roboticstoolbox-python",
     "pytracik",

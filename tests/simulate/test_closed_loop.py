@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.control.inverses import Damped, Pseudoinverse
+from holdfast.control import Damped, FailureTolerant, Pseudoinverse
 from holdfast.simulate import Outcome, Reason, simulate
 
 RAD = np.deg2rad
@@ -354,6 +354,15 @@ def test_the_ready_made_trap_is_stuck_in_cycles(three):
     later = simulate(law, q0[1], [1.5, 1.5], locked=[(0, 10)], cycles=True)
     assert later.outcome == "converged"
     assert later.q_final[0] != q0[1, 0]
+
+
+def test_the_failure_tolerant_inverse_leaves_the_trap(three):
+    """Task 24 again: scenario 4 takes about 504 cycles."""
+    law = FailureTolerant(three.arm, "planar", speed_limit=0.05)
+    fold = 45 + np.rad2deg(np.arccos(1 / np.hypot(1.5, 1.5)))
+    runs = simulate(law, RAD([fold, -66.0098, 155.7258]), [1.5, 1.5], locked=[0], cycles=True)
+    assert runs.outcome == "converged"
+    assert runs.time == pytest.approx(504, abs=2)
 
 
 # ---- what may go wrong -----------------------------------------------------------------------------------------------

@@ -87,7 +87,6 @@ def simulate(
 
     Raises:
         InputError: Wrong shapes, joints or options.
-        TaskError: Never from here; the law has checked its task.
 
     Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
     """
@@ -392,8 +391,8 @@ class Motion:
     def _note(self, parts: dict[str, Array]) -> Array:
         """Time, configuration and rates of one state."""
         if self.cycles:
-            return np.asarray(np.r_[parts["time"][0] + parts["substep"][0] / SUBSTEPS, parts["q"][0], 0 * parts["q"][0]])
-        return np.asarray(np.r_[parts["time"][0], parts["q"][0], parts["rates"][0]])
+            return np.concatenate([parts["time"][0] + parts["substep"][0] / SUBSTEPS, parts["q"][0], 0 * parts["q"][0]])
+        return np.concatenate([parts["time"][0], parts["q"][0], parts["rates"][0]])
 
     def _unpacked(self, parameters: Array) -> list[Array]:
         n = self.law.arm.n

@@ -35,6 +35,7 @@ from holdfast.simulate.motion import (
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 COLLAPSED = 1e-12  # of 1/Ke: steps this short lead nowhere
 LONGEST = 2.5  # of 1/Ke: beyond it the method is not stable for the rate Ke at which the error itself shrinks
+NEARLY = 1e-4  # rad (and m) per 1/Ke: below this speed the tolerance shrinks with it
 TURN = 0.5  # rad (and m): a longer step would see too little of the way
 FIRST = 1e-2  # of 1/Ke
 _SMALL = 2500  # operations of one evaluation: beyond, stages are taken one at a time
@@ -156,7 +157,9 @@ class Steps:
         running = parts["code"] == RUNNING
         rate = ca.sqrt(ca.sumsqr(here.rates))
         if self.tableau.error:
-            error = h * _mixed(self.tableau.error, [*rates, here.rates]) / self._tolerance
+            # Beside a singularity a rest point pulls so strongly that errors allowed elsewhere would keep the arm moving.
+            slow = lesser(greater(ca.sqrt(ca.sumsqr(parts["rates"])) / NEARLY, 1e-3), 1.0)
+            error = h * _mixed(self.tableau.error, [*rates, here.rates]) / (slow * self._tolerance)
             size = ca.sumsqr(error) / error.numel()
             good = size <= 1
             # A stage that met a singularity makes the estimate NaN, and every comparison with it false.
