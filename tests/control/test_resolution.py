@@ -265,3 +265,19 @@ def test_bad_input_is_answered_in_a_sentence(cases, panda):
         with pytest.raises(hf.InputError, match="twist has shape"):
             law.rates(q, twist)
     assert "gradient projection" in repr(law)
+
+
+def test_the_gain_weighs_the_objective_against_the_joint_rates(rng):
+    """English and Maciejewski 1998, section VII: the rates minimise ``dF/dt + |rates|^2 / (2 gain)`` on the task."""
+    arm = hf.arms.load("panda")
+    objective = hf.susceptibility.torque(arm, "effort")
+    gain = 0.7
+    law = GradientProjection(arm, objective, gain=gain, period=None, damping=0.0)
+    for q in oracles.inside(arm, rng, 5):
+        twist, j = rng.normal(size=6), arm.jacobian(q)
+        gradient = objective.gradient(q)
+        # Stationarity of the Lagrangian: [I / gain, J'; J, 0] [rates; multipliers] = [-gradient; twist].
+        system = np.block([[np.eye(7) / gain, j.T], [j, np.zeros((6, 6))]])
+        expected = np.linalg.solve(system, np.r_[-gradient, twist])[:7]
+        if np.linalg.cond(j) < 50 and (np.abs(expected) < [x.velocity for x in arm.joints]).all():
+            np.testing.assert_allclose(law.rates(q, twist).rates, expected, rtol=1e-7, atol=1e-9)

@@ -19,6 +19,9 @@ from holdfast.linalg import Cholesky, damped_least_norm, gram
 class GradientProjection(Resolution):
     """Self-motion down (or up) the gradient of the objective, kept off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
 
+    At each instant these rates make ``dF/dt + w |rates|^2`` as small as the task allows (of an objective that is better when
+    larger, its negative), with ``w = 1 / (2 gain)``: the objective and the joint rates in one weighted sum.
+
     Args:
         arm: The arm.
         objective: Made better all the time; which way that is, it knows.

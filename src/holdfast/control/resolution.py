@@ -302,6 +302,11 @@ def chosen_task(arm: Arm, objective: Objective, task: str | Task | Sequence[str]
     """
     if objective.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the objective belongs to '{objective.arm.name}', not to '{arm.name}'; make it with the same arm")
+    if objective.measured is not None:
+        raise TaskError(
+            f"{objective.name} is not one symbolic program for joints that fail together, so no law can serve it; use single "
+            "failures, relative manipulability or the geometric mean singular value"
+        )
     own = objective.own_task
     chosen = own if task is None and own is not None else as_task(arm, default if task is None else task)
     if own is not None and not own.same_rows(chosen):

@@ -76,6 +76,15 @@ class Objective(ABC):
         """As :meth:`parts`, but the sum *is* the value, or its negative where smaller is better: it can be added to others."""
         return self.parts(q, j, qr, directions)
 
+    @property
+    def measured(self) -> SX | None:
+        """Symbols (k,) in :meth:`parts` for numbers that :meth:`measure` computes; None if all of it is one program."""
+        return None
+
+    def measure(self, q: Array) -> Array:
+        """The numbers (N, k) that ``measured`` stands for, at q (N, n)."""
+        return np.empty((len(q), 0))
+
     def statuses(self, q: Array) -> NDArray[np.uint8]:
         """Status of each row of q (N, n): ``SINGULAR`` where the value is a convention."""
         return np.full(len(q), Status.OK, dtype=np.uint8)
@@ -186,6 +195,16 @@ class WeightedSum(Objective):
             for part in objective.exact_parts(q, j, qr, directions)
         ]
 
+    @property
+    def measured(self) -> SX | None:
+        """Those of its summands; see :attr:`Objective.measured`."""
+        found = [o.measured for _, o in self.terms if o.measured is not None]
+        return ca.vertcat(*found) if found else None
+
+    def measure(self, q: Array) -> Array:
+        """Those of its summands; see :meth:`Objective.measure`."""
+        return np.concatenate([o.measure(q) for _, o in self.terms], axis=1)
+
     def statuses(self, q: Array) -> NDArray[np.uint8]:
         """The first status of its summands that is not ``OK``."""
         found = np.full(len(q), Status.OK, dtype=np.uint8)
@@ -236,6 +255,15 @@ class Opposite(Objective):
             slopes, value = lowest(part.values, [ca.vertcat(*row) for row in part.slopes])
             opposed.append(Part(part.weight, [-value], [[-slopes[k] for k in range(len(directions))]]))
         return opposed
+
+    @property
+    def measured(self) -> SX | None:
+        """Those of the objective."""
+        return self.objective.measured
+
+    def measure(self, q: Array) -> Array:
+        """Those of the objective."""
+        return self.objective.measure(q)
 
     def statuses(self, q: Array) -> NDArray[np.uint8]:
         """Those of the objective."""

@@ -83,7 +83,7 @@ def simulate(
         radius: Of the target in cycles, m (and rad).
 
     Returns:
-        A :class:`Runs`. A row with NaN is undecided; a single start with NaN raises.
+        A :class:`holdfast.Runs`. A row with NaN is undecided; a single start with NaN raises.
 
     Raises:
         InputError: Wrong shapes, joints or options.

@@ -82,8 +82,8 @@ class Runs:
         target: (N, 4, 4), or (N, m) where it was given so.
         lock_time: (N, n) when each joint locks, s or cycles; 0 from the start, infinite: never.
         cycles: Time counts in control cycles.
-        code: (N,) :class:`Outcome`.
-        reason: (N,) :class:`Reason`.
+        code: (N,) :class:`holdfast.simulate.Outcome`.
+        reason: (N,) :class:`holdfast.simulate.Reason`.
         q_final: (N, n) where the run ended, not wrapped.
         x_final: Where the hand ended, in the form of ``target``.
         error: (N,) norm of the task's error at the end.

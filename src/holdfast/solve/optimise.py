@@ -131,7 +131,9 @@ class Ascent:
         turn = ca.dot(d, last) / (ca.sqrt(ca.sumsqr(d) * ca.sumsqr(last)) + 1e-30)
         next_radius = radius * ca.if_else(turn < 0, 0.5, ca.if_else(turn > 0.5, 1.3, 0.85))
         next_radius = ca.if_else(next_radius > _WIDEST, _WIDEST, next_radius)
-        return Kernel(f"ascent of {self.objective.name}", [q, radius, last, p, r], [ca.vertcat(moved, next_radius, d)])
+        measured = self.objective.measured
+        inputs = [q, radius, last, p, r, *([] if measured is None else [measured])]
+        return Kernel(f"ascent of {self.objective.name}", inputs, [ca.vertcat(moved, next_radius, d)])
 
     @cached_property
     def _clear_step(self) -> Kernel | None:
@@ -150,7 +152,8 @@ class Ascent:
         p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
         for _ in range(steps):
             before = state
-            state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], p, r)
+            more = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
+            state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], p, r, *more)
             # A step that divided by zero (a singular configuration) is not taken.
             bad = ~np.isfinite(state).all(axis=1)
             state[bad] = before[bad]
