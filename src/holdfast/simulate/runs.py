@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from holdfast.simulate.closed_loop import Motion, Setting
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 class Outcome(IntEnum):
@@ -67,7 +68,7 @@ class Path:
     q: Array
     x: Array
     error: Array
-    locked: NDArray[np.bool_]
+    locked: Flags
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,7 @@ class Runs:
     path_length: Array
     q_low: Array
     q_high: Array
-    limits_passed: NDArray[np.bool_]
+    limits_passed: Flags
     time: Array
     _motion: Motion = field(repr=False, compare=False)
     _setting: Setting = field(repr=False, compare=False)
