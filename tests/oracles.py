@@ -306,3 +306,19 @@ def slope(function, q: np.ndarray, h: float = 2e-4) -> np.ndarray:
     points = np.concatenate([q + s * h * eye for s in (1, -1, 2, -2)])
     a, b, c, d = np.split(function(points), 4)
     return (8 * (a - b) - (c - d)) / (12 * h)
+
+
+def three_link_fibre(arm: hf.Arm, point: np.ndarray, count: int = 4000) -> np.ndarray:
+    """Every in-limit configuration (K, 3) of three unit links at a point: the last link's direction, two elbows."""
+    phi = np.linspace(-np.pi, np.pi, count, endpoint=False)
+    wrist = point[:2] - np.c_[np.cos(phi), np.sin(phi)]
+    cosine = (np.sum(wrist**2, axis=1) - 2) / 2
+    phi, wrist, cosine = (x[np.abs(cosine) <= 1] for x in (phi, wrist, cosine))
+    out = []
+    for side in (1, -1):
+        elbow = side * np.arccos(cosine)
+        first = np.arctan2(wrist[:, 1], wrist[:, 0]) - np.arctan2(np.sin(elbow), 1 + np.cos(elbow))
+        q = np.stack([first, elbow, phi - first - elbow], axis=1)
+        out.append((q + np.pi) % (2 * np.pi) - np.pi)
+    q = np.concatenate(out)
+    return q[((q >= arm.lower) & (q <= arm.upper)).all(axis=1)]

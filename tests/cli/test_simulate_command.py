@@ -3,27 +3,12 @@
 from __future__ import annotations
 
 import json
-import sys
 
 import matplotlib.image
 import numpy as np
 import pytest
 
-from holdfast.cli import main
-
 CALL = ["simulate", "planar-2r", "--start", "0 -30", "--degrees", "--lock", "1"]
-
-
-@pytest.fixture
-def cli(monkeypatch, capsys):
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["holdfast", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        out, err = capsys.readouterr()
-        return end.value.code, out, err
-
-    return call
 
 
 def test_json_is_the_published_case_c(cli):

@@ -3,29 +3,15 @@
 from __future__ import annotations
 
 import json
-import sys
 
 import matplotlib.image
 import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.cli import main
 
 CALL = ["swing", "planar-3r", "--q", "10 20 30", "--degrees", "--joint", "2", "--damping", "8"]
 Q = np.radians([10.0, 20, 30])
-
-
-@pytest.fixture
-def cli(monkeypatch, capsys):
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["holdfast", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        out, err = capsys.readouterr()
-        return end.value.code, out, err
-
-    return call
 
 
 def test_help_has_an_example(cli):

@@ -322,22 +322,6 @@ def planar3(limit=None):
     return hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0, lower=low, upper=limit) for _ in range(3)], name="planar")
 
 
-def self_motion(arm, point, count=4000):
-    """Every in-limit configuration (K, 3) of three unit links at a point: the last link's direction, two elbows."""
-    phi = np.linspace(-np.pi, np.pi, count, endpoint=False)
-    wrist = point[:2] - np.c_[np.cos(phi), np.sin(phi)]
-    cosine = (np.sum(wrist**2, axis=1) - 2) / 2
-    phi, wrist, cosine = (x[np.abs(cosine) <= 1] for x in (phi, wrist, cosine))
-    out = []
-    for side in (1, -1):
-        elbow = side * np.arccos(cosine)
-        first = np.arctan2(wrist[:, 1], wrist[:, 0]) - np.arctan2(np.sin(elbow), 1 + np.cos(elbow))
-        q = np.stack([first, elbow, phi - first - elbow], axis=1)
-        out.append((q + np.pi) % (2 * np.pi) - np.pi)
-    q = np.concatenate(out)
-    return q[((q >= arm.lower) & (q <= arm.upper)).all(axis=1)]
-
-
 def planar_poses(rng, count, low=0.3, high=2.8):
     distance, angle = rng.uniform(low, high, count), rng.uniform(-1.5, 1.5, count)
     poses = np.tile(np.eye(4), (count, 1, 1))
@@ -367,7 +351,7 @@ def test_exhaustive_search_on_the_self_motion(limit, rng):
     arm = planar3(limit)
     poses = planar_poses(rng, 60)
     best = optimise(arm, poses, RelativeManipulability(arm, "planar"))
-    every = [self_motion(arm, p[:3, 3]) for p in poses]
+    every = [oracles.three_link_fibre(arm, p[:3, 3]) for p in poses]
     # Found wherever there is a sizeable piece of self-motion, and nowhere without any.
     reachable = np.array([len(q) > 0 for q in every])
     assert not best.success[~reachable].any()
@@ -405,7 +389,7 @@ def test_an_index_of_your_own(better, rng):
     assert_sound(arm, best, poses, in_numpy, "planar", sign)
     gained = sign * (best.value - best.start_value)[best.success]
     assert (gained > 0).mean() > 0.9
-    exact = np.array([(sign * in_numpy(self_motion(arm, p[:3, 3]))).max() for p in poses[best.success]])
+    exact = np.array([(sign * in_numpy(oracles.three_link_fibre(arm, p[:3, 3]))).max() for p in poses[best.success]])
     short = exact - sign * best.value[best.success]
     assert (short <= 1e-3 * np.abs(exact)).mean() >= 0.9
     assert (short >= -1e-2 * np.abs(exact)).all()

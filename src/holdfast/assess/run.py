@@ -98,8 +98,10 @@ def _lost(rows: Rows, locks: list[int]) -> str | None:
     reached = (status == Status.OK) | (status == Status.SINGULAR)
     best = reached
     if "optimised_status" in rows:
-        if (rows["optimised_status"] == Status.NOT_COMPUTED).any() or (rows["blocked"] < 0).any():
-            return "optimised_status" if (rows["optimised_status"] == Status.NOT_COMPUTED).any() else "blocked"
+        if (rows["optimised_status"] == Status.NOT_COMPUTED).any():
+            return "optimised_status"
+        if (rows["blocked"] < 0).any():
+            return "blocked"
         best = reached & (rows["optimised_status"] != Status.INFEASIBLE)
     for name, values in rows.items():
         if name in ("position", "quaternion", "weight"):

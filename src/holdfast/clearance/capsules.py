@@ -22,15 +22,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, ValidationError
 
 from holdfast.arm.model import Arm
-from holdfast.errors import ArmError, InputError
-from holdfast.yaml_file import Number, Strict, Three, content, sentence
+from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -121,7 +119,7 @@ class Capsules:
         if sum(lengths) < _POINT:
             raise ArmError(f"the links of '{arm.name}' have no length, so no capsule lies along them; give its capsules")
         width = _SHARE * sum(lengths) if radius is None else radius
-        return cls(tuple(part for link in range(BASE, arm.n) for part in _along(arm, link, width)))
+        return cls(tuple(part for link in range(BASE, arm.n) for part in along_link(arm, link, width)))
 
     def radius_along(self, arm: Arm) -> float | None:
         """The radius, m, if these are the capsules of :meth:`along` and nothing is ignored; else None."""
@@ -148,11 +146,9 @@ class Capsules:
         Raises:
             ArmError: The file cannot be read, or an entry is wrong or names no link of the arm; the sentence says where.
         """
-        file = Path(path)
-        try:
-            return cls.from_dict(content(file, __name__, "radius or links"), arm)
-        except (ArmError, InputError) as error:
-            raise ArmError(f"capsule file '{file}': {error}") from error
+        from holdfast.clearance.capsule_file import read
+
+        return read(Path(path), arm)
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], arm: Arm) -> Capsules:
@@ -161,22 +157,9 @@ class Capsules:
         Raises:
             ArmError: An entry is wrong or names no link of the arm; the sentence says where.
         """
-        try:
-            model = _File.model_validate(data)
-        except ValidationError as error:
-            raise ArmError(sentence(error, _File)) from error
-        if model.radius is None and model.links is None:
-            raise ArmError("it gives neither radius nor links, so there are no capsules; give one of them")
-        named = {_link(arm, name, "links"): (name, entries) for name, entries in (model.links or {}).items()}
-        parts: list[Capsule] = []
-        for link in range(BASE, arm.n):
-            if link in named:
-                name, entries = named[link]
-                parts += [_part(link, e, model.radius, f"links.{name}[{k}]") for k, e in enumerate(entries)]
-            elif model.radius is not None:
-                parts += _along(arm, link, model.radius)
-        pairs = [(_link(arm, a, f"ignore[{k}]"), _link(arm, b, f"ignore[{k}]")) for k, (a, b) in enumerate(model.ignore)]
-        return cls(tuple(parts), tuple(pairs))
+        from holdfast.clearance.capsule_file import parse
+
+        return parse(data, arm)
 
     def to_dict(self, arm: Arm) -> dict[str, Any]:
         """Everything as JSON types, links by name: a file's keys and values."""
@@ -192,41 +175,8 @@ def link_name(arm: Arm, link: int) -> str:
     return "base" if link == BASE else arm.joint_names[link]
 
 
-# ---- the format --------------------------------------------------------------------------------------------------
-
-Positive = Annotated[Number, Field(gt=0)]
-
-
-class _Entry(Strict):
-    start: Three = Field(alias="from")
-    to: Three | None = None
-    radius: Positive | None = None
-
-
-class _File(Strict):
-    radius: Positive | None = None
-    links: dict[str, list[_Entry]] | None = None
-    ignore: list[Annotated[list[str], Field(min_length=2, max_length=2)]] = Field(default_factory=list)
-
-
-def _link(arm: Arm, name: str, place: str) -> int:
-    if name == "base":
-        if name in arm.joint_names:
-            raise ArmError(f"{place}: 'base' is the base here, but '{arm.name}' also has a joint 'base'; rename the joint")
-        return BASE
-    if name not in arm.joint_names:
-        raise ArmError(f"{place}: '{arm.name}' has no link '{name}'; its links are base, {', '.join(arm.joint_names)}")
-    return arm.joint_names.index(name)
-
-
-def _part(link: int, entry: _Entry, radius: float | None, place: str) -> Capsule:
-    own = radius if entry.radius is None else entry.radius
-    if own is None:
-        raise ArmError(f"{place}.radius: it is missing; give it here or for the whole file")
-    return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), own)
-
-
-def _point(values: list[float] | Array) -> Point:
+def as_point(values: list[float] | Array) -> Point:
+    """Three plain numbers."""
     x, y, z = (float(v) for v in values)
     return x, y, z
 
@@ -236,9 +186,10 @@ def _ends(arm: Arm) -> list[Array]:
     return [joint.origin[:3, 3] for joint in arm.joints] + [arm.tool[:3, 3]]
 
 
-def _along(arm: Arm, link: int, radius: float) -> list[Capsule]:
+def along_link(arm: Arm, link: int, radius: float) -> list[Capsule]:
+    """The capsule of :meth:`Capsules.along` for one link, if it has one."""
     end = _ends(arm)[link + 1]
     if np.linalg.norm(end) >= _POINT:
-        return [Capsule(link, (0.0, 0.0, 0.0), _point(end), radius)]
+        return [Capsule(link, (0.0, 0.0, 0.0), as_point(end), radius)]
     slides = link != BASE and arm.joints[link].prismatic
     return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius)] if slides else []
