@@ -106,20 +106,6 @@ def test_parts_of_every_objective_give_its_value(name, rng):
         np.testing.assert_allclose(sign * float(function(x)), objective(x), rtol=1e-5)
 
 
-def planar_configurations(target, count):
-    """Configurations of a planar arm of three unit links whose tip is at target (2,): all of them, by the last link's angle."""
-    last = np.linspace(-np.pi, np.pi, count, endpoint=False)
-    wrist = target - np.stack([np.cos(last), np.sin(last)], axis=1)
-    far = np.linalg.norm(wrist, axis=1)
-    last, wrist, far = last[far <= 2], wrist[far <= 2], far[far <= 2]
-    out = []
-    for side in (1, -1):
-        elbow = side * np.arccos(np.clip(far**2 / 2 - 1, -1, 1))
-        first = np.arctan2(wrist[:, 1], wrist[:, 0]) - elbow / 2
-        out.append(np.stack([first, elbow, last - first - elbow], axis=1))
-    return np.concatenate(out)
-
-
 @pytest.mark.parametrize("kind", ["torque", "sum"])
 def test_the_worst_configuration_against_all_there_are(kind, rng):
     arm = hf.arms.load("planar-3r")
@@ -128,7 +114,7 @@ def test_the_worst_configuration_against_all_there_are(kind, rng):
     worst = Opposite(objective)
     assert worst.better == ("larger" if kind == "torque" else "smaller")
     for target in rng.uniform(-1.5, 1.5, (3, 2)):
-        every = planar_configurations(target, 20_000)
+        every = oracles.three_link_fibre(arm, target, 20_000)
         pose = arm.forward_kinematics(every[0])
         np.testing.assert_allclose(arm.forward_kinematics(every)[:, :3, 3], pose[None, :3, 3].repeat(len(every), 0), atol=1e-12)
         values = objective(every)
