@@ -1,0 +1,85 @@
+"""What an operator is asked to do: steer the hand from a start to a target, and under which conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.control import laws
+from holdfast.control.law import Law
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One condition of a trial: a control law, and whether the task's joint has failed.
+
+    Attributes:
+        number: As people count, from 1.
+        law: Name of the control law.
+        options: Of the law, for example ``pre_failure_error``.
+        failed: The joint is locked at its start angle from the beginning of the trial.
+    """
+
+    number: int
+    law: str
+    failed: bool
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def label(self) -> str:
+        """For people: ``failed, pseudoinverse``."""
+        return f"{'failed' if self.failed else 'healthy'}, {self.law}"
+
+    def make_law(self, arm: Arm, task: str | Task = "planar") -> Law:
+        """The control law of an arm and the task rows that the stick moves.
+
+        Raises:
+            InputError: Unknown law, or an option that it does not have.
+        """
+        return laws.by_name(self.law, arm, task=task, **self.options)
+
+
+SCENARIOS = (
+    Scenario(1, "pseudoinverse", failed=False),
+    Scenario(2, "failure-tolerant", failed=False, options={"pre_failure_error": 0.5}),
+    Scenario(3, "pseudoinverse", failed=True),
+    Scenario(4, "failure-tolerant", failed=True, options={"pre_failure_error": 0.5}),
+)
+"""The four scenarios of Goel et al. 2003, section 4."""
+
+
+@dataclass(frozen=True, eq=False)
+class PointTasks:
+    """N point-to-point tasks.
+
+    Attributes:
+        q0: (N, n) start configurations, rad and m.
+        target: (N, m) centres of the target circles, m.
+        joint: (N,) index from 0 of the joint that is locked, at its start angle, in scenarios with a failure; -1 for none.
+    """
+
+    q0: Array
+    target: Array
+    joint: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.joint)
+
+    def healthy(self, failed: bool) -> Array:
+        """(N, n) 1, or 0 for a joint that is locked."""
+        mask = np.ones(self.q0.shape)
+        rows = np.flatnonzero(self.joint >= 0) if failed else np.empty(0, dtype=np.int64)
+        mask[rows, self.joint[rows]] = 0.0
+        return mask
+
+    def take(self, rows: NDArray[np.int64]) -> PointTasks:
+        """Some of the tasks, in the order given."""
+        return PointTasks(self.q0[rows], self.target[rows], self.joint[rows])

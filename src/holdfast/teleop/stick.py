@@ -1,0 +1,51 @@
+"""The stick: what its deflection commands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Stick:
+    """Rate control: the commanded velocity of the hand is proportional to the deflection, outside a dead zone.
+
+    Nothing is rescaled outside the dead zone.
+
+    Attributes:
+        limit: Largest speed, m/cycle, at full deflection.
+        dead_zone: Radius, m/cycle: slower commands are none.
+
+    Raises:
+        InputError: A limit that is not above 0, or a dead zone that is negative or not below the limit.
+
+    Source: Goel et al. 2003, section 4.
+    """
+
+    limit: float = 0.05
+    dead_zone: float = 0.005
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.limit) and self.limit > 0):
+            raise InputError(f"the stick's limit is {self.limit:g} m/cycle; it must be above 0")
+        if not 0 <= self.dead_zone < self.limit:
+            raise InputError(
+                f"the dead zone is {self.dead_zone:g} m/cycle; it must be 0 or more, and below the limit of {self.limit:g}"
+            )
+
+    def velocity(self, deflection: ArrayLike) -> Array:
+        """Commanded velocity (..., m), m/cycle, for a deflection (..., m) of -1 to 1, 0 in the middle."""
+        return self.limited(self.limit * np.asarray(deflection, dtype=np.float64))
+
+    def limited(self, velocity: ArrayLike) -> Array:
+        """A wanted velocity (..., m), m/cycle, after dead zone and limit."""
+        v = np.asarray(velocity, dtype=np.float64)
+        speed = np.linalg.norm(v, axis=-1, keepdims=True)
+        slower = np.where(speed > self.limit, self.limit / np.maximum(speed, self.limit), 1.0)
+        return np.asarray(np.where(speed < self.dead_zone, 0.0, v * slower))
