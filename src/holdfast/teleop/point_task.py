@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -38,7 +38,7 @@ class Scenario:
         """For people: ``failed, pseudoinverse``."""
         return f"{'failed' if self.failed else 'healthy'}, {self.law}"
 
-    def make_law(self, arm: Arm, task: str | Task = "planar") -> Law:
+    def make_law(self, arm: Arm, task: str | Task | Sequence[str] = "planar") -> Law:
         """The control law of an arm and the task rows that the stick moves.
 
         Raises:
