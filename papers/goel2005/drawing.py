@@ -36,7 +36,12 @@ def target(axes: Axes, place: Array, text: str = "") -> None:
     """A cross where the hand should go."""
     axes.plot(*place, "x", color=ORANGE, markersize=8, markeredgewidth=2, zorder=6)
     if text:
-        axes.annotate(text, place, (7, 5), textcoords="offset points", color=ORANGE)
+        axes.annotate(text, point(place), (7, 5), textcoords="offset points", color=ORANGE)
+
+
+def point(place: Array) -> tuple[float, float]:
+    """As matplotlib's annotations want it."""
+    return float(place[0]), float(place[1])
 
 
 def plane(axes: Axes, reach: float, title: str = "") -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -14,10 +15,9 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.arm import kinematics
 from papers.claims import Claim, Verdict
-from papers.goel2005 import drawing
-from papers.goel2005.part import Part
 from papers.goel2005.three_links import START_5, START_6, TARGET, law, manifold
 from papers.numbers import beside
+from papers.part import Part
 
 Array = NDArray[np.float64]
 
@@ -49,7 +49,8 @@ def theorem() -> list[Claim]:
         Claim(
             "Theorem 1, part 1, 'if'",
             "a command in the span of the failed columns moves only failed joints",
-            f"3R at (20, 40, 60) deg, joint 1, command j1: rates ({', '.join(f'{x:.4f}' for x in one)}), not (1, 0, 0); healthy "
+            f"3R at (20, 40, 60) deg, joint 1, command j1: rates ({', '.join(f'{x:.4f}' for x in one)}), not (1, 0, 0); "
+            "healthy "
             f"joints are commanded in {np.mean(others):.0%} of {TRIALS} random cases",
             "the proof also uses that the failed rates are orthogonal, by W, to the null space. With that condition named, the "
             "statement is true. For n = m there is no null space, and it is true as it stands",
@@ -65,10 +66,14 @@ def theorem() -> list[Claim]:
         Claim(
             "Theorem 1, part 2, and 4.1",
             "the arm is stuck only where the command is in that span and the post-failure weighted Jacobian is rank deficient",
-            f"{TRIALS} random J, W and locked joints, n up to 7, made rank deficient: only failed joints move, up to {worst:.0e} "
-            f"of the rates, exactly for the commands of a subspace of dimension m - rank ({ranks} of {TRIALS} dimensions agree)",
-            "true as a necessary condition, which is what the text claims. It is sufficient for one locked joint; with two it is "
-            f"not: at the same configuration with joints 1 and 2 locked, command (1, 0) is in the span, the rank is 1, and joint 3 "
+            f"{TRIALS} random J, W and locked joints, n up to 7, made rank deficient: only failed joints move, up to "
+            f"{worst:.0e} "
+            f"of the rates, exactly for the commands of a subspace of dimension m - rank ({ranks} of {TRIALS} dimensions "
+            "agree)",
+            "true as a necessary condition, which is what the text claims. It is sufficient for one locked joint; with two it "
+            "is "
+            "not: at the same configuration with joints 1 and 2 locked, command (1, 0) is in the span, the rank is 1, and "
+            "joint 3 "
             f"is commanded {two[2]:.4f}. Of all directions only ({across[0]:.4f}, {across[1]:.4f}) is stuck there "
             f"(joint 3: {abs(stuck[2]):.0e})",
             Verdict.HOLDS,
@@ -144,7 +149,7 @@ def family(degrees: float, folded: bool, sign: int, x: Array = NEAR) -> Array | 
 
 @dataclass(frozen=True)
 class Hopf:
-    """Of the family's stable branch: fold and Hopf point (deg), the eigenvalue there, least determinant from fold to 171 deg."""
+    """Fold and Hopf point of the family (deg), the eigenvalue there, least determinant from the fold to 171 deg, its sign."""
 
     fold: float
     angle: float
@@ -180,7 +185,7 @@ def _must(q: Array | None) -> Array:
     return q
 
 
-def _bisect(f, low: float, high: float) -> float:  # type: ignore[no-untyped-def]
+def _bisect(f: Callable[[float], float], low: float, high: float) -> float:
     from scipy.optimize import brentq
 
     return float(brentq(f, low, high, xtol=1e-10))
@@ -280,7 +285,7 @@ STARTS, CELLS = 720, 800
 
 
 def reachable_share(start: Array, joint: int, starts: int = STARTS, cells: int = CELLS) -> Array:
-    """(C,) share of each healthy trajectory, from C configurations of a start, on which the joint may lock and the target stays.
+    """(C,) share of the healthy trajectories from C configurations of a start on which the joint may lock.
 
     Under the pseudoinverse the healthy hand goes straight, so the share is of the way of the hand; the middles of equal cells
     of it are tested.
@@ -306,7 +311,7 @@ def reachable_share(start: Array, joint: int, starts: int = STARTS, cells: int =
 def may_lock(q: Array, joint: int) -> NDArray[np.bool_]:
     """(N,) whether the target can be reached with this joint where it is: the triangle of the other links closes."""
     if joint == 0:
-        return np.abs(complex(*TARGET) - np.exp(1j * q[:, 0])) <= 2
+        return np.asarray(np.abs(complex(*TARGET) - np.exp(1j * q[:, 0])) <= 2)
     bent, r = np.abs(1 + np.exp(1j * q[:, joint])), np.linalg.norm(TARGET)
     return np.asarray((np.abs(bent - 1) <= r) & (r <= bent + 1))
 
@@ -320,10 +325,11 @@ def r100() -> list[Claim]:
             Claim(
                 f"5.1 R100 of the start of Fig. {name}, joint {joint + 1}",
                 "100 %",
-                f"{np.mean(share == 1):.1%} of {len(share)} configurations (specification {expected:.1%}), Ravg {share.mean():.1%}",
+                f"{np.mean(share == 1):.1%} of {len(share)} configurations (specification {expected:.1%}), Ravg "
+                f"{share.mean():.1%}",
                 f"not for x_i = ({start[0]:g}, {start[1]:g}) as we read it"
                 + (", nor for other signs, which are hard to read: " + _other_signs() if name == "6" else "")
-                + ". R100 = 100 % asks that no configuration of the start ever leaves the joint's range; from (2, 2) that holds "
+                + ". R100 = 100 % asks that no configuration ever leaves the joint's range on its way; from (2, 2) that holds "
                 f"({np.mean(reachable_share(np.array([2.0, 2.0]), joint, 180, 200) == 1):.0%})",
                 Verdict.FALSE,
             )
@@ -350,9 +356,11 @@ def eigenvalues() -> list[Claim]:
             "4.6 one degree of redundancy",
             "eigenvalues can change sign only at zeros of the determinant",
             f"3R, joint 2, x_d = (0.9, 0), theta3 = -theta2 / 2: at theta2 = {beside(h.angle, 168.2262, 4)} deg a pair "
-            f"+-{abs(h.eigenvalue.imag):.3f} i crosses the imaginary axis; the determinant stays above {h.determinant:.1g} from the "
+            f"+-{abs(h.eigenvalue.imag):.3f} i crosses the imaginary axis; the determinant stays above {h.determinant:.1g} "
+            "from the "
             f"fold at {beside(h.fold, 167.909, 3)} deg on",
-            "true of real eigenvalues. A complex pair crosses with a positive determinant, so zeros of the trace must be looked "
+            "true of real eigenvalues. A complex pair crosses with a positive determinant, so zeros of the trace must be "
+            "looked "
             "at, too. For the paper's own target and joint 1 no such point is known to us",
             Verdict.FALSE,
         ),
@@ -361,9 +369,11 @@ def eigenvalues() -> list[Claim]:
             "if the ranges of the trajectory and of the sinks do not overlap, the task is tolerant",
             f"joint 2 locked at 168.30 deg, x_d = (0.9, 0): reachable ({solutions(168.30)} solutions), stationary only "
             f"{', '.join(kinds(168.30))}, no sink; yet runs from beside {np.round(np.degrees(q), 2).tolist()} deg never rest "
-            f"({c.outcome}: peak to peak of joint 1 {beside(c.width, 9.2372, 4)} deg, period {beside(c.period, 79.76, 2)}/Ke, error "
+            f"({c.outcome}: peak to peak of joint 1 {beside(c.width, 9.2372, 4)} deg, period {beside(c.period, 79.76, 2)}/Ke, "
+            "error "
             f"{c.errors[0]:.3f} to {c.errors[1]:.3f} m)",
-            "a limit cycle attracts. The specification's scan finds such windows only for joint 2 and targets 0.85 to 1.03 m away, and "
+            "a limit cycle attracts. The specification's scan finds such windows only for joint 2 and targets 0.85 to 1.03 m "
+            "away, and "
             "none wider than a few tenths of a degree: an excellent rule of thumb, and not a guarantee",
             Verdict.FALSE,
         ),
@@ -376,7 +386,8 @@ def result(folder: Path) -> Part:
     sections = [
         "## A limit cycle where the target is reachable and there is no sink",
         "",
-        "Joint 2 locked, x_d = (0.9, 0), two starts 2 and 5 deg beside the source in joint 1 (0.5 deg in the last row), 12,000/Ke, "
+        "Joint 2 locked, x_d = (0.9, 0), two starts 2 and 5 deg beside the source in joint 1 (0.5 deg in the last row), "
+        "12,000/Ke, "
         "tolerance 1e-11; ours minus the specification's in parentheses.",
         "",
         *cycle_table(),

@@ -24,8 +24,12 @@ def figure_5_6(found: Sequence[hf.Runs], title: str, path: Path) -> None:
         for axes, run in zip(figure.subplots(1, 2, sharey=True), found, strict=True):
             time = _draw(axes, run, 30.0)
             axes.set_title(f"{run.outcome}, error {run.error:.4f} m" if run.error > 1e-4 else str(run.outcome))
-        text = f"{title} (filled). Poses at the start (grey), on the way (light) and at the end (black) after {time:.1f}/Ke; blue: the "
-        drawing.caption(figure, text + "hand; cross: the target. One panel for each elbow.", 100)
+        drawing.caption(
+            figure,
+            f"{title} (filled). Poses at the start (grey), on the way (light) and at the end (black) after {time:.1f}/Ke; "
+            "blue: the hand; cross: the target. One panel for each elbow.",
+            100,
+        )
         save_png(finished(figure), path, dpi=110)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -14,8 +14,8 @@ import holdfast as hf
 from holdfast.solve import self_motion
 from papers.arms import without_limits
 from papers.claims import Claim, Verdict
-from papers.goel2005.part import Part
 from papers.numbers import beside
+from papers.part import Part
 
 Array = NDArray[np.float64]
 
@@ -45,11 +45,11 @@ def postures(place: ArrayLike, joint: int, degrees: float) -> Array:
     return _two(x, 1.0, abs(bent), lambda a, b: (a, b - turn, fixed))
 
 
-def _two(x: complex, first: float, second: float, read) -> Array:  # type: ignore[no-untyped-def]
+def _two(x: complex, first: float, second: float, read: Callable[[float, float], Sequence[float]]) -> Array:
     bend = np.arccos((abs(x) ** 2 - first**2 - second**2) / (2 * first * second))
     found = []
     for b in (bend, -bend):
-        a = np.angle(x) - np.angle(first + second * np.exp(1j * b))
+        a = float(np.angle(x) - np.angle(first + second * np.exp(1j * b)))
         found.append(read(a, b))
     return wrapped(np.degrees(found))
 
@@ -95,8 +95,8 @@ def cases() -> list[Case]:
     out = [
         Case("Fig. 5", tuple(low), 1, TARGET, "converged", (-5.6173, 45, 66.1698), 0),
         Case("Fig. 5, the other elbow", tuple(high), 1, TARGET, "converged", (50.6173, 45, -111.1698), 0),
-        Case("Fig. 6, theta1 = FOLDED", tuple(min(folded, key=lambda q: q[1])), 0, TARGET, "stuck", None, 1.87083),
-        Case("Fig. 6, the other elbow", tuple(max(folded, key=lambda q: q[1])), 0, TARGET, "converged", None, 0),
+        Case("Fig. 6, theta1 = FOLDED", tuple(folded[folded[:, 1].argmin()]), 0, TARGET, "stuck", None, 1.87083),
+        Case("Fig. 6, the other elbow", tuple(folded[folded[:, 1].argmax()]), 0, TARGET, "converged", None, 0),
     ]
     unreachable = {
         120: ((120, -97.7251, 0), 0.194119),
@@ -217,10 +217,12 @@ def claims(found: dict[str, hf.Runs]) -> list[Claim]:
         Claim(
             "Fig. 6 x_i = (-0.9, 1.5), x_d = (1.5, 1.5), joint 1",
             "erroneous convergence although the target is reachable: x_c and j1 line up, (j2 j3) is singular",
-            f"theta1 = {FOLDED:.4f} deg: {folded.outcome} at {degrees(folded.q_final)} deg, error {folded.error:.5f} m; the other "
+            f"theta1 = {FOLDED:.4f} deg: {folded.outcome} at {degrees(folded.q_final)} deg, error {folded.error:.5f} m; the "
+            "other "
             f"elbow arrives. Random starts at this angle: {int((exact.outcome == 'stuck').sum())} of {len(exact)} stuck, 1 deg "
             f"beside it {int((beyond.outcome == 'stuck').sum())}",
-            "it happens, but with a reachable target only where joint 1 stands at 45 deg +- arccos(1 / norm(x_d)) exactly; the sign of "
+            "it happens, but with a reachable target only where joint 1 stands at 45 deg +- arccos(1 / norm(x_d)) exactly; "
+            "the sign of "
             "x_i is hard to read in our text, and the angle is not stated",
             Verdict.PARTLY,
         ),

@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 
 from holdfast.report.figures import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, save_png, style
 from papers.goel2005 import drawing
+from papers.goel2005.drawing import point
 from papers.goel2005.two_links import START, Ended, hand, rate, target, wrapped
 
 GREEN = "#007a5e"
@@ -26,7 +27,7 @@ def figure_1(stuck: Ended, path: Path) -> None:
         at = hand(q[1])
         drawing.arm(axes, q, 0)
         axes.plot([0, at[0]], [0, at[1]], color=SOFT, linestyle=drawing.DASHED)
-        axes.annotate("x$_a$", at / 2, (4, -12), textcoords="offset points", color=SOFT)
+        axes.annotate("x$_a$", point(at / 2), (4, -12), textcoords="offset points", color=SOFT)
         column = np.array([-at[1], at[0]])
         command = x - at
         for vector, text, color, shift, width in (
@@ -34,8 +35,8 @@ def figure_1(stuck: Ended, path: Path) -> None:
             (command, "command", BLUE, (10, 2), 1.8),
         ):
             line = {"arrowstyle": "-|>", "color": color, "linewidth": width, "shrinkA": 0, "shrinkB": 0}
-            axes.annotate("", at + vector, at, arrowprops=line, zorder=5)
-            axes.annotate(text, at + 0.5 * vector, shift, textcoords="offset points", color=color)
+            axes.annotate("", point(at + vector), point(at), arrowprops=line, zorder=5)
+            axes.annotate(text, point(at + 0.5 * vector), shift, textcoords="offset points", color=color)
         drawing.target(axes, x, "target C")
         drawing.plane(axes, 2.4, "Fig. 1: at rest, and yet commanded")
         across = command[0] * column[1] - command[1] * column[0]
@@ -57,13 +58,14 @@ def figure_2(found: Sequence[Ended], path: Path) -> None:
         axes.add_patch(Circle((0, 0), 2, facecolor="#eef1f4", edgecolor=SOFT, linewidth=0.8, zorder=0))
         axes.add_patch(Circle((1, 0), 1, fill=False, edgecolor=BLUE, linewidth=1.5, zorder=1))
         drawing.arm(axes, START, 0)
-        axes.annotate("x(t$_0$)", hand(START[1]), (6, -12), textcoords="offset points")
+        axes.annotate("x(t$_0$)", point(hand(START[1])), (6, -12), textcoords="offset points")
         for f in found:
             drawing.target(axes, f.run.target, f.case.name)
         drawing.plane(axes, 3.1, "Fig. 2: what a lock of joint 1 leaves")
         drawing.caption(
             figure,
-            "Grey: workspace of the healthy arm. Circle: what it is with joint 1 (dot) locked at 0. The same start for the four "
+            "Grey: workspace of the healthy arm. Circle: what it is with joint 1 (dot) locked at 0. The same start for the "
+            "four "
             "targets.",
             62,
         )

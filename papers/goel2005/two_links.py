@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 import holdfast as hf
 from holdfast.simulate import Path
 from papers.claims import Claim, Verdict
-from papers.goel2005.part import Part
 from papers.numbers import beside
+from papers.part import Part
 
 Array = NDArray[np.float64]
 
@@ -71,8 +71,9 @@ def law() -> hf.control.Pseudoinverse:
 
 def target(rho: ArrayLike, phi: ArrayLike) -> Array:
     """(..., 2) the point at polar coordinates (17) about joint 2, phi in degrees."""
-    angle = np.deg2rad(phi)
-    return np.stack(np.broadcast_arrays(1 + rho * np.cos(angle), rho * np.sin(angle)), axis=-1)
+    angle, distance = np.deg2rad(phi), np.asarray(rho, dtype=np.float64)
+    arrays = np.broadcast_arrays(1 + distance * np.cos(angle), distance * np.sin(angle))
+    return np.stack(arrays, axis=-1)
 
 
 def hand(angle: ArrayLike) -> Array:
@@ -153,7 +154,8 @@ def table(found: list[Ended]) -> list[str]:
     return [
         *lines,
         "",
-        f"D: the error goes to and fro between {low:.6f} and {high:.6f} m with a period of {beside(period(moving), PERIOD, 4)} s; "
+        f"D: the error goes to and fro between {low:.6f} and {high:.6f} m with a period of "
+        f"{beside(period(moving), PERIOD, 4)} s; "
         f"the rate of joint 2 stays within {np.ptp(np.gradient(moving.path.q[:, 1], moving.path.time)):.0e} rad/s of itself.",
     ]
 
@@ -220,7 +222,8 @@ def sweep() -> list[Claim]:
         Claim(
             "4.2 case 2: other distances from joint 2",
             "the hand almost always does not converge to the point closest to the target",
-            f"rho = 2 m: {int(rest.sum())} of {len(phi)} come to rest, {np.mean(excess[rest] > 1e-6):.0%} of them elsewhere than "
+            f"rho = 2 m: {int(rest.sum())} of {len(phi)} come to rest, {np.mean(excess[rest] > 1e-6):.0%} of them elsewhere "
+            "than "
             f"at the closest point; their error is largest, {far.error[worst]:.3f} m, at phi = {phi[worst]:g} deg",
             "agrees, and with it that the error is least at phi = 180 deg and largest close to 60",
             Verdict.HOLDS,
@@ -228,7 +231,8 @@ def sweep() -> list[Claim]:
         Claim(
             "4.2 rho = 2 m, abs(phi) < 60 deg",
             "not said in the text; its Fig. 4 has the cross-bar of an H there",
-            f"{int((far.outcome[np.abs(phi) < 60] == 'undecided').sum())} of {int((np.abs(phi) < 60).sum())} targets: the arm runs "
+            f"{int((far.outcome[np.abs(phi) < 60] == 'undecided').sum())} of {int((np.abs(phi) < 60).sum())} targets: the arm "
+            "runs "
             "into the stretched configuration in a finite time, where its Jacobian has no inverse",
             "`hf.simulate` calls it undecided, singular: the specification finds the same",
         ),
@@ -287,7 +291,8 @@ def result(folder: File) -> Part:
     sections = [
         "## The two-link arm beside the specification",
         "",
-        "Start at theta1 = 0, theta2 = -30 deg, joint 1 locked, Ke = 1/s. In parentheses ours minus the specification's; 0 where "
+        "Start at theta1 = 0, theta2 = -30 deg, joint 1 locked, Ke = 1/s. In parentheses ours minus the specification's; 0 "
+        "where "
         "both round to the same digits.",
         "",
         *table(found),
