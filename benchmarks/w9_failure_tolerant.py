@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).parents[1]
-sys.path += [str(ROOT), str(ROOT / "tests" / "control")]  # the batched closed form, and the test's oracle
+sys.path.append(str(Path(__file__).parents[1]))  # the closed form on arrays
+sys.path.append(str(Path(__file__).parents[1] / "tests" / "control"))  # the exact method: the tests' oracle
 
 import harness
 import panda
@@ -249,8 +249,8 @@ def main() -> None:
     for problem in (Problem("planar 3R, m = 2", 3, 2, planar_jacobian), position, pose):
         print(batch(problem, chosen))
     print(
-        "A row is a configuration and a unit direction; the error is that of the peak velocity error of what comes out, relative "
-        f"to the exact optimum, largest of 200 rows. Allowed pre-failure error {ALLOWED:g}.\n"
+        "A row is a configuration and a unit direction; the error is that of the peak velocity error of what comes out, "
+        f"relative to the exact optimum, largest of 200 rows. Allowed pre-failure error {ALLOWED:g}.\n"
     )
     print(one_step(pose, chosen))
 

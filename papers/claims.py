@@ -94,7 +94,7 @@ def page() -> str:
     """The text of ``docs/claims.md``."""
     claims = {name: [c for c in stored(name) if c.verdict] for name in PAPERS}
     every = [c.verdict for of_one in claims.values() for c in of_one]
-    counts = ", ".join(f"{every.count(v)} {v}" for v in Verdict if v)
+    counts = ", ".join(f"{v} {every.count(v)}" for v in Verdict if v)
     lines = [*INTRODUCTION.splitlines(), "", f"{len(every)} statements so far: {counts}."]
     for name, title in PAPERS.items():
         lines += ["", f"## {title}", "", "```sh", f"python -m papers.{name}", "```", ""]

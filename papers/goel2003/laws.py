@@ -329,7 +329,7 @@ def claims(found: list[Statistics]) -> list[Claim]:
             "guaranteed to be less than 30 deg",
             f"above 30 deg in {', '.join(f'{100 * x.value:.1f} % ({100 * x.low:.1f} to {100 * x.high:.1f})' for x in above)} "
             "of random "
-            f"cases ({tasks}; 95 % intervals). Smallest example: 3R at (30, 45, 60) deg, command (0, 1): {pad:.2f} deg",
+            f"cases ({tasks}; 95 % intervals). An example: 3R at (30, 45, 60) deg, command (0, 1): {pad:.2f} deg",
             f"(10) takes the largest angle over failures. It is true of the healthy arm, whose angle is below arcsin(e_pre) "
             f"(largest found {healthy:.3f} deg), which is how we think it is meant; and with a failure where PKE < 0.5. In "
             "general "
@@ -348,7 +348,7 @@ def claims(found: list[Statistics]) -> list[Claim]:
             "II after (9): the optimal damping",
             "an efficient method to compute it is presented in [28]",
             f"PKE has more than one local minimum in {', '.join(f'{x:.2%}' for x in many)} of random cases ({tasks}). A golden "
-            f"section, the obvious choice, ends up to {', '.join(f'{x:.2g}' for x in worst)} of the optimum above it",
+            f"section, the obvious choice, ends up to {', '.join(f'{x:.0%}' for x in worst)} above the optimum",
             "the method of [28] is not described, so nothing is said against it; a search that presumes one minimum is safe "
             "for "
             "m = 2 as far as we know and not for m >= 3. Ours is global",
