@@ -19,6 +19,7 @@ WORKLOADS = (
     "w5_susceptibility",
     "w6_control_step",
     "w8_closed_loop",
+    "w9_failure_tolerant",
     "spectral",
     "start_up",
     "memory",

@@ -5,9 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from papers.abdi2012.__main__ import nominal
-from papers.claims import Claim, table
+from papers.claims import PAGE, PAPERS, Claim, Verdict, page, read, stored, table
 from papers.english1998 import measures, planar
 from papers.english1998.planar import Borders, Planar
+from papers.goel2003 import laws
+from papers.goel2003.peak_error import PeakError, golden
+from papers.goel2005 import statements, three_links, two_links
+from papers.numbers import beside
 
 import holdfast as hf
 
@@ -18,7 +22,9 @@ def arm() -> Planar:
 
 
 def test_table():
-    assert table([Claim("a", "b", "c", "d")])[-1] == "| a | b | c | d |"
+    claims = [Claim("a", "b", "c", "d"), Claim("e", "f", "g, h", "i", Verdict.FALSE)]
+    assert table(claims)[-1] == "| e | f | g, h | i | false as written |"
+    assert read(["text", *table(claims), "", "| x | y |", "|---|---|", "| not | it |"]) == claims
     assert len(nominal(hf.arms.load("pa10-9dof"))) == 2
 
 
@@ -61,3 +67,139 @@ def test_where_the_tool_ends_is_where_it_hangs_in_the_simulation():
     away = [np.linalg.norm(e.tool_position[-1] - e.tool_position[0]) for e in ends]
     assert measures.fallen(hf.susceptibility.swing_angle(panda), q[None])[0] == pytest.approx(max(away), abs=1e-3)
     assert measures.moved_after(panda, q, 3) == pytest.approx(ends[3].drops[1].distance, abs=1e-6)
+
+
+# ---- claims --------------------------------------------------------------------------------------------------------------
+
+
+def test_the_page_of_claims_is_what_the_papers_last_found():
+    assert PAGE.read_text(encoding="utf-8") == page(), "run python -m papers.claims"
+
+
+@pytest.mark.parametrize("name", PAPERS)
+def test_every_paper_has_claims_with_a_verdict(name):
+    claims = stored(name)
+    assert any(c.verdict == Verdict.HOLDS for c in claims)
+    assert all(c.where and c.paper and c.ours for c in claims)
+
+
+def test_differences_are_told():
+    assert beside(1.00000049, 1.0) == "1.000000 (0)"
+    assert beside(1.5, 1.0, 2) == "1.50 (+0.5)"
+    assert beside(-1e-9, 0.0) == "0.000000 (0)"
+
+
+# ---- Goel, Maciejewski, Balakrishnan 2005 ---------------------------------------------------------------------------------
+
+
+def test_the_four_targets_of_the_two_link_arm():
+    found = [two_links.ended(case) for case in two_links.CASES]
+    assert [str(f.run.outcome) for f in found] == ["converged", "stuck", "stuck", "moving"]
+    assert two_links.period(found[-1]) == pytest.approx(2 * np.pi / np.sqrt(3), rel=1e-5)
+    for f in found[:3]:
+        assert f.angle == pytest.approx(f.case.angle, abs=1e-4)
+    # (15) is row 2 of the inverse Jacobian times the error
+    x, angle = two_links.target(1.7, 50), 0.8
+    j = np.array([[-np.sin(angle), -np.sin(angle)], [1 + np.cos(angle), np.cos(angle)]])
+    assert two_links.rate(angle, x) == pytest.approx(np.linalg.solve(j, x - two_links.hand(angle))[1])
+
+
+@pytest.mark.parametrize("joint", [0, 1, 2])
+def test_postures_reach_the_place_with_the_joint_where_it_is(joint, rng):
+    for angle in rng.uniform(-80, 80, 3):
+        found = three_links.postures([1.2, 0.9], joint, angle)
+        np.testing.assert_allclose(found[:, joint], angle)
+        hand = three_links.law().arm.forward_kinematics(np.deg2rad(found))[:, :2, 3]
+        np.testing.assert_allclose(hand, [[1.2, 0.9]] * 2, atol=1e-12)
+
+
+def test_cases_of_figures_5_to_7():
+    for case in three_links.cases():
+        run = three_links.run(case.start, case.joint, case.target)
+        assert run.outcome == case.outcome, case.name
+        assert case.final is None or three_links.away(run.q_final, case.final) < 1e-4
+
+
+def test_stuck_commands_are_those_of_the_corrected_theorem(monkeypatch):
+    monkeypatch.setattr(statements, "TRIALS", 200)
+    worst, agree = statements.exact_form()
+    assert worst < 1e-9
+    assert agree == 200
+
+
+def test_eigenvalues_cross_the_axis_where_the_determinant_does_not_vanish(rng):
+    h = statements.hopf()
+    assert h.angle == pytest.approx(168.2262, abs=1e-4)
+    assert h.fold == pytest.approx(167.909, abs=1e-3)
+    assert abs(h.eigenvalue.real) < 1e-9
+    assert abs(h.eigenvalue.imag) == pytest.approx(0.086, abs=1e-3)
+    assert h.determinant > 0
+    assert "sink" not in statements.kinds(168.30)
+    assert statements.solutions(168.30) == 2
+    # The linearisation against differences of the law, and the family against its definition.
+    for folded in (False, True):
+        q = statements.family(160.0, folded, 1, np.array([1.1, 0.2]))
+        x = np.array([1.1, 0.2])
+
+        def rates(q, x=x):
+            law = three_links.law()
+            return law.velocity(q, x - law.arm.forward_kinematics(q)[:2, 3])[[0, 2]]
+
+        np.testing.assert_allclose(rates(q), 0, atol=1e-12)
+        columns = [(rates(q + h) - rates(q - h)) / 2e-6 for h in 1e-6 * np.eye(3)[[0, 2]]]
+        np.testing.assert_allclose(statements.linearised(q, x), np.transpose(columns), atol=1e-6)
+
+
+def test_a_reachable_target_without_a_sink_that_is_never_reached():
+    found = statements.cycle(168.42, 3.0, time_limit=3000.0)
+    assert found.outcome == "moving"
+    assert found.width == pytest.approx(17.770, abs=2e-3)
+    assert found.period == pytest.approx(107.28, abs=0.02)
+
+
+def test_r100_of_the_starts():
+    share = statements.reachable_share(three_links.START_5, 1, 72, 100)
+    assert np.mean(share == 1) == pytest.approx(0.707, abs=0.05)
+    assert share.mean() == pytest.approx(0.8063, abs=0.02)
+
+
+# ---- Goel, Maciejewski, Balakrishnan, Proctor 2003 --------------------------------------------------------------------------
+
+
+def test_closed_form_of_the_peak_error(rng):
+    j, u = rng.normal(size=(6, 4, 6)), rng.normal(size=(6, 4))
+    u /= np.linalg.norm(u, axis=1, keepdims=True)
+    error = PeakError(j, u, 0.4)
+    damping = rng.uniform(0, 2, 6)
+    for k in range(6):
+        rates = j[k].T @ np.linalg.solve(j[k] @ j[k].T + damping[k] ** 2 * np.eye(4), u[k])
+        failed = u[k][:, None] - (j[k] @ rates)[:, None] + j[k] * rates
+        assert error(damping)[k] == pytest.approx(np.linalg.norm(failed, axis=0).max(), rel=1e-9)
+        most = j[k].T @ np.linalg.solve(j[k] @ j[k].T + error.largest[k] ** 2 * np.eye(4), u[k])
+        assert np.linalg.norm(u[k] - j[k] @ most) == pytest.approx(0.4, rel=1e-9)
+    np.testing.assert_allclose(error(damping[:, None])[:, 0], error(damping), rtol=1e-12)
+
+
+def test_searches_of_the_damping():
+    found = golden(lambda x: (x - 0.3) ** 2, np.zeros(2), np.array([1.0, 0.2]), 60)
+    np.testing.assert_allclose(found, [0.3, 0.2], atol=1e-6)
+    q, u = np.array(laws.COUNTEREXAMPLE_Q), np.array(laws.COUNTEREXAMPLE_U)
+    error = PeakError(laws.jacobians("pose", q[None]), (u / np.linalg.norm(u))[None], 0.5)
+    local = error.golden_section()
+    assert local[0] == pytest.approx(0.671012, abs=1e-5)
+    assert error(local)[0] == pytest.approx(0.526479, abs=1e-6)
+    least, minima = error.dense()
+    assert least[0] == pytest.approx(0.430388, abs=1e-6)
+    assert minima[0] == 2
+    for damping, value in laws.COUNTEREXAMPLE:
+        assert error(np.array([damping]))[0] == pytest.approx(value, abs=2e-6)
+
+
+def test_statistics_of_the_planar_arm():
+    s = laws.statistics("planar", 1000)
+    assert len(s) == 1000
+    told = dict(zip([what for what, _ in laws.EXPECTED], laws.summary(s), strict=True))
+    assert told["more than one local minimum, %"] == 0
+    assert told["PAD > 30 deg, %"] == pytest.approx(70.5, abs=5)
+    assert told["optimum at the largest damping, %"] == pytest.approx(41.6, abs=5)
+    assert told["healthy angle, largest, deg"] < 30

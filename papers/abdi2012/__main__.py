@@ -13,7 +13,7 @@ from holdfast.assess.facts import joint_positions
 from holdfast.assess.region import builtin_region
 from holdfast.report import Scale, Scene, View, view_figure
 from holdfast.report.figures import style
-from papers.claims import Claim, table
+from papers.claims import Claim, Verdict, table
 
 HERE = Path(__file__).parent
 POSES = (500, 2000, 100_000)
@@ -32,8 +32,9 @@ def nominal(arm: hf.Arm) -> list[Claim]:
             "(968, 0, 041)",
             f"({x:.2f}, {abs(y):.2f}, {z:.2f})",
             f"x differs by {968 - x:.2f} mm: Table I gives {x:.2f}, which rounds to {x:.0f}; z and y agree",
+            Verdict.PARTLY,
         ),
-        Claim("V.B pitch (deg)", "174", f"{pitch:.3f}", "agrees"),
+        Claim("V.B pitch (deg)", "174", f"{pitch:.3f}", "agrees", Verdict.HOLDS),
     ]
 
 
@@ -47,6 +48,7 @@ def original_arm() -> list[Claim]:
             "very close to a singularity for most configurations",
             f"exactly singular in every configuration (joint {names})",
             "stronger than stated: the self-motion never moves the elbow",
+            Verdict.HOLDS,
         )
     ]
 
@@ -68,6 +70,7 @@ def study(arm: hf.Arm, index: hf.indices.Index) -> tuple[list[Claim], list[hf.As
                 f"{d.reached} ({lost:.1%} not found)",
                 "about 7 % of the printed region cannot be reached within Table I's limits; the paper must have redrawn, "
                 "or its region or limits differ from the text",
+                Verdict.OPEN if d.samples == 500 else Verdict.NONE,
             ),
             Claim(
                 f"Fig. 3, N = {d.samples}: 5 / 50 / 95 % quantile, mean",
@@ -86,6 +89,7 @@ def study(arm: hf.Arm, index: hf.indices.Index) -> tuple[list[Claim], list[hf.As
             "similar",
             f"largest gap between the two CDFs {gap:.3f}",
             f"{'within' if gap < sum_of_bands else 'outside'} the sum of the two 95 % bands, {sum_of_bands:.3f}",
+            Verdict.HOLDS if gap < sum_of_bands else Verdict.FALSE,
         )
     )
     return claims, runs
@@ -115,6 +119,7 @@ def optimised(rho: hf.Assessment, kr: hf.Assessment) -> list[Claim]:
             "less where the start was good",
             ", ".join(f"{g:.3f}" for g in gains),
             "confirmed" if gains == sorted(gains, reverse=True) else "not confirmed",
+            Verdict.HOLDS if gains == sorted(gains, reverse=True) else Verdict.FALSE,
         )
     )
     claims.append(
@@ -123,6 +128,7 @@ def optimised(rho: hf.Assessment, kr: hf.Assessment) -> list[Claim]:
             "greatly",
             f"{rho.interval(at_least=0.2)} before, {rho.interval(at_least=0.2, optimised=True)} after",
             "confirmed; a pose without a configuration counts as failed",
+            Verdict.HOLDS,
         )
     )
     return claims

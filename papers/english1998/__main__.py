@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from papers.claims import Claim, table
+from papers.claims import Claim, Verdict, table
 from papers.english1998 import figures, hardware, measures, planar
 from papers.english1998.hardware import Hardware
 from papers.english1998.planar import Border, Borders, Extremes, Global, Planar
@@ -45,12 +45,14 @@ def point(p: Planar, found: Extremes) -> list[Claim]:
             "high relative torque at joints 2 and 3",
             f"cost {found.values[1]:.4f}, relative torques {signed(worst)}",
             f"agrees; tracing all configurations gives {found.traced[1]:.4f}",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 4 best",
             "low relative torque at all three joints",
             f"cost {found.values[0]:.4f}, relative torques {signed(best)}",
             f"agrees; tracing all configurations gives {found.traced[0]:.4f}",
+            Verdict.HOLDS,
         ),
     ]
 
@@ -80,30 +82,35 @@ def torque_line(p: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Glob
             f"{there.value.max():.2%}, at x = {there.poses[there.value.argmax(), 0, 3]:.2f} m",
             f"agrees; the extended Jacobian, which does not lag, {exact.value.max():.2%}; "
             f"with the gain that follow() chooses {default.value.max():.2%}",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 5 last link",
             "near vertical over the path",
             f"root mean square of the cosine of its angle {np.sqrt(np.mean(last**2)):.2f}, largest {last.max():.2f}",
             "agrees but near the left end",
+            Verdict.PARTLY,
         ),
         Claim(
             "Fig. 5 asymmetry",
             "solutions over the right half are of better quality",
             f"mean cost {there.value[:half].mean():.3f} right, {there.value[half + 1 :].mean():.3f} left",
             "agrees: a local minimum is followed",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 5 left to right",
             "mirror image (dashed)",
             f"largest difference of cost after as many seconds {mirrored:.1e}",
             "agrees",
+            Verdict.HOLDS,
         ),
         Claim(
             "VI-A any point has a configuration at least as good as its mirror image",
             "stated",
             f"best of all configurations: largest difference left to right {np.abs(best.value - best.value[::-1]).max():.1e}",
             f"agrees ({len(best.x)} points)",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 5 joint displacement",
@@ -112,6 +119,7 @@ def torque_line(p: Planar, there: hf.Trajectory, back: hf.Trajectory, best: Glob
             f"{there.poses[there.rate_norm.argmax(), 0, 3]:.2f} m, median {np.median(there.rate_norm):.2f} rad/s",
             "agrees: the minimum moves fast where it is flat (curvature falls to "
             f"{there.curvature.min() / there.curvature.max():.1%} of its largest), without an algorithmic singularity",
+            Verdict.HOLDS,
         ),
         Claim(
             "beyond the paper: the global answer",
@@ -146,12 +154,14 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             "2.1 % of the largest",
             f"{motion.value.max():.2%} (joint 2 swings {180 * np.sqrt(motion.value.max()):.1f} deg), at both ends",
             "agrees by choice of the line",
+            Verdict.OPEN,
         ),
         Claim(
             "Fig. 6 zero over most of the trajectory",
             "stated",
             f"reachable on {border.x / x:.0%} of the line; below 0.1 % of the worst on {zero:.0%} of the motion",
             "agrees; gradient projection lags behind the border where it enters",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 6 rate spikes",
@@ -160,6 +170,7 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             + f"; median {np.median(motion.rate_norm):.2f} rad/s",
             f"agrees; the borders are at x = +-{border.x:.3f} m. The heights depend on the gain: "
             f"{slow.rate_norm.max():.1f} rad/s with a tenth of it, {fast.rate_norm.max():.1f} rad/s with four times",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 7 splitting minimum",
@@ -167,6 +178,7 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             "see the figure",
             "agrees: inside, two configurations have no swing and the one between them has become a local maximum; the arm "
             "goes to the one with the larger first joint angle, as theirs does",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 8 rate norm capped at 1 rad/s: hand",
@@ -174,6 +186,7 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             f"rate norm at most {capped.rate_norm.max():.4f} rad/s; hand within {capped.position_error.max():.1e} m of its "
             f"path, without the cap {motion.position_error.max():.1e} m",
             "agrees: only the self-motion is slowed",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 8 criterion and joint values",
@@ -183,6 +196,7 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             f"root mean square {np.sqrt(np.mean((capped.q - motion.q) ** 2)):.3f} rad",
             f"agrees, but the criterion rises to {capped.value[inside].max():.2%} behind the right-hand border "
             f"(without the cap {motion.value[inside].max():.2%}): the slowed arm leaves the middle late",
+            Verdict.PARTLY,
         ),
         Claim(
             "beyond the paper: extended Jacobian on the same line",
@@ -213,6 +227,7 @@ def rule(borders: list[Border], lines: int, barred: int) -> Claim:
         f"self-motion is below {flattest:.0e} of that outside; the arm is singular at none (smallest singular value of J "
         f"{nearest:.2f} and above)",
         "agrees: every border is an algorithmic singularity; found by bisection in closed form, no controller in between",
+        Verdict.HOLDS,
     )
 
 
@@ -237,6 +252,7 @@ def arm_on_its_side(h: Hardware) -> list[Claim]:
             f"axis 2 within {np.rad2deg(h.tilt(h.small).max()):.2f} deg of the vertical, "
             f"static torque at most {static:.2f} N m",
             "agrees, without being told; it needs an axis 1 that is not vertical",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 10 torque of joint 2, made small, at 13, 6.5, 3.25 s",
@@ -244,12 +260,14 @@ def arm_on_its_side(h: Hardware) -> list[Claim]:
             ", ".join(f"{t:.2f}" for t in torques) + " N m at most",
             f"agrees: {torques[2] / torques[0]:.0f} times from 13 to 3.25 s; rigid-body dynamics with the viscous friction of "
             "the URDF file, so without the oscillations of their controller",
+            Verdict.HOLDS,
         ),
         Claim(
             "Fig. 12 torque of joint 2, made large, at 13 s",
             "much higher than in Fig. 10, also than at 3.25 s",
             f"{large:.1f} N m at most, {float(np.abs(h.torque(h.large, 1.0)).min()):.1f} N m at least",
             f"agrees: {large / torques[2]:.0f} times the fastest motion made small",
+            Verdict.HOLDS,
         ),
         Claim(
             "beyond the paper: the global answer",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,7 @@ from holdfast.indices.susceptibility import Susceptibility
 from holdfast.paths import Constant, TimedPath, line
 from holdfast.solve import fibres, self_motion
 from holdfast.solve.fibre_path import best_path_over
+from papers.arms import without_limits
 
 Array = NDArray[np.float64]
 
@@ -53,8 +54,7 @@ class Planar:
     @classmethod
     def load(cls) -> Planar:
         """The built-in arm, unit masses and centres of mass in the middle of the links."""
-        limited = hf.arms.load("planar-3r")
-        arm = replace(limited, joints=tuple(replace(j, lower=-np.inf, upper=np.inf) for j in limited.joints))
+        arm = without_limits("planar-3r")
         largest = hf.susceptibility.largest_static_torque(arm)
         torque = hf.susceptibility.torque(arm, 1 / (3 * largest**2))
         return cls(arm, torque, hf.susceptibility.swing_angle(arm, np.array([0, 1, 0]) / np.pi**2))

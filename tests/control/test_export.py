@@ -77,13 +77,17 @@ def test_what_has_no_answer_stops_the_arm(tmp_path):
 
 
 @needs_compiler
-def test_seven_joints(rng, tmp_path, monkeypatch):
+def test_seven_joints_and_a_pose(rng, tmp_path, monkeypatch):
+    """The longest law there is; unoptimised, as the compiler takes long for 29,000 operations."""
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
-    law = hf.control.failure_tolerant(damping_oracle.arm_7r(), ["vx", "vz"])
-    call = compiled(*law.export_c(tmp_path, "seven"), 2, 7, 3, "-O0")
-    q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 2))
-    for a, b, rates in zip(q, v, law.velocity(q, v), strict=True):
-        np.testing.assert_allclose(call(a, b)[1], rates, rtol=1e-12, atol=1e-12 * np.abs(rates).max())
+    law = hf.control.failure_tolerant(damping_oracle.arm_7r(), "pose")
+    call = compiled(*law.export_c(tmp_path, "seven"), 6, 7, 3, "-O0")
+    q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 6))
+    for a, b, rates, damping in zip(q, v, law.velocity(q, v), law.damping(q, v), strict=True):
+        code, got, told = call(a, b)
+        assert code == 0
+        np.testing.assert_allclose(got, rates, rtol=1e-12, atol=1e-12 * np.abs(rates).max())
+        assert told[0] == pytest.approx(damping, rel=1e-12)
 
 
 def test_what_is_refused(tmp_path):

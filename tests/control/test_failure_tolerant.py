@@ -135,6 +135,26 @@ def test_it_is_the_optimum_of_the_polynomials(planar, seven, rng, task, count):
     np.testing.assert_allclose(law.largest_damping(q, v), expected[:, 2], rtol=1e-6)
 
 
+def test_compiled_pose_law_does_what_the_virtual_machine_does(seven, rng):
+    """The one compilation of a law for six rows in these tests, 5 s of it."""
+    there = seven["pose"]
+    here = hf.control.failure_tolerant(there.arm, "pose")
+    q, v = samples(there, rng, 1000)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HOLDFAST_BACKEND", "heyoka")
+        rates = here.velocity(q, v)
+        patch.setenv("HOLDFAST_BACKEND", "casadi")
+        peak = here.peak_velocity_error(q, v)
+    assert here._velocity_kernel.backend == "heyoka"
+    expected = there.velocity(q, v)
+    off = np.abs(rates - expected).max(axis=1) / np.abs(expected).max(axis=1)
+    # Sines differ in the last digit, and where PKE is flat a damping by the square root of that.
+    assert (off < 1e-12).mean() > 0.9
+    assert off.max() < 1e-6
+    np.testing.assert_allclose(peak, there.peak_velocity_error(q, v), rtol=1e-9)
+    np.testing.assert_allclose(here.largest_damping(q, v), there.largest_damping(q, v), rtol=1e-11)
+
+
 @pytest.mark.parametrize("allowed", [0.05, 0.95])
 def test_other_allowed_errors(rng, allowed, monkeypatch):
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")

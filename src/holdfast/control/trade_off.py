@@ -21,6 +21,7 @@ from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
@@ -80,24 +81,31 @@ class TradeOff:
 
         with figures.style():
             figure = Figure(figsize=(figures.WIDTH, 3.9))
-            panels = zip(
-                figure.subplots(1, 2),
-                ("gain", "healthy_error"),
-                ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
-                ("What the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
-                strict=True,
-            )
-            for axes, of, ylabel, title in panels:
-                q05, q25, q50, q75, q95 = self.quantiles(of)
-                axes.fill_between(self.allowed, q05, q95, color=figures.SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
-                axes.fill_between(self.allowed, q25, q75, color=figures.SKY, linewidth=0, label="25 to 75 %")
-                axes.plot(self.allowed, q50, color=figures.BLUE, linewidth=1.9, label="median")
-                axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, self.allowed[-1]))
-                axes.set_ylim(0, 1.02)
-                axes.set_title(title)
-            axes.plot(self.allowed, self.allowed, color=figures.ORANGE, linestyle=(0, (4.5, 2)), label="all that is allowed")
-            figures.legend_below(figure, axes, 4)
+            gain, price = figure.subplots(1, 2)
+            self.draw(gain, price)
+            figures.legend_below(figure, price, 4)
             return figures.finished(figure)
+
+    def draw(self, gain: Axes, price: Axes) -> None:
+        """The two panels of :meth:`figure`, into axes that are there."""
+        from holdfast.report import figures
+
+        panels = zip(
+            (gain, price),
+            ("gain", "healthy_error"),
+            ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
+            ("What the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
+            strict=True,
+        )
+        for axes, of, ylabel, title in panels:
+            q05, q25, q50, q75, q95 = self.quantiles(of)
+            axes.fill_between(self.allowed, q05, q95, color=figures.SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
+            axes.fill_between(self.allowed, q25, q75, color=figures.SKY, linewidth=0, label="25 to 75 %")
+            axes.plot(self.allowed, q50, color=figures.BLUE, linewidth=1.9, label="median")
+            axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, self.allowed[-1]))
+            axes.set_ylim(0, 1.02)
+            axes.set_title(title)
+        price.plot(self.allowed, self.allowed, color=figures.ORANGE, linestyle=(0, (4.5, 2)), label="all that is allowed")
 
 
 def trade_off(

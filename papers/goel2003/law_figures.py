@@ -1,0 +1,48 @@
+"""Figures of section II; the paper has none of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import holdfast as hf
+from holdfast.report.figures import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
+
+if TYPE_CHECKING:
+    from papers.goel2003.laws import TwoMinima
+
+
+def two_minima(found: TwoMinima, path: Path) -> None:
+    """PKE over the damping, for the counterexample."""
+    largest = float(found.error.largest[0])
+    damping = np.geomspace(1e-4, largest, 1500)
+    with style():
+        figure = Figure(figsize=(WIDTH * 0.62, 4.4))
+        axes = figure.subplots()
+        axes.semilogx(damping, found.error(damping[None])[0], color=BLUE, label="peak velocity error")
+        none = float(found.error(np.zeros(1))[0])
+        axes.axhline(none, color=SOFT, linestyle=(0, (1.2, 1.6)), label="pseudoinverse (no damping)")
+        axes.plot(*found.law, "o", color=BLUE, markersize=8, label=f"failure-tolerant inverse, {found.law[1]:.4f}")
+        axes.plot(*found.golden, "s", color=ORANGE, markersize=7, label=f"golden section, {found.golden[1]:.4f}")
+        axes.set(xlabel="damping, unit of the singular values (1 m)", ylabel="peak velocity error, of the commanded speed")
+        axes.set_title("7R arm, pose: two minima")
+        axes.set_xlim(1e-4, largest)
+        legend_below(figure, axes, 2)
+        save_png(finished(figure), path, dpi=110)
+
+
+def trade_off(curves: Sequence[hf.control.TradeOff], path: Path) -> None:
+    """Post-failure gain and pre-failure price against the allowed error, an arm per row."""
+    with style():
+        figure = Figure(figsize=(WIDTH, 7.6))
+        for row, curve in zip(figure.subplots(len(curves), 2), curves, strict=True):
+            curve.draw(*row)
+            row[0].set_title(f"{curve.arm.name}, {curve.task.name}: what the failed arm gains")
+            for axes in row:
+                axes.axvline(0.5, color=SOFT, linestyle=(0, (1.2, 1.6)), label="the paper's choice")
+        legend_below(figure, row[1], 5)
+        save_png(finished(figure), path, dpi=110)
