@@ -107,6 +107,7 @@ class Protocol:
         name: For people.
         arm: The arm.
         arm_spec: How the file names it.
+        arm_file: Where its description is; None for a built-in arm.
         rows: Task rows that the stick moves.
         rate: Control cycles per second.
         substeps: Euler steps in a cycle.
@@ -125,6 +126,7 @@ class Protocol:
     name: str
     arm: Arm
     arm_spec: str
+    arm_file: Path | None
     rows: Task
     rate: float
     substeps: int
@@ -193,7 +195,7 @@ class Protocol:
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120, default_flow_style=None)
 
     def write(self, path: str | Path) -> Path:
-        """Write :meth:`text` to a file.
+        """Write :meth:`text` to a file, and the arm's own file, if it has one, beside it.
 
         Raises:
             StoreError: It cannot be written.
@@ -201,6 +203,8 @@ class Protocol:
         file = Path(path)
         try:
             file.write_text(self.text(), encoding="utf-8")
+            if self.arm_file is not None and not (beside := file.parent / self.arm_spec).exists():
+                beside.write_bytes(self.arm_file.read_bytes())
         except OSError as error:
             raise StoreError(f"cannot write '{file}': {error.strerror or error}; choose another path") from error
         return file
@@ -282,8 +286,8 @@ class _File(Strict):
 
 
 def _protocol(model: _File, folder: Path) -> Protocol:
-    beside = folder / model.arm
-    arm = arms.resolve(model.arm if model.arm in arms.names() or not beside.exists() else str(beside))
+    arm_file = None if model.arm in arms.names() else folder / model.arm
+    arm = arms.resolve(model.arm if arm_file is None or not arm_file.exists() else str(arm_file))
     rows = as_task(arm, model.task)
     for k, task in enumerate(model.tasks):
         for what, values, wanted in (("q0", task.q0, arm.n), ("target", task.target, rows.m)):
@@ -298,7 +302,8 @@ def _protocol(model: _File, folder: Path) -> Protocol:
     protocol = Protocol(
         name=model.name,
         arm=arm,
-        arm_spec=model.arm,
+        arm_spec=model.arm if arm_file is None else arm_file.name,
+        arm_file=arm_file,
         rows=rows,
         rate=model.rate,
         substeps=model.substeps,

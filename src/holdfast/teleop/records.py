@@ -1,0 +1,551 @@
+"""The records of an experiment: one SQLite file, written as things happen, that no crash can spoil.
+
+What has been acknowledged, that is, what a method returned from, is on the disk: a killed program, or a power cut, loses at
+most what came after. Subjects have codes, never names.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sqlite3
+from collections.abc import Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import InputError, StoreError
+from holdfast.teleop import protocol as protocols
+from holdfast.teleop.order import next_row
+from holdfast.teleop.point_task import PointTasks
+from holdfast.teleop.protocol import Protocol
+from holdfast.teleop.trials import End, Trials
+from holdfast.versions import versions
+
+Array = NDArray[np.float64]
+
+FILE, PROTOCOL = "records.sqlite", "protocol.yaml"
+_FORMAT = 1
+_CODE = re.compile("[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
+
+_SCHEMA = """
+CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE subjects (
+    code TEXT PRIMARY KEY, number INTEGER NOT NULL UNIQUE, row INTEGER NOT NULL, kind TEXT NOT NULL, state TEXT NOT NULL,
+    since TEXT NOT NULL, answers TEXT NOT NULL DEFAULT '{}', note TEXT NOT NULL DEFAULT ''
+) WITHOUT ROWID;
+CREATE TABLE trials (
+    id INTEGER PRIMARY KEY, subject TEXT NOT NULL REFERENCES subjects(code) ON DELETE CASCADE, kind TEXT NOT NULL,
+    position INTEGER NOT NULL, task INTEGER NOT NULL, scenario INTEGER NOT NULL, joint INTEGER NOT NULL, q0 BLOB NOT NULL,
+    target BLOB NOT NULL, began TEXT NOT NULL, ended TEXT, end INTEGER, rating INTEGER, answers TEXT NOT NULL DEFAULT '{}'
+);
+CREATE INDEX trials_of ON trials (subject, kind, position);
+CREATE TABLE cycles (
+    trial INTEGER NOT NULL REFERENCES trials(id) ON DELETE CASCADE, k INTEGER NOT NULL, time REAL NOT NULL,
+    velocity BLOB NOT NULL, q BLOB NOT NULL, PRIMARY KEY (trial, k)
+) WITHOUT ROWID;
+CREATE TABLE events (
+    id INTEGER PRIMARY KEY, trial INTEGER REFERENCES trials(id) ON DELETE CASCADE,
+    subject TEXT REFERENCES subjects(code) ON DELETE CASCADE, k INTEGER, at TEXT NOT NULL, kind TEXT NOT NULL,
+    data TEXT NOT NULL DEFAULT '{}'
+);
+CREATE INDEX events_of ON events (trial);
+"""
+
+
+_SUBJECT = "code, number, row, kind, state, since, answers, note"
+
+
+class Kind(StrEnum):
+    """What a trial is for."""
+
+    PILOT = "pilot"
+    TRAINING = "training"
+    TRIAL = "trial"
+
+
+class State(StrEnum):
+    """Where a subject's session stands."""
+
+    OPEN = "open"
+    COMPLETED = "completed"
+    DROPPED = "dropped"
+
+
+class Who(StrEnum):
+    """What kind of subject it is: simulated ones are told from people for ever."""
+
+    PERSON = "person"
+    SIMULATED = "simulated"
+    COMPUTER = "computer"
+
+
+@dataclass(frozen=True)
+class Subject:
+    """One subject.
+
+    Attributes:
+        code: As the laboratory calls it; no name.
+        number: Running number, from 0: with the protocol's seed it makes the order of the scenarios.
+        row: Of the balanced square.
+        kind: A person, or not.
+        state: Of the session.
+        since: When the subject was added, UTC, ISO 8601.
+        answers: What the subject answered besides the ratings, for example to the questions of the beginning.
+        note: The experimenter's.
+    """
+
+    code: str
+    number: int
+    row: int
+    kind: Who
+    state: State
+    since: str
+    answers: Mapping[str, Any]
+    note: str
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One trial as it stands in the records, without its cycles.
+
+    Attributes:
+        id: Its number in the records.
+        subject: Code.
+        kind: What it is for.
+        position: In the session, from 0, counted for each kind.
+        task: Index from 0 of the protocol's task; -1 in training.
+        scenario: Index from 0 of the protocol's scenario.
+        joint: Index from 0 of the joint that the task has fail; -1 for none.
+        q0: (n,) start, rad and m.
+        target: (m,) m.
+        began: UTC, ISO 8601.
+        ended: Likewise; None for a trial that was broken off or is under way.
+        end: How it ended.
+        rating: Step from 0; None where there is none.
+        answers: To further questions after the trial.
+    """
+
+    id: int
+    subject: str
+    kind: Kind
+    position: int
+    task: int
+    scenario: int
+    joint: int
+    q0: Array
+    target: Array
+    began: str
+    ended: str | None
+    end: End
+    rating: int | None
+    answers: Mapping[str, Any]
+
+
+class Records:
+    """The records of one experiment in a folder: ``protocol.yaml`` and ``records.sqlite``.
+
+    One connection, for one thread; several programs may have the same folder open. See :meth:`create` and :meth:`open`.
+
+    Attributes:
+        folder: The folder.
+        protocol: The protocol as it was when the experiment began.
+    """
+
+    def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol) -> None:
+        self.folder, self._db, self.protocol = folder, connection, protocol
+        self._depth = 0
+
+    # ---- opening ---------------------------------------------------------------------------------------------------
+
+    @classmethod
+    def create(cls, folder: str | Path, protocol: Protocol) -> Records:
+        """Begin an experiment in a new or empty folder.
+
+        The protocol, and the arm's file if it has one, are copied into the folder.
+
+        Raises:
+            StoreError: The folder is not empty, or cannot be written.
+        """
+        path = Path(folder)
+        if path.exists() and (not path.is_dir() or any(path.iterdir())):
+            raise StoreError(f"'{path}' exists and is not an empty folder; give a new one, or open the experiment in it")
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            kept = protocols.read(protocol.write(path / PROTOCOL))
+            with closing(sqlite3.connect(path / (FILE + ".new"), isolation_level=None)) as db:
+                db.executescript(_SCHEMA)
+                made_by = json.dumps(versions("holdfast", "numpy", "casadi", "heyoka"))
+                about = {"format": str(_FORMAT), "protocol": kept.text(), "versions": made_by, "began": _now()}
+                db.executemany("INSERT INTO about VALUES (?, ?)", about.items())
+            (path / (FILE + ".new")).rename(path / FILE)  # a folder with this file is whole
+        except (OSError, sqlite3.Error) as error:
+            raise StoreError(f"cannot write to '{path}': {error}; choose another folder") from error
+        return cls.open(path)
+
+    @classmethod
+    def open(cls, folder: str | Path) -> Records:
+        """Open the experiment in a folder.
+
+        Raises:
+            StoreError: There is none, it is damaged, or of another format.
+        """
+        path = Path(folder)
+        if not (path / FILE).is_file():
+            raise StoreError(f"'{path}' holds no experiment: there is no {FILE} in it; begin one in a new folder")
+        try:
+            db = sqlite3.connect(path / FILE, isolation_level=None, timeout=30.0)
+            db.execute("PRAGMA journal_mode = WAL")
+            db.execute("PRAGMA synchronous = FULL")
+            db.execute("PRAGMA foreign_keys = ON")
+            about = dict(db.execute("SELECT key, value FROM about"))
+            sound = db.execute("PRAGMA quick_check(1)").fetchone()[0]
+        except sqlite3.Error as error:
+            raise StoreError(
+                f"'{path / FILE}' is damaged or not a file of records ({error}); restore it from a copy"
+            ) from error
+        if sound != "ok":
+            raise StoreError(f"'{path / FILE}' is damaged ({sound}); restore it from a copy")
+        if about.get("format") != str(_FORMAT):
+            raise StoreError(
+                f"'{path / FILE}' has format {about.get('format')}; this holdfast reads {_FORMAT}: use the one that wrote it"
+            )
+        protocol = protocols.read(path / PROTOCOL)
+        if protocol.text() != about["protocol"]:
+            raise StoreError(
+                f"'{path / PROTOCOL}' is not the protocol that the experiment began with; undo the change, "
+                "or begin a new experiment with it"
+            )
+        return cls(path, db, protocol)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._db.close()
+
+    def __enter__(self) -> Records:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def versions(self) -> dict[str, str]:
+        """What the experiment was begun with."""
+        found: dict[str, str] = json.loads(self._value("SELECT value FROM about WHERE key = 'versions'"))
+        return found
+
+    # ---- subjects --------------------------------------------------------------------------------------------------
+
+    def add_subject(self, code: str | None = None, kind: Who = Who.PERSON, answers: Mapping[str, Any] | None = None) -> Subject:
+        """A new subject, with the row of the square that the fewest have completed.
+
+        Args:
+            code: As the laboratory calls the subject, no name; ``S01`` and so on if not given.
+            kind: A person, or not.
+            answers: To questions, as JSON takes them.
+
+        Raises:
+            InputError: A code that is taken or has other characters than it may have.
+        """
+        with self.together():
+            taken = {row[0] for row in self._db.execute("SELECT code FROM subjects")}
+            number = int(self._value("SELECT COALESCE(MAX(number) + 1, 0) FROM subjects"))
+            number = max(number, int(self._value("SELECT COALESCE((SELECT value FROM about WHERE key = 'next'), 0)")))
+            if code is None:
+                code = next(c for k in range(number, number + len(taken) + 1) if (c := f"S{k + 1:02d}") not in taken)
+            if not _CODE.fullmatch(code):
+                raise InputError(
+                    f"'{code}' cannot be a subject's code; use a letter or digit, then letters, digits, - and _, at most 40"
+                )
+            if code in taken:
+                raise InputError(f"there is a subject {code} already; give another code")
+            states = self._db.execute("SELECT row, state FROM subjects WHERE kind = ?", (kind,)).fetchall()
+            completed, open_ = ([row for row, state in states if state == wanted] for wanted in (State.COMPLETED, State.OPEN))
+            row = next_row(completed, open_, len(self.protocol.order()))
+            self._db.execute(
+                "INSERT INTO subjects (code, number, row, kind, state, since, answers) VALUES (?, ?, ?, ?, ?, ?, ?)",
+                (code, number, row, kind, State.OPEN, _now(), json.dumps(dict(answers or {}))),
+            )
+            # A number is never given twice, also where its subject was deleted.
+            self._db.execute("INSERT OR REPLACE INTO about VALUES ('next', ?)", (str(number + 1),))
+        return self.subject(code)
+
+    def subject(self, code: str) -> Subject:
+        """The subject with this code.
+
+        Raises:
+            InputError: There is none.
+        """
+        row = self._db.execute(f"SELECT {_SUBJECT} FROM subjects WHERE code = ?", (code,)).fetchone()
+        if row is None:
+            raise InputError(
+                f"there is no subject {code}; there are {', '.join(s.code for s in self.subjects()) or 'none yet'}"
+            )
+        return _subject(row)
+
+    def subjects(self) -> list[Subject]:
+        """All subjects, in the order in which they came."""
+        return [_subject(row) for row in self._db.execute(f"SELECT {_SUBJECT} FROM subjects ORDER BY number")]
+
+    def set_state(self, code: str, state: State) -> None:
+        """A session is completed, dropped, or open again.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        self._on_subject(code, "state", state)
+
+    def set_note(self, code: str, note: str) -> None:
+        """The experimenter's note about a subject.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        self._on_subject(code, "note", note)
+
+    def set_answers(self, code: str, answers: Mapping[str, Any]) -> None:
+        """What a subject answered, in place of what was there.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        self._on_subject(code, "answers", json.dumps(dict(answers)))
+
+    def delete_subject(self, code: str) -> None:
+        """Delete a subject and everything that was recorded of him or her, for good: the space is overwritten.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        self.subject(code)
+        self._db.execute("PRAGMA secure_delete = ON")
+        with self.together():
+            self._db.execute("DELETE FROM subjects WHERE code = ?", (code,))
+        self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        self._db.execute("VACUUM")
+
+    # ---- trials ----------------------------------------------------------------------------------------------------
+
+    def begin_trial(self, subject: str, kind: Kind, position: int, scenario: int, tasks: PointTasks, task: int = -1) -> int:
+        """A trial begins.
+
+        Args:
+            subject: Code.
+            kind: What it is for.
+            position: In the session, from 0.
+            scenario: Index from 0.
+            tasks: One task: start, target and joint.
+            task: Its index from 0 in the protocol; -1 in training.
+
+        Returns:
+            The number of the trial in the records.
+
+        Raises:
+            InputError: There is no such subject or scenario, or not exactly one task.
+        """
+        self.subject(subject)
+        if len(tasks) != 1 or not 0 <= scenario < len(self.protocol.scenarios):
+            raise InputError(f"a trial has one task and one of {len(self.protocol.scenarios)} scenarios, counted from 0")
+        cursor = self._db.execute(
+            "INSERT INTO trials (subject, kind, position, task, scenario, joint, q0, target, began) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            (subject, kind, position, task, scenario, int(tasks.joint[0]), _blob(tasks.q0[0]), _blob(tasks.target[0]), _now()),
+        )
+        assert cursor.lastrowid is not None
+        return cursor.lastrowid
+
+    def append(self, trial: int, first: int, time: Array, velocity: Array, q: Array) -> None:
+        """Cycles of a trial; when this returns they are on the disk.
+
+        Args:
+            trial: Its number.
+            first: Index from 0 of the first of them: the next one of the trial.
+            time: (K,) s since the trial began, by the clock of who holds the stick.
+            velocity: (K, m) commands, m/cycle.
+            q: (K, n) configurations when each cycle began, rad and m.
+
+        Raises:
+            InputError: There is no such trial, it has ended, a cycle is missing or there already, or the arrays do not fit.
+        """
+        n, m = self.protocol.arm.n, self.protocol.rows.m
+        if velocity.shape != (len(time), m) or q.shape != (len(time), n):
+            raise InputError(f"{len(time)} cycles need commands ({len(time)}, {m}) and configurations ({len(time)}, {n})")
+        if not (np.isfinite(velocity).all() and np.isfinite(q).all() and np.isfinite(time).all()):
+            raise InputError("a cycle holds NaN or infinity; nothing was recorded")
+        rows = [(trial, first + i, float(time[i]), _blob(velocity[i]), _blob(q[i])) for i in range(len(time))]
+        with self.together():
+            found = self._db.execute("SELECT end FROM trials WHERE id = ?", (trial,)).fetchone()
+            if found is None or found[0] is not None:
+                raise InputError(f"trial {trial} {'has ended' if found else 'does not exist'}; nothing was recorded")
+            there = int(self._value("SELECT COALESCE(MAX(k) + 1, 0) FROM cycles WHERE trial = ?", trial))
+            if first != there:
+                raise InputError(f"trial {trial} goes on with cycle {there}, not {first}; nothing was recorded")
+            self._db.executemany("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", rows)
+
+    def finish(self, trial: int, end: End, q_end: Array) -> None:
+        """A trial is over: how, and in which configuration (n,) the arm stands.
+
+        Raises:
+            InputError: There is no such trial, or it has ended already.
+        """
+        with self.together():
+            changed = self._db.execute(
+                "UPDATE trials SET ended = ?, end = ? WHERE id = ? AND end IS NULL", (_now(), int(end), trial)
+            ).rowcount
+            if changed != 1:
+                raise InputError(f"trial {trial} does not exist or has ended already")
+            count = int(self._value("SELECT COUNT(*) FROM cycles WHERE trial = ?", trial))
+            # The last row has no command: it is where the arm stands at the end.
+            zero = _blob(np.zeros(self.protocol.rows.m))
+            self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, count, -1.0, zero, _blob(q_end)))
+
+    def rate(self, trial: int, rating: int, answers: Mapping[str, Any] | None = None) -> None:
+        """The rating of a trial, a step from 0, and answers to further questions.
+
+        Raises:
+            InputError: There is no such trial, or the rating has no such step.
+        """
+        if not 0 <= rating < len(self.protocol.rating):
+            raise InputError(f"the rating is {rating}; it must be 0 to {len(self.protocol.rating) - 1}")
+        changed = self._db.execute(
+            "UPDATE trials SET rating = ?, answers = ? WHERE id = ?", (rating, json.dumps(dict(answers or {})), trial)
+        ).rowcount
+        if changed != 1:
+            raise InputError(f"trial {trial} does not exist")
+
+    def event(self, kind: str, subject: str | None = None, trial: int | None = None, k: int | None = None, **data: Any) -> None:
+        """Something happened: a pause, a dropped frame, a lost connection, a note."""
+        row = (trial, subject, k, _now(), kind, json.dumps(data))
+        self._db.execute("INSERT INTO events (trial, subject, k, at, kind, data) VALUES (?, ?, ?, ?, ?, ?)", row)
+
+    def events(self) -> list[dict[str, Any]]:
+        """All events, in the order in which they came."""
+        names = ("trial", "subject", "k", "at", "kind", "data")
+        rows = self._db.execute(f"SELECT {', '.join(names)} FROM events ORDER BY id")
+        return [dict(zip(names, row, strict=True)) | {"data": json.loads(row[-1])} for row in rows]
+
+    def entries(self, subject: str | None = None, kind: Kind | None = None) -> list[Entry]:
+        """The trials, of one subject or of one kind, in the order in which they began."""
+        columns = "id, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers"
+        where = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
+        return [_entry(row) for row in self._db.execute(f"SELECT {columns} FROM trials {where} ORDER BY id", (subject, kind))]
+
+    def trials(self, entries: list[Entry]) -> Trials:
+        """What was recorded of some trials.
+
+        Commands and configurations come from the file; tool points and actual velocities follow from them.
+        """
+        n, m = self.protocol.arm.n, self.protocol.rows.m
+        plant = self.protocol.plants
+        velocity, q, first, q_end = [np.empty((0, m))], [np.empty((0, n))], [0], []
+        for e in entries:
+            rows = self._db.execute("SELECT velocity, q FROM cycles WHERE trial = ? ORDER BY k", (e.id,)).fetchall()
+            v = np.frombuffer(b"".join([r[0] for r in rows])).reshape(-1, m)
+            c = np.frombuffer(b"".join([r[1] for r in rows])).reshape(-1, n)
+            # The last row is where the arm stood at the end; of a trial that was broken off, that before the last command.
+            q_end.append(c[-1] if len(c) else e.q0)
+            velocity.append(v[:-1])
+            q.append(c[:-1])
+            first.append(first[-1] + len(velocity[-1]))
+        every_q, every_v, ends = np.concatenate(q), np.concatenate(velocity), np.array(q_end).reshape(-1, n)
+        starts = np.array(first, dtype=np.int64)
+        of = np.repeat(np.arange(len(entries)), np.diff(starts))
+        tasks = PointTasks(
+            ends, np.array([e.target for e in entries]).reshape(-1, m), np.array([e.joint for e in entries], dtype=np.int64)
+        )
+        scenario = np.array([e.scenario for e in entries], dtype=np.int64)
+        failed = np.array([s.failed for s in self.protocol.scenarios])[scenario]
+        healthy = np.where(failed[:, None], tasks.healthy(True), 1.0).reshape(-1, n)
+        actual = np.empty_like(every_v)
+        for k, p in enumerate(plant):
+            mine = np.flatnonzero(scenario[of] == k)
+            if mine.size:
+                actual[mine] = p.cycles(every_q[mine], every_v[mine], healthy[of[mine]])[1]
+        return Trials(
+            velocity=every_v,
+            q=every_q,
+            x=plant[0].position(every_q) if len(every_q) else np.empty((0, m)),
+            actual=actual,
+            first=starts,
+            q_end=ends,
+            x_end=plant[0].position(ends) if len(ends) else np.empty((0, m)),
+            target=tasks.target,
+            end=np.array([int(e.end) for e in entries], dtype=np.uint8),
+        )
+
+    def times(self, entry: Entry) -> Array:
+        """(K,) s since the trial began, of each cycle, by the clock of who held the stick."""
+        rows = self._db.execute("SELECT time FROM cycles WHERE trial = ? AND time >= 0 ORDER BY k", (entry.id,))
+        return np.array([r[0] for r in rows])
+
+    # ---- the file --------------------------------------------------------------------------------------------------
+
+    @contextmanager
+    def together(self) -> Iterator[None]:
+        """All changes made inside, or none; they are acknowledged when the block ends."""
+        if self._depth:  # part of a larger change
+            yield
+            return
+        self._db.execute("BEGIN IMMEDIATE")
+        self._depth += 1
+        try:
+            yield
+        except BaseException:
+            self._db.execute("ROLLBACK")
+            raise
+        else:
+            self._db.execute("COMMIT")
+        finally:
+            self._depth -= 1
+
+    def _value(self, query: str, *values: Any) -> Any:
+        return self._db.execute(query, values).fetchone()[0]
+
+    def _on_subject(self, code: str, column: str, value: str) -> None:
+        self.subject(code)
+        self._db.execute(f"UPDATE subjects SET {column} = ? WHERE code = ?", (value, code))
+
+
+def _subject(row: tuple[Any, ...]) -> Subject:
+    code, number, square_row, kind, state, since, answers, note = row
+    return Subject(code, number, square_row, Who(kind), State(state), since, json.loads(answers), note)
+
+
+def _entry(row: tuple[Any, ...]) -> Entry:
+    number, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers = row
+    how = End.BROKEN_OFF if end is None else End(end)
+    said: dict[str, Any] = json.loads(answers)
+    return Entry(
+        id=number,
+        subject=subject,
+        kind=Kind(kind),
+        position=position,
+        task=task,
+        scenario=scenario,
+        joint=joint,
+        q0=_array(q0),
+        target=_array(target),
+        began=began,
+        ended=ended,
+        end=how,
+        rating=rating,
+        answers=said,
+    )
+
+
+def _blob(values: Array) -> bytes:
+    return np.ascontiguousarray(values, dtype="<f8").tobytes()
+
+
+def _array(blob: bytes) -> Array:
+    return np.frombuffer(blob, dtype="<f8").astype(np.float64)
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds")

@@ -1,0 +1,211 @@
+"""The records as tables: one row for each trial, one for each cycle; for analysis, and for R, JASP and spreadsheets."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import HoldfastError, StoreError
+from holdfast.teleop.measures import MEASURES, RECORDED, measures
+from holdfast.teleop.protocol import Protocol
+from holdfast.teleop.records import Entry, Kind, Records, Subject, Who
+from holdfast.teleop.session import done
+from holdfast.teleop.tasks import run
+from holdfast.teleop.trials import End, Trials
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Array = NDArray[np.float64]
+
+_COLUMNS = {
+    "subject": ("", "code of the subject; no name"),
+    "kind": ("", "person, simulated or computer"),
+    "number": ("1", "running number of the subject, from 0"),
+    "row": ("1", "row of the balanced square, from 0"),
+    "position": ("1", "place of the trial in the session, from 1"),
+    "task": ("1", "number of the task in the protocol, from 1; 0 in training"),
+    "scenario": ("1", "number of the scenario, from 1; see protocol.yaml"),
+    "law": ("", "control law"),
+    "failed": ("", "the joint was locked at its start angle"),
+    "joint": ("", "joint that the task has fail; empty for none"),
+    "end": ("", "arrived, still, time, aborted or broken_off"),
+    "cycles": ("1", "control cycles from start to end"),
+    **{m.name: (m.unit, m.about + "; empty where the hand did not arrive") for m in MEASURES[:RECORDED]},
+    MEASURES[RECORDED].name: ("1", "step of the rating, from 0; empty where there is none"),
+    "began": ("", "UTC, ISO 8601"),
+    "ended": ("", "UTC, ISO 8601; empty for a trial that was broken off"),
+}
+_CYCLE_COLUMNS = {
+    "trial": ("1", "number of the trial in the records"),
+    "k": ("1", "cycle, from 0; the last row of a trial is where the arm stands at the end, without a command"),
+    "time": ("s", "since the trial began, by the clock of who held the stick"),
+}
+
+
+def trial_table(records: Records, kinds: Sequence[Kind] = (Kind.TRIAL,)) -> pd.DataFrame:
+    """One row for each trial that was not done again later.
+
+    Args:
+        records: The records.
+        kinds: Which trials: those that count, or training too.
+
+    Returns:
+        A table with the columns that :func:`dictionary` describes; measures in the units of
+        :data:`holdfast.teleop.MEASURES`.
+    """
+    entries = [e for s in records.subjects() for kind in kinds for e in done(records.entries(s.code, kind))]
+    subjects = {s.code: s for s in records.subjects()}
+    return _table(records.protocol, records.trials(entries), [_facts(subjects[e.subject], e) for e in entries])
+
+
+def computer_table(protocol: Protocol) -> pd.DataFrame:
+    """The protocol's tasks under computer control, in every scenario: one row for each, as :func:`trial_table`."""
+    trials = run(protocol.arm, protocol.tasks, None, protocol.scenarios, protocol.stick, None, protocol.rows)
+    facts = [
+        {"subject": "computer", "kind": Who.COMPUTER.value, "number": -1, "row": -1, "position": 0, "task": t, "scenario": s}
+        for s in range(len(protocol.scenarios))
+        for t in range(len(protocol.tasks))
+    ]
+    return _table(protocol, trials, facts)
+
+
+def _facts(subject: Subject, entry: Entry) -> dict[str, Any]:
+    return {
+        "subject": subject.code,
+        "kind": subject.kind.value,
+        "number": subject.number,
+        "row": subject.row,
+        "position": entry.position + 1,
+        "task": entry.task,
+        "scenario": entry.scenario,
+        "M12": np.nan if entry.rating is None else float(entry.rating),
+        "began": entry.began,
+        "ended": entry.ended or "",
+    }
+
+
+def _table(protocol: Protocol, trials: Trials, facts: list[dict[str, Any]]) -> pd.DataFrame:
+    import pandas as pd
+
+    table = pd.DataFrame(facts, columns=[c for c in _COLUMNS if not facts or c in facts[0]])
+    scenario, task = table["scenario"].to_numpy(dtype=np.int64), table["task"].to_numpy(dtype=np.int64)
+    names = (*protocol.arm.joint_names, "")
+    table["task"], table["scenario"] = task + 1, scenario + 1
+    table["law"] = [protocol.scenarios[s].law for s in scenario]
+    table["failed"] = [protocol.scenarios[s].failed for s in scenario]
+    table["joint"] = [names[protocol.tasks.joint[t]] if t >= 0 else "" for t in task]
+    table["end"] = [End(e).name.lower() for e in trials.end]
+    table["cycles"] = trials.cycles
+    for measure, values in zip(MEASURES[:RECORDED], measures(trials).T, strict=True):
+        table[measure.name] = values
+    if "M12" not in table:
+        table["M12"] = np.nan
+    return table[[c for c in _COLUMNS if c in table]]
+
+
+def cycle_table(records: Records) -> pd.DataFrame:
+    """One row for each cycle of every trial, with one more for where the arm stood at the end."""
+    import pandas as pd
+
+    protocol = records.protocol
+    entries = records.entries()
+    trials = records.trials(entries)
+    parts = []
+    for i, e in enumerate(entries):
+        cycles = slice(trials.first[i], trials.first[i + 1])
+        time = records.times(e)[: trials.cycles[i]]
+        count = int(trials.cycles[i])
+        last = np.full((1, protocol.rows.m), np.nan)
+        parts.append(
+            np.column_stack(
+                [
+                    np.full(count + 1, e.id),
+                    np.arange(count + 1),
+                    np.append(time, np.nan),
+                    np.vstack([trials.velocity[cycles], last]),
+                    trials.configurations(i),
+                    trials.path(i),
+                ]
+            )
+        )
+    names = [*_CYCLE_COLUMNS, *_vectors(protocol)]
+    table = pd.DataFrame(np.concatenate(parts) if parts else np.empty((0, len(names))), columns=names)
+    return table.astype({"trial": np.int64, "k": np.int64})
+
+
+def _vectors(protocol: Protocol) -> dict[str, tuple[str, str]]:
+    axes = "xyz" if protocol.rows.m <= 3 else [str(k + 1) for k in range(protocol.rows.m)]
+    arm = protocol.arm
+    units = ["m" if p else "rad" for p in arm.prismatic]
+    return {
+        **{f"v{axes[k]}": ("m/cycle", "commanded velocity") for k in range(protocol.rows.m)},
+        **{name: (unit, "joint when the cycle began") for name, unit in zip(arm.joint_names, units, strict=True)},
+        **{axes[k]: ("m", "tool point when the cycle began") for k in range(protocol.rows.m)},
+    }
+
+
+def dictionary(protocol: Protocol) -> pd.DataFrame:
+    """What each column of the tables means: table, column, unit, description."""
+    import pandas as pd
+
+    rows = [("trials", name, *about) for name, about in _COLUMNS.items()]
+    rows += [("cycles", name, *about) for name, about in {**_CYCLE_COLUMNS, **_vectors(protocol)}.items()]
+    return pd.DataFrame(rows, columns=["table", "column", "unit", "description"])
+
+
+def export(records: Records, folder: str | Path, parquet: bool = False) -> list[Path]:
+    """Write ``trials``, ``cycles``, ``subjects`` and ``events``, with ``dictionary.csv`` and the protocol.
+
+    Args:
+        records: The records.
+        folder: Made if it is not there; files of these names in it are replaced.
+        parquet: Parquet in place of CSV for the four tables.
+
+    Returns:
+        The files.
+
+    Raises:
+        HoldfastError: Parquet was asked for and pyarrow is not installed.
+        StoreError: A file cannot be written.
+    """
+    import pandas as pd
+
+    if parquet:
+        try:
+            import pyarrow  # noqa: F401
+        except ModuleNotFoundError:
+            raise HoldfastError("Parquet needs pyarrow; install 'holdfast[parquet]', or export CSV") from None
+    subjects = [
+        {"subject": s.code, "kind": s.kind.value, "number": s.number, "row": s.row, "state": s.state.value, "since": s.since}
+        | {f"answer {key}": value for key, value in s.answers.items()}
+        for s in records.subjects()
+    ]
+    events = [{**e, "data": str(e["data"]) if e["data"] else ""} for e in records.events()]
+    tables = {
+        "trials": trial_table(records, (Kind.TRAINING, Kind.TRIAL)),
+        "cycles": cycle_table(records),
+        "subjects": pd.DataFrame(subjects),
+        "events": pd.DataFrame(events),
+    }
+    path = Path(folder)
+    written = []
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        for name, table in tables.items():
+            file = path / f"{name}.{'parquet' if parquet else 'csv'}"
+            if parquet:
+                table.to_parquet(file, index=False)
+            else:
+                table.to_csv(file, index=False)
+            written.append(file)
+        file = path / "dictionary.csv"
+        dictionary(records.protocol).to_csv(file, index=False)
+        written += [file, records.protocol.write(path / "protocol.yaml")]
+    except OSError as error:
+        raise StoreError(f"cannot write to '{path}': {error.strerror or error}; choose another folder") from error
+    return written

@@ -1,0 +1,34 @@
+"""Records a session and says on its output, after each call that returned, what has been acknowledged. Run to be killed."""
+
+import sys
+
+import numpy as np
+
+from holdfast.teleop.records import Records
+from holdfast.teleop.session import Session
+from holdfast.teleop.trials import End
+
+
+def main(folder: str, code: str, trials: int) -> None:
+    with Records.open(folder) as records:
+        if code not in {s.code for s in records.subjects()}:
+            records.add_subject(code)
+        protocol = records.protocol
+        session = Session(records, code)
+        for _ in range(trials):
+            todo = session.next()
+            number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+            plant, mask = protocol.plants[todo.scenario], todo.tasks.healthy(protocol.scenarios[todo.scenario].failed)[0]
+            q, rng = todo.tasks.q0[0], np.random.default_rng(number)
+            for k in range(20):
+                v = protocol.stick.limited(rng.normal(0, 0.03, 2))
+                records.append(number, k, np.array([k / 6]), v[None], q[None])
+                print(number, k, q.tobytes().hex(), flush=True)
+                q, _ = plant.cycle(q, v, mask)
+            records.finish(number, End.ARRIVED, q)
+            print(number, "end", flush=True)
+            records.rate(number, 1)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2], int(sys.argv[3]))

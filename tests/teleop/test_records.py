@@ -1,0 +1,307 @@
+"""Records: what is written is read, what is acknowledged survives, and what is not right is refused and changes nothing."""
+
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.teleop.experiment import simulate_experiment
+from holdfast.teleop.measures import measures
+from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.records import Kind, Records, State
+from holdfast.teleop.replay import replay
+from holdfast.teleop.session import Session, training_tasks
+from holdfast.teleop.tables import computer_table, cycle_table, dictionary, export, trial_table
+from holdfast.teleop.trials import End
+
+PROGRAM = Path(__file__).with_name("crashing.py")
+
+
+@pytest.fixture(scope="module")
+def protocol():
+    from dataclasses import replace
+
+    whole = read()
+    few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
+    return replace(few, training=Training(at_least=3, in_a_row=2, limit=80, most=12), subjects=6)
+
+
+@pytest.fixture(scope="module")
+def made(protocol, tmp_path_factory):
+    with simulate_experiment(tmp_path_factory.mktemp("made") / "study", protocol, 6, seed=3) as records:
+        yield records
+
+
+@pytest.fixture
+def records(protocol, tmp_path):
+    with Records.create(tmp_path / "study", protocol) as opened:
+        yield opened
+
+
+def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
+    session = Session(records, code)
+    todo = session.next()
+    number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+    generator = np.random.default_rng(number) if rng is None else rng
+    plant = records.protocol.plants[todo.scenario]
+    mask = todo.tasks.healthy(records.protocol.scenarios[todo.scenario].failed)[0]
+    q, written = todo.tasks.q0[0], []
+    for k in range(cycles):
+        v = records.protocol.stick.limited(generator.normal(0, 0.03, 2))
+        records.append(number, k, np.array([k / 6]), v[None], q[None])
+        written.append((v, q))
+        q, _ = plant.cycle(q, v, mask)
+    if end is not None:
+        records.finish(number, end, q)
+    return number, written, q
+
+
+def test_what_is_written_is_read(records):
+    code = records.add_subject().code
+    number, written, last = one_trial(records, code)
+    records.rate(number, 2, {"comment": "slow"})
+    with Records.open(records.folder) as again:
+        (entry,) = again.entries()
+        trials = again.trials([entry])
+        assert (entry.subject, entry.kind, entry.end, entry.rating, entry.answers) == (
+            code,
+            Kind.TRAINING,
+            End.ARRIVED,
+            2,
+            {"comment": "slow"},
+        )
+        np.testing.assert_array_equal(trials.velocity, [v for v, _ in written])
+        np.testing.assert_array_equal(trials.configurations(0), [*(q for _, q in written), last])
+        np.testing.assert_allclose(trials.x[:, 0], np.cos(np.cumsum(trials.q, axis=1)).sum(axis=1), atol=1e-12)
+        np.testing.assert_allclose(again.times(entry), np.arange(7) / 6)
+        assert again.versions["holdfast"] == hf.__version__
+
+
+def test_replay_gives_the_recorded_path(made):
+    result = replay(made)
+    assert len(result.entries) > 6 * 12
+    np.testing.assert_array_equal(result.difference, 0.0)
+
+
+def test_replay_finds_a_changed_record(records):
+    code = records.add_subject().code
+    one_trial(records, code)
+    number, _, _ = one_trial(records, code)
+    with sqlite3.connect(records.folder / "records.sqlite") as db:
+        db.execute("UPDATE cycles SET q = ? WHERE trial = ? AND k = 4", (np.array([0.1, 0.2, 0.3]).tobytes(), number))
+    db.close()
+    assert [e.id for e in replay(records).differs] == [number]
+
+
+def test_simulated_experiment_follows_the_protocol(made, protocol):
+    subjects = made.subjects()
+    assert {s.kind for s in subjects} == {"simulated"}
+    assert sorted(s.row for s in subjects) == list(range(6))
+    for s in subjects:
+        assert s.state == State.COMPLETED
+        session = protocol.session(s.row, s.number)
+        entries = made.entries(s.code, Kind.TRIAL)
+        assert [[e.task, e.scenario] for e in entries] == session.tolist()
+        assert all(e.rating is not None for e in entries)
+        training = made.entries(s.code, Kind.TRAINING)
+        trials = made.trials(training)
+        times = np.where(trials.arrived, trials.cycles, np.nan).tolist()
+        assert protocol.training.trained(times)
+        assert not protocol.training.trained(times[:-1])
+        np.testing.assert_array_equal(
+            np.stack([e.q0 for e in training]), training_tasks(protocol, s.number).q0[: len(training)]
+        )
+
+
+def test_same_seed_same_records(made, protocol, tmp_path):
+    with simulate_experiment(tmp_path / "again", protocol, 6, seed=3) as again:
+        columns = ["subject", "task", "scenario", "end", "cycles", *(f"M{k}" for k in range(1, 13))]
+        assert trial_table(again)[columns].equals(trial_table(made)[columns])
+
+
+def test_tables_say_what_the_records_say(made, protocol, tmp_path):
+    import pandas as pd
+
+    table = trial_table(made)
+    assert len(table) == 6 * 3 * 4
+    entries = made.entries(kind=Kind.TRIAL)
+    by_hand = measures(made.trials(entries))
+    np.testing.assert_array_equal(table[[f"M{k}" for k in range(1, 12)]].to_numpy(), by_hand)
+    assert set(table["law"]) == {"pseudoinverse", "failure-tolerant"}
+    files = export(made, tmp_path / "csv")
+    back = pd.read_csv(tmp_path / "csv" / "trials.csv", keep_default_na=False, na_values=[""])
+    np.testing.assert_array_equal(back.query("task > 0")["M2"], table["M2"])  # CSV keeps every digit
+    cycles = pd.read_csv(tmp_path / "csv" / "cycles.csv")
+    assert len(cycles) == len(cycle_table(made)) == sum(made.trials(made.entries()).cycles + 1)
+    about = dictionary(protocol)
+    for name in ("trials", "cycles"):
+        columns = list(pd.read_csv(tmp_path / "csv" / f"{name}.csv", nrows=1).columns)
+        assert columns == about.query("table == @name")["column"].tolist()
+    assert {f.name for f in files} >= {"subjects.csv", "events.csv", "dictionary.csv", "protocol.yaml"}
+    export(made, tmp_path / "parquet", parquet=True)
+    assert pd.read_parquet(tmp_path / "parquet" / "trials.parquet")["M1"].equals(pd.read_csv(files[0])["M1"])
+
+
+def test_computer_does_every_task(protocol):
+    table = computer_table(protocol)
+    assert len(table) == 12
+    assert set(table["kind"]) == {"computer"}
+    assert table["M12"].isna().all()
+    assert (table.query("scenario == 1")["M1"].between(36, 42)).all()
+
+
+def test_a_session_goes_on_where_it_stopped(records):
+    code = records.add_subject().code
+    for _ in range(3):
+        one_trial(records, code, cycles=5)
+    todo = Session(records, code).next()
+    assert (todo.kind, todo.position) == (Kind.TRIAL, 0)
+    one_trial(records, code, end=None)  # broken off: done again
+    assert Session(records, code).next().position == 0
+    one_trial(records, code)
+    one_trial(records, code, end=End.ABORTED)  # given up: not done again
+    todo = Session(records, code).next()
+    assert todo.position == 2
+    order = records.protocol.session(0, 0)
+    assert [todo.task, todo.scenario] == order[2].tolist()
+    for _ in range(10):
+        one_trial(records, code)
+    assert Session(records, code).next() is None
+    assert records.subject(code).state == State.COMPLETED
+
+
+def test_who_never_meets_the_criterion_is_sent_home(records):
+    code = records.add_subject().code
+    for _ in range(12):
+        one_trial(records, code, cycles=3, end=End.ABORTED)
+    assert Session(records, code).next() is None
+    assert records.subject(code).state == State.OPEN  # the experimenter decides
+
+
+def test_drop_outs_are_replaced(records):
+    codes = [records.add_subject().code for _ in range(6)]
+    assert [records.subject(c).row for c in codes] == list(range(6))
+    records.set_state(codes[4], State.DROPPED)
+    records.set_state(codes[1], State.COMPLETED)
+    assert records.add_subject().row == 4
+
+
+def test_deleting_a_subject_leaves_nothing(records):
+    keep, gone = records.add_subject("keep").code, records.add_subject("gone", answers={"age": "37-secret"}).code
+    for code in (keep, gone):
+        one_trial(records, code)
+    records.event("note", subject=gone, text="remark-secret")
+    commands = records.trials(records.entries(gone)).velocity.copy()
+    records.delete_subject(gone)
+    assert [s.code for s in records.subjects()] == [keep]
+    assert len(records.entries()) == 1
+    assert records.events() == []
+    for file in records.folder.iterdir():
+        content = file.read_bytes()
+        assert b"secret" not in content
+        assert commands[2].tobytes() not in content
+    assert records.add_subject().number == 2  # a number is never used again
+
+
+def test_what_is_not_right_is_refused_and_changes_nothing(records):
+    code = records.add_subject().code
+    number, _, q = one_trial(records, code, end=None)
+    v = np.zeros((1, 2))
+    before = records.trials(records.entries()).q.copy()
+    for trial, first, velocity, configuration, message in [
+        (number, 9, v, q[None], "goes on with cycle 7, not 9"),
+        (number, 6, v, q[None], "goes on with cycle 7, not 6"),
+        (99, 0, v, q[None], "does not exist"),
+        (number, 7, np.zeros((1, 3)), q[None], "need commands"),
+        (number, 7, v, np.full((1, 3), np.nan), "NaN"),
+    ]:
+        with pytest.raises(hf.InputError, match=message):
+            records.append(trial, first, np.zeros(1), velocity, configuration)
+    with pytest.raises(hf.InputError, match="rating is 4"):
+        records.rate(number, 4)
+    with pytest.raises(hf.InputError, match="a subject S01 already"):
+        records.add_subject("S01")
+    with pytest.raises(hf.InputError, match="cannot be a subject's code"):
+        records.add_subject("Ann Smith")
+    with pytest.raises(hf.InputError, match="there is no subject nobody"):
+        records.delete_subject("nobody")
+    np.testing.assert_array_equal(records.trials(records.entries()).q, before)
+    records.finish(number, End.ARRIVED, q)
+    with pytest.raises(hf.InputError, match="has ended"):
+        records.append(number, 7, np.zeros(1), v, q[None])
+    with pytest.raises(hf.InputError, match="ended already"):
+        records.finish(number, End.ARRIVED, q)
+
+
+def test_folders_that_are_no_experiment(records, protocol, tmp_path):
+    with pytest.raises(hf.StoreError, match="not an empty folder"):
+        Records.create(records.folder, protocol)
+    with pytest.raises(hf.StoreError, match="holds no experiment"):
+        Records.open(tmp_path)
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "records.sqlite").write_bytes(b"not a database" * 100)
+    with pytest.raises(hf.StoreError, match="damaged"):
+        Records.open(tmp_path / "bad")
+    text = (records.folder / "protocol.yaml").read_text()
+    (records.folder / "protocol.yaml").write_text(text.replace("rate: 6.0", "rate: 7.0"))
+    with pytest.raises(hf.StoreError, match="not the protocol"):
+        Records.open(records.folder)
+
+
+def test_arm_files_travel_with_the_experiment(tmp_path):
+    arm = tmp_path / "mine.yaml"
+    arm.write_text(
+        "name: mine\nconvention: standard\nrows:\n"
+        + "".join(f"  - {{name: j{k}, a: {0.5 + 0.1 * k}, alpha: 0, d: 0}}\n" for k in range(3))
+    )
+    text = read().text().replace("arm: planar-3r", "arm: mine.yaml")
+    for k in (1, 2, 3):
+        text = text.replace(f"joint: joint{k}", f"joint: j{k - 1}")
+    (tmp_path / "p.yaml").write_text(text)
+    with Records.create(tmp_path / "study", read(tmp_path / "p.yaml")) as records:
+        arm.unlink()
+        with Records.open(records.folder) as again:
+            assert again.protocol.arm.joint_names == ("j0", "j1", "j2")
+
+
+@pytest.mark.parametrize("kills", [int(os.environ.get("HOLDFAST_KILLS", "4"))])
+def test_killed_at_any_moment(records, kills):
+    """After kill -9, all that was acknowledged is there, the file is sound, and the session goes on."""
+    rng = np.random.default_rng()
+    acknowledged: dict[tuple[int, int], str] = {}
+    ended: set[int] = set()
+    for _ in range(kills):
+        with subprocess.Popen(
+            [sys.executable, str(PROGRAM), str(records.folder), "P1", "40"],
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as program:
+            lines = [program.stdout.readline()]
+            until = time.monotonic() + rng.uniform(0, 0.4)
+            while time.monotonic() < until:
+                lines.append(program.stdout.readline())
+            os.kill(program.pid, signal.SIGKILL)
+            lines += program.stdout.read().splitlines()
+        for line in lines:
+            match line.split():
+                case [number, "end"]:
+                    ended.add(int(number))
+                case [number, k, q] if len(q) == 48:
+                    acknowledged[int(number), int(k)] = q
+    assert len(acknowledged) > kills
+    with Records.open(records.folder) as again:  # checks that the file is sound
+        entries = again.entries("P1")
+        trials = again.trials(entries)
+        row = {e.id: i for i, e in enumerate(entries)}
+        for (number, k), q in acknowledged.items():
+            assert trials.configurations(row[number])[k].tobytes().hex() == q
+        assert {e.id for e in entries if e.end == End.ARRIVED} >= ended
+        assert replay(again).differs == []
+        assert Session(again, "P1").next() is not None
