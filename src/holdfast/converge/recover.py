@@ -327,8 +327,10 @@ class _Search:
             return replace(rest, q=np.zeros((0, self.made.arm.n)), given_up=None, cut_off=True)
         motion = motions[route.goal]
         motion = motion + (route.q[-1] - motion[0])  # whole turns
-        if route.length > 0:
+        if route.length > SAME:
             self._add("to the path", route.q, route.lower_bound, route.straight)
+        else:
+            motion[0] = here
         self._add("along the path", motion, float(self.metric.length(motion[-1] - motion[0])), False)
         return replace(rest, q=motion)
 
@@ -347,7 +349,9 @@ class _Search:
         reasons = []
         if aim.lost is not None:
             made = replace(made, given_up=aim.lost)
-            reasons.append(f"{' and '.join(aim.lost.names)} cannot be where {aim.text} has it; the hand's pose there is aimed at")
+            reasons.append(
+                f"{' and '.join(aim.lost.names)} cannot be where {aim.text} has it; the hand's pose there is aimed at"
+            )
         if len(goals):
             route = self._route(here, goals)
             if route is not None:
@@ -370,9 +374,7 @@ class _Search:
         everything = tuple(c.rows for c in choices)
         return replace(made, ending=nothing, given_up=None, choices=everything, reason="; ".join(reasons))
 
-    def _relaxed(
-        self, made: Recovery, aim: _Goal, choice: Relaxed, choices: list[Relaxed], reasons: list[str]
-    ) -> Recovery:
+    def _relaxed(self, made: Recovery, aim: _Goal, choice: Relaxed, choices: list[Relaxed], reasons: list[str]) -> Recovery:
         rows = choice.rows if aim.lost is None else aim.lost + choice.rows
         return replace(
             made,

@@ -73,7 +73,9 @@ def scene_figure(recovery: Recovery) -> Figure:
             for k, ghost in enumerate(ghosts):
                 axes.plot(*ghost[:, pick].T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if k == 0 else None)
             if moving:
-                axes.plot(*start[:, pick].T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it stands")
+                axes.plot(
+                    *start[:, pick].T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it stands"
+                )
             draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
             locked = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
             last = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ _MOST = 48  # configurations of a goal that are kept, the nearest ones
 _SLIDES = 25
 _SAME = 1e-4  # rad and m
 _STARTS_PER_SET = 96
+_POLISHED = 4  # of the best configurations of a set
 
 
 @dataclass(frozen=True)
@@ -118,12 +120,58 @@ def rows_to_give_up(
             if not some.size:
                 continue
             minimal.append(given_up)
-            least = missed[some].min()
-            some = some[missed[some] <= least * (1 + 1e-3) + 1e-6]
-            ends = at + space.difference(q[some], at)
+            lost = list(given_up)
+            some = some[np.argsort(missed[some], kind="stable")]
+            better = [_polished(solver, space, pose, q[i], lost) for i in some[:_POLISHED]]
+            ends = np.concatenate([np.stack(better), q[some]])
+            error = np.abs(solver.errors(ends, np.repeat(pose[None], len(ends), axis=0))[:, lost])
+            size = np.linalg.norm(error, axis=1)
+            near = size <= size.min() * (1 + 1e-3) + 1e-6
+            least = error[size.argmin()]
+            ends = at + space.difference(ends[near], at)
             ends = _distinct(ends[np.argsort(metric.length(ends - at), kind="stable")])
-            error = np.abs(solver.errors(q[some[:1]], poses[:1])[0, list(given_up)])
             names, units = ([x[i] for i in given_up] for x in (rows.names, rows.units))
-            found.append((given_up, Relaxed(RowsGivenUp(tuple(names), tuple(error.tolist()), tuple(units)), ends)))
+            found.append((given_up, Relaxed(RowsGivenUp(tuple(names), tuple(least.tolist()), tuple(units)), ends)))
     found.sort(key=lambda x: (*preferred(rows, x[0]), float(np.linalg.norm(x[1].rows.misses))))
     return [relaxed for _, relaxed in found]
+
+
+def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:
+    """From q (n,) where the other rows are met, the rows lost missed by as little as can be had next to it."""
+    from scipy.optimize import minimize
+
+    arm = solver.arm
+    kept = [k for k in range(solver.rows.m) if k not in lost]
+
+    def errors(x: Array) -> Array:
+        return np.asarray(solver.errors(x[None], pose[None])[0])
+
+    def cost(x: Array) -> tuple[float, Array]:
+        e = errors(x)[lost]
+        return float(e @ e), 2 * e @ solver.slopes(x, pose)[lost]
+
+    wanted: list[dict[str, Any]] = [
+        {"type": "eq", "fun": lambda x: errors(x)[kept], "jac": lambda x: solver.slopes(x, pose)[kept]}
+    ]
+    clearance = space.clearance
+    if clearance is not None:
+        gap = {"fun": lambda x: clearance(x) - space.margin, "jac": clearance.gradient}
+        wanted.append({"type": "ineq", **gap})
+    low, high = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)
+    with np.errstate(all="ignore"):
+        found = minimize(
+            cost,
+            q,
+            jac=True,
+            method="SLSQP",
+            bounds=list(zip(low, high, strict=True)),
+            constraints=wanted,
+            options={"maxiter": 60},
+        ).x
+    if not np.isfinite(found).all():
+        return q
+    mask = np.ones((1, solver.rows.m))
+    mask[0, lost] = 0.0
+    back = solver.run(np.where(space.free, np.clip(found, low, high), q)[None], pose[None], mask, space.free)
+    nearer = np.linalg.norm(errors(back[0])[lost]) < np.linalg.norm(errors(q)[lost])
+    return np.asarray(back[0] if nearer and _good(solver, space, back, pose[None], mask)[0] else q)

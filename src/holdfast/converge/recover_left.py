@@ -117,9 +117,7 @@ def _share(weights: Array, hits: Flags) -> Interval:
     return Interval.of_share(share, sums.weight**2 / sums.squares)
 
 
-def _healthy(
-    solver: RowSolver, clearance: Clearance | None, margin: float, samples: int, rng: np.random.Generator
-) -> Array:
+def _healthy(solver: RowSolver, clearance: Clearance | None, margin: float, samples: int, rng: np.random.Generator) -> Array:
     """Configurations of the healthy arm, clear ones if that is asked; fewer than ``samples`` if hardly any is."""
     everything = np.ones(solver.arm.n, dtype=bool)
     found = np.zeros((0, solver.arm.n))
@@ -166,4 +164,3 @@ def _reached(
         used += wave
         wave = min(2 * wave, STARTS - used)
     return done
-

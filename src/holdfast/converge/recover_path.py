@@ -136,6 +136,9 @@ def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: 
         before = q[k - 1, alive]
         target = np.repeat(poses[k][None], len(alive), axis=0)
         after = solver.nearest(before, target, kept[alive], space.free)
+        far = np.abs(after - before).max(axis=1) > _JUMP
+        if far.any():  # rows that are given up must not pull the others onto another branch
+            after[far] = solver.run(before[far], target[far], kept[alive][far], space.free)
         good = solver.meets(after, target, kept[alive], space.free) & (np.abs(after - before).max(axis=1) <= _JUMP)
         some = np.flatnonzero(good)
         good[some] = space.edges(before[some], after[some])
@@ -171,9 +174,7 @@ def _without(
     return sets[owner[good][whole[k]]], q[:, whole[k]]
 
 
-def _with(
-    made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array, given_up: RowsGivenUp | None
-) -> RestOfPath:
+def _with(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array, given_up: RowsGivenUp | None) -> RestOfPath:
     middle = path.pose((made.share[1:] + made.share[:-1]) / 2)
     off = np.abs(solver.errors((q[1:] + q[:-1]) / 2, middle) * mask).max()
     return replace(made, q=q, deviation=float(off), given_up=given_up)

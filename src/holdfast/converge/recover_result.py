@@ -193,8 +193,9 @@ class Recovery:
     def describe(self) -> list[str]:
         """A few sentences for people."""
         stands = ", ".join(
-            f"{name} at {value:.4g} m" if self.arm.joints[self.arm.joint_index(name)].prismatic else f"{name} at "
-            f"{np.rad2deg(value):.4g} deg"
+            f"{name} at {value:.4g} m"
+            if self.arm.joints[self.arm.joint_index(name)].prismatic
+            else f"{name} at {np.rad2deg(value):.4g} deg"
             for name, value in self.locked.items()
         )
         lines = [f"'{self.arm.name}', locked: {stands}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
@@ -206,7 +207,9 @@ class Recovery:
         if others:
             lines.append("other sets of rows that could be given up: " + "; ".join(others[:6]))
         for leg in self.legs:
-            shortest = "straight, nothing is shorter" if leg.straight else f"no way is shorter than {leg.lower_bound:.4g} {self.unit}"
+            shortest = (
+                "straight, nothing is shorter" if leg.straight else f"no way is shorter than {leg.lower_bound:.4g} {self.unit}"
+            )
             lines.append(f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit} ({shortest})")
         if self.rest is not None:
             lines.append(self.rest.describe())

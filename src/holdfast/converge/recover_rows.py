@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import combinations
 from typing import Literal
 
@@ -104,6 +104,7 @@ class RowSolver:
         step, residual = damped_step(arm, q, weights * error, pull)
         self._loop = Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], step, residual)
         self._errors = Kernel("errors of the rows", [q, p, r], [ca.densify(error)])
+        self._symbols = q, p, r, slope
 
     def _error(self, q: SX, p: SX, r: SX) -> tuple[SX, SX]:
         """Error (m,) of the rows and its derivative (m, n), sign turned."""
@@ -131,6 +132,16 @@ class RowSolver:
         """Signed error (N, m) of every row at q (N, n), m and rad."""
         return self._errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
 
+    @cached_property
+    def _slopes(self) -> Kernel:
+        q, p, r, slope = self._symbols
+        return Kernel("slopes of the rows", [q, p, r], [ca.densify(-slope)])
+
+    def slopes(self, q: Array, pose: Array) -> Array:
+        """Exact derivative (m, n) of :meth:`errors` at one q (n,) and pose (4, 4)."""
+        flat = self._slopes.rows(q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
+        return np.asarray(flat.reshape(self.rows.m, self.arm.n))
+
     def run(self, q: Array, poses: Array, weights: Array, free: Flags, steps: int = _STEPS) -> Array:
         """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) standing."""
         count = len(q)
@@ -157,7 +168,9 @@ class RowSolver:
 
 
 @lru_cache(maxsize=16)
-def _solver(arm: Arm, matrix: tuple[tuple[float, ...], ...], names: tuple[str, ...], linear: Frame, angular: Frame) -> RowSolver:
+def _solver(
+    arm: Arm, matrix: tuple[tuple[float, ...], ...], names: tuple[str, ...], linear: Frame, angular: Frame
+) -> RowSolver:
     return RowSolver(arm, Rows(names, np.array(matrix), linear, angular))
 
 

@@ -72,7 +72,9 @@ def read_waypoints(arm: Arm, path: str | Path) -> Array:
     wanted = [f"{j.name}_{j.unit}" for j in arm.joints]
     for name in wanted:
         if head.count(name) != 1:
-            raise InputError(f"waypoints '{file}': column '{name}' is missing or there twice; '{arm.name}' needs {', '.join(wanted)}")
+            raise InputError(
+                f"waypoints '{file}': column '{name}' is missing or there twice; '{arm.name}' needs {', '.join(wanted)}"
+            )
     odd = [name for name in head if name not in wanted and name not in FIRST]
     if odd:
         raise InputError(f"waypoints '{file}': column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *wanted])}")
