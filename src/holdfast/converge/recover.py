@@ -262,20 +262,20 @@ def _trouble(
     for k, value in stands.items():
         if abs(at[k] - value) > SAME:
             return Ending.LOCK_ELSEWHERE, (
-                f"{arm.joint_names[k]} is said to be locked at {value:.6g} and stands at {at[k]:.6g} {arm.joints[k].unit}; give "
-                "the angle at which it stands, or leave the angle out"
+                f"{arm.joint_names[k]} is said to be locked at {value:.6g} and stands at {at[k]:.6g} {arm.joints[k].unit}; "
+                "give the angle at which it stands, or leave the angle out"
             )
     for joint, x in zip(arm.joints, at, strict=True):
         if not joint.lower <= x <= joint.upper:
             return Ending.START_OUTSIDE_LIMITS, (
-                f"{joint.name} stands at {x:.6g} {joint.unit}, its limits are {joint.lower:.6g} to {joint.upper:.6g}; if it can "
-                "move there, widen the limits of the arm"
+                f"{joint.name} stands at {x:.6g} {joint.unit}, its limits are {joint.lower:.6g} to {joint.upper:.6g}; if it "
+                "can move there, widen the limits of the arm"
             )
     if clearance is not None and clearance.pairs and float(clearance(at)) < margin:
         name = clearance.pair_names[int(clearance.closest_pair(at))]
         return Ending.START_TOO_CLOSE, (
-            f"the clearance is {float(clearance(at)):.4g} m ({name}) and {margin:g} m must be kept; give the arm's real capsules, "
-            "or no clearance"
+            f"the clearance is {float(clearance(at)):.4g} m ({name}) and {margin:g} m must be kept; "
+            "give the arm's real capsules, or no clearance"
         )
     return None
 

@@ -23,7 +23,8 @@ def clearance_slopes(clearance: Clearance, low: Array, high: Array) -> Array:
 
     Args:
         clearance: The pairs.
-        low, high: (n,) box of configurations, finite, rad and m.
+        low: (n,) lower corner of the box, finite, rad and m.
+        high: (n,) upper corner.
     """
     arm = clearance.arm
     slide = np.where(arm.prismatic, np.maximum(np.abs(low), np.abs(high)), 0.0)

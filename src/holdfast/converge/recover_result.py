@@ -49,10 +49,10 @@ _SENTENCES = {
     Ending.HOME: "the whole goal is met, within limits, locks and clearance",
     Ending.HOME_WITH_ROWS_GIVEN_UP: "the goal is NOT met as a whole: a motion was found to a configuration that gives rows up",
     Ending.PATH_UNFINISHED: "the rest of the hand path is NOT finished; if a goal was given too, it is met",
-    Ending.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not prove that there "
-    "is none: give more tries",
-    Ending.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not prove that there is "
-    "none: give more starts",
+    Ending.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not prove that "
+    "there is none: give more tries",
+    Ending.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not prove that there "
+    "is none: give more starts",
     Ending.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
     Ending.START_OUTSIDE_LIMITS: "no motion: the arm stands outside its limits",
     Ending.START_TOO_CLOSE: "no motion: where it stands the arm is closer to itself than the clearance that must be kept",
@@ -203,7 +203,7 @@ class Recovery:
             lines.append(self.reason)
         if self.given_up is not None:
             lines.append(f"given up: {self.given_up}")
-        others = [str(choice) for choice in self.choices if choice is not self.given_up]
+        others = [str(c) for c in self.choices if self.given_up is None or not set(c.names) <= set(self.given_up.names)]
         if others:
             lines.append("other sets of rows that could be given up: " + "; ".join(others[:6]))
         for leg in self.legs:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -176,7 +177,7 @@ def check_waypoints(
 def _between(q: Array) -> Array:
     """Configurations along the way, the waypoints among them."""
     parts = [q[:1]]
-    for a, b in zip(q[:-1], q[1:], strict=True):
+    for a, b in pairwise(q):
         count = max(int(np.ceil(float(np.abs(b - a).max()) / _FINE)), 1)
         parts.append(a + (np.arange(1, count + 1) / count)[:, None] * (b - a))
         parts[-1][-1] = b
