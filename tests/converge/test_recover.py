@@ -122,18 +122,12 @@ def test_a_configuration_that_the_lock_forbids_is_never_home():
 # ---- a maze --------------------------------------------------------------------------------------------------------
 
 
-def maze(stub: bool = False) -> tuple[hf.Arm, Clearance]:
-    """Three links among walls of the base: a post that the last link must be drawn back from to pass."""
+def maze(closed: bool = False) -> tuple[hf.Arm, Clearance]:
+    """Three links, and a wall of the base along x: the last link must be drawn back to pass; closed, nothing passes."""
     arm = limited(three_links(), [-3.0, -2.6, -2.8], [3.0, 2.6, 2.8])
-    along = [Capsule(k, (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.05) for k in (1, 2)]
-    frames = arm.forward_kinematics(np.zeros(3))
-    assert frames[0, 3] == pytest.approx(3.0)
-    # Links of a DH arm carry frames at the joint, so that the link runs from its origin to the next.
-    along = [Capsule(k, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 0.05) for k in (1, 2)]
-    walls = [Capsule(-1, (1.75, 0.0, 0.0), (3.2, 0.0, 0.0), 0.08)]
-    if stub:
-        walls.append(Capsule(-1, (0.05, 0.0, 0.0), (3.2, 0.0, 0.0), 0.02))
-    return arm, Clearance(arm, Capsules(tuple(along + walls)))
+    links = [Capsule(k, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 0.05) for k in (1, 2)]
+    wall = Capsule(-1, (0.5 if closed else 2.2, 0.0, 0.0), (3.2, 0.0, 0.0), 0.08)
+    return arm, Clearance(arm, Capsules((*links, wall)))
 
 
 START, GOAL = np.array([0.9, -0.4, 0.3]), np.array([-0.9, -0.4, -0.3])
@@ -179,8 +173,8 @@ def shortest_on_grid(arm: hf.Arm, clearance: Clearance, margin: float, start: np
 
 
 def test_behind_a_closed_wall_no_route_is_claimed():
-    arm, clearance = maze(stub=True)
-    result = hf.recover(arm, ["joint1"], [0.9, -0.2, 0.1], [0.9, -2.2, -0.4], clearance=clearance, samples=0, tries=1)
+    arm, clearance = maze(closed=True)
+    result = hf.recover(arm, ["joint2"], START, GOAL, clearance=clearance, samples=0, tries=1)
     assert result.ending == Ending.NO_ROUTE_FOUND, result.describe()
     assert len(result.q) == 0
     assert not result.ok

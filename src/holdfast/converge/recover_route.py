@@ -21,7 +21,8 @@ MetricName = Literal["travel", "time"]
 
 FINEST = 5e-4  # m of possible motion between the capsules: what cannot be told clear at this is taken as blocked
 _BATCH = 48  # samples a round
-_ROUNDS = 400
+_ROUNDS = 200
+_NODES = 12_000  # of both trees together
 _REACH = 0.15  # of the diagonal of the box: length of one step of a tree
 _CUTS = 64  # shortcuts tried a round
 _IDLE = 8  # rounds without a gain before the way counts as short
@@ -212,15 +213,32 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
 class _Tree:
     """Configurations that can be reached from the roots, and from which one each."""
 
-    def __init__(self, roots: Array) -> None:
+    def __init__(self, space: Space, metric: Metric, roots: Array) -> None:
+        self._space, self._metric = space, metric
+        self._turning = joint_space.turning(space.arm) & space.free
         self.nodes = roots.copy()
         self.parent = np.full(len(roots), -1)
+        self._points = self._embedded(roots)
+
+    def _embedded(self, q: Array) -> Array:
+        """Points (N, e) whose distances order configurations as the metric does, nearly: a turning joint is a circle."""
+        flat = (q * self._metric.scale)[:, self._space.free & ~self._turning]
+        scale = self._metric.scale[self._turning]
+        turned = q[:, self._turning]
+        return np.concatenate([flat, scale * np.cos(turned), scale * np.sin(turned)], axis=1)
 
     def add(self, nodes: Array, parents: NDArray[np.intp]) -> NDArray[np.intp]:
         first = len(self.nodes)
         self.nodes = np.concatenate([self.nodes, nodes])
         self.parent = np.concatenate([self.parent, parents])
+        self._points = np.concatenate([self._points, self._embedded(nodes)])
         return np.arange(first, len(self.nodes))
+
+    def nearest(self, q: Array) -> tuple[NDArray[np.intp], Array]:
+        """Which node is nearest to each q (N, n), and ``q`` less that node (N, n)."""
+        to, own = self._embedded(q), self._points
+        index = ((own**2).sum(axis=1) - 2 * to @ own.T).argmin(axis=1)
+        return index, self._space.difference(q, self.nodes[index])
 
     def way(self, k: int) -> list[int]:
         """Nodes from k to its root."""
@@ -230,21 +248,16 @@ class _Tree:
         return out
 
 
-def _nearest(space: Space, metric: Metric, tree: _Tree, q: Array) -> tuple[NDArray[np.intp], Array]:
-    """Which node of the tree is nearest to each q (N, n), and ``q`` less that node (N, n)."""
-    away = space.difference(q[:, None, :], tree.nodes[None, :, :])
-    index = metric.length(away).argmin(axis=1)
-    return index, away[np.arange(len(q)), index]
-
-
 def _connect(space: Space, metric: Metric, start: Array, goals: Array, rng: np.random.Generator) -> tuple[Array, int] | None:
     """A way from start (n,) to one of the goals (G, n) and which, or None after the last round."""
-    here, there = _Tree(start[None]), _Tree(goals)
+    here, there = _Tree(space, metric, start[None]), _Tree(space, metric, goals)
     reach = _REACH * float(metric.length(np.where(space.free, space.high - space.low, 0.0)))
     forward = True
     for _ in range(_ROUNDS):
+        if len(here.nodes) + len(there.nodes) > _NODES:
+            break
         grown, other = (here, there) if forward else (there, here)
-        index, away = _nearest(space, metric, grown, space.sample(_BATCH, rng))
+        index, away = grown.nearest(space.sample(_BATCH, rng))
         step = _shortened_step(metric, away, reach)
         made = grown.nodes[index] + step
         good = space.edges(grown.nodes[index], made)
@@ -267,7 +280,7 @@ def _meet(
     """Grows the other tree towards new nodes step by step until one arrives: the two nodes that meet."""
     target = new
     while target.size:
-        index, away = _nearest(space, metric, other, grown.nodes[target])
+        index, away = other.nearest(grown.nodes[target])
         step = _shortened_step(metric, away, reach)
         made = other.nodes[index] + step
         good = space.edges(other.nodes[index], made)
