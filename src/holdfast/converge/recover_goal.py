@@ -146,13 +146,14 @@ def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list
     def errors(x: Array) -> Array:
         return np.asarray(solver.errors(x[None], pose[None])[0])
 
-    def cost(x: Array) -> tuple[float, Array]:
+    def cost(x: Array) -> float:
         e = errors(x)[lost]
-        return float(e @ e), 2 * e @ solver.slopes(x, pose)[lost]
+        return float(e @ e)
 
-    wanted: list[dict[str, Any]] = [
-        {"type": "eq", "fun": lambda x: errors(x)[kept], "jac": lambda x: solver.slopes(x, pose)[kept]}
-    ]
+    def slope(x: Array) -> Array:
+        return np.asarray(2 * errors(x)[lost] @ solver.slopes(x, pose)[lost])
+
+    wanted: list[Any] = [{"type": "eq", "fun": lambda x: errors(x)[kept], "jac": lambda x: solver.slopes(x, pose)[kept]}]
     clearance = space.clearance
     if clearance is not None:
         gap = {"fun": lambda x: clearance(x) - space.margin, "jac": clearance.gradient}

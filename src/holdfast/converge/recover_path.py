@@ -170,7 +170,7 @@ def _without(
         return None
     missed = [float(np.linalg.norm(solver.errors(q[:, k], poses), axis=1).max()) for k in whole]
     keys = [(*preferred(solver.rows, sets[owner[good][k]]), miss) for k, miss in zip(whole, missed, strict=True)]
-    k = min(range(len(whole)), key=keys.__getitem__)
+    k = sorted(range(len(whole)), key=lambda i: keys[i])[0]
     return sets[owner[good][whole[k]]], q[:, whole[k]]
 
 

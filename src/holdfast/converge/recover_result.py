@@ -68,8 +68,8 @@ class Leg:
         name: ``to the path``, ``along the path`` or ``to the goal``.
         first, last: Of its waypoints.
         length: Of the metric.
-        lower_bound: No way between its ends, to any of the configurations found of its goal, is shorter.
-        straight: It is one straight line in joint space, so nothing is shorter.
+        lower_bound: No way to any of the configurations found of its goal is shorter; more configurations may exist.
+        straight: It is one straight line in joint space.
     """
 
     name: str
@@ -171,7 +171,7 @@ class Recovery:
         Raises:
             InputError: There is no motion.
         """
-        stands: dict[str | int, float] = dict(self.locked)
+        stands: dict[str | int, float] = {**self.locked}
         return recover_waypoints.check_waypoints(self.arm, self.q, stands, self.clearance, self.margin)
 
     def figure(self) -> Figure:

@@ -51,7 +51,7 @@ class Rows:
         matrix = np.eye(6) if task.invariant else task.rows
         linear, angular = task.frame, "tool" if task.invariant else task.frame
         names = [_name(row, k, linear, angular) for k, row in enumerate(matrix)]
-        return cls(tuple(names), matrix, "base" if task.invariant else linear, angular)  # type: ignore[arg-type]
+        return cls(tuple(names), matrix, "base" if task.invariant else linear, angular)
 
     @property
     def m(self) -> int:
