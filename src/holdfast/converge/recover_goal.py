@@ -163,7 +163,7 @@ def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list
         found = minimize(
             cost,
             q,
-            jac=True,
+            jac=slope,
             method="SLSQP",
             bounds=list(zip(low, high, strict=True)),
             constraints=wanted,

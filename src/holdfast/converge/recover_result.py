@@ -207,10 +207,13 @@ class Recovery:
         if others:
             lines.append("other sets of rows that could be given up: " + "; ".join(others[:6]))
         for leg in self.legs:
-            shortest = (
-                "straight, nothing is shorter" if leg.straight else f"no way is shorter than {leg.lower_bound:.4g} {self.unit}"
-            )
-            lines.append(f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit} ({shortest})")
+            text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit}"
+            if leg.name != "along the path":
+                kind = "a straight line" if leg.straight else "the shortest way found"
+                least = leg.length <= leg.lower_bound * (1 + 1e-9)
+                bound = "no way" if least else f"lower bound {leg.lower_bound:.4g} {self.unit}"
+                text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if least else ''})"
+            lines.append(text)
         if self.rest is not None:
             lines.append(self.rest.describe())
         if self.left is not None:

@@ -182,7 +182,7 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
     """The shortest way found from start (n,) to any of the goals (G, n), or None; all of them must be clear.
 
     Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by
-    trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000; Steer and connect in batches), several times, and
+    trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
     what is found is cut short.
     """
     goals = start + space.difference(goals, start)

@@ -78,8 +78,8 @@ def _name(row: Array, k: int, linear: str, angular: str) -> str:
 def _log_slope(phi: SX) -> SX:
     """(3, 3) ``A`` with ``d/dt log(R_d R') = -A(log(R_d R')) w`` for the angular velocity w of R in the world.
 
-    Source: the inverse of the right Jacobian of SO(3), ``I + [phi]/2 + c [phi]^2``,
-    ``c = 1/t^2 - cot(t/2) / (2 t)`` (Sola, Deray and Atchuthan 2018, eq. 144).
+    It is the inverse of the right Jacobian of SO(3), ``I + [phi]/2 + c [phi]^2`` with ``t = |phi|`` and
+    ``c = 1/t^2 - cot(t/2) / (2 t)``; a textbook formula, checked by finite differences.
     """
     square = ca.sumsqr(phi)
     far = square > 1e-8
