@@ -170,8 +170,8 @@ def _without(
         return None
     missed = [float(np.linalg.norm(solver.errors(q[:, k], poses), axis=1).max()) for k in whole]
     keys = [(*preferred(solver.rows, sets[owner[good][k]]), miss) for k, miss in zip(whole, missed, strict=True)]
-    k = sorted(range(len(whole)), key=lambda i: keys[i])[0]
-    return sets[owner[good][whole[k]]], q[:, whole[k]]
+    best = whole[min(range(len(keys)), key=keys.__getitem__)]
+    return sets[owner[good][best]], q[:, best]
 
 
 def _with(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array, given_up: RowsGivenUp | None) -> RestOfPath:

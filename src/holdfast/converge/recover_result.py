@@ -171,7 +171,7 @@ class Recovery:
         Raises:
             InputError: There is no motion.
         """
-        stands: dict[str | int, float] = {**self.locked}
+        stands: dict[str | int, float] = dict(self.locked.items())
         return recover_waypoints.check_waypoints(self.arm, self.q, stands, self.clearance, self.margin)
 
     def figure(self) -> Figure:

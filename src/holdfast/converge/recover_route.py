@@ -99,7 +99,6 @@ class Space:
         self._lower = np.where(arm.prismatic, self.low, arm.lower)
         self._upper = np.where(arm.prismatic, self.high, arm.upper)
         self._slopes = None if self.clearance is None else clearance_slopes(self.clearance, self.low, self.high)
-        self.tested = 0
 
     def inside(self, q: Array) -> Flags:
         """(N,) True within the limits, the joints that stand left aside."""
@@ -109,8 +108,7 @@ class Space:
         """(N,) True where configurations (N, n) keep limits and clearance."""
         if self.clearance is None:
             return self.inside(q)
-        self.tested += len(q)
-        return np.asarray(self.inside(q) & (self.clearance(q) >= self.margin))
+        return np.asarray(self.inside(q) & (self._gaps(q).min(axis=1) >= 0))
 
     def edges(self, a: Array, b: Array) -> Flags:
         """(E,) True where the whole straight piece from a to b (E, n) is proved to keep limits and clearance.
@@ -147,7 +145,6 @@ class Space:
     def _gaps(self, q: Array) -> Array:
         """(N, P) distance of every pair beyond the margin, m."""
         assert self.clearance is not None
-        self.tested += len(q)
         return self.clearance.by_pair(q) - self.margin
 
     def difference(self, a: Array, b: Array) -> Array:
