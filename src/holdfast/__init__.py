@@ -6,6 +6,7 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
+from holdfast.converge import Recovery, recover
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -32,6 +33,7 @@ __all__ = [
     "Link",
     "Optimum",
     "Reach",
+    "Recovery",
     "Region",
     "Runs",
     "Status",
@@ -50,6 +52,7 @@ __all__ = [
     "load",
     "optimise",
     "paths",
+    "recover",
     "set_threads",
     "simulate",
     "solve_ik",

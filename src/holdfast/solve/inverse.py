@@ -125,7 +125,7 @@ class InverseKinematics:
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         e, j = task_error(arm, task, q, p, r)
-        step, residual = _damped_step(arm, q, e, j)
+        step, residual = damped_step(arm, q, e, j)
         self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
         self._symbols = q, p, r, e, j
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
@@ -147,7 +147,7 @@ class InverseKinematics:
         q, p, r, e, j = self._symbols
         free = ca.SX.sym("free", self.arm.n)
         masked = ca.horzcat(*[j[:, k] * free[k] for k in range(self.arm.n)])
-        step, residual = _damped_step(self.arm, q, e, masked)
+        step, residual = damped_step(self.arm, q, e, masked)
         return Loop("inverse kinematics with locked joints", q, [p, r, free], step, residual)
 
     def reaches_locked(
@@ -255,7 +255,8 @@ class InverseKinematics:
         return q
 
 
-def _damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
+def damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
+    """The next q (n,) of :class:`InverseKinematics` from an error (m,) and its Jacobian (m, n), and the squared error."""
     n = arm.n
     size = ca.sumsqr(e)
     pull = [ca.dot(j[:, k], e) for k in range(n)]

@@ -1,0 +1,80 @@
+"""``holdfast recover``: what it prints and writes, and with which exit code."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.converge import read_waypoints
+
+CALL = ["recover", "planar-3r", "--lock", "2", "--at", "20 40 60", "--degrees"]
+
+
+def test_the_command_writes_what_it_found(cli, tmp_path):
+    out = tmp_path / "home"
+    code, text, err = cli(*CALL, "--goal", "pose:1.5,1.5,0", "--samples", "100", "--out", out, "--csv", tmp_path / "w.csv")
+    assert (code, err) == (0, "")
+    assert "HOME: the whole goal is met" in text
+    assert {f.name for f in out.iterdir()} == {"recovery.json", "waypoints.csv", "motion.png", "left.png"}
+    data = json.loads((out / "recovery.json").read_text())
+    arm = hf.arms.load("planar-3r")
+    q = read_waypoints(arm, tmp_path / "w.csv")
+    np.testing.assert_array_equal(q, data["waypoints"])
+    np.testing.assert_allclose(oracles.forward(arm, q[-1:])[0, :2, 3], [1.5, 1.5], atol=3e-6)
+    assert (data["ok"], data["ending"], data["check"]["ok"]) == (True, "home", True)
+    code, text, err = cli("recover", "planar-3r", "--lock", "2=40", "--degrees", "--check", tmp_path / "w.csv")
+    assert (code, err) == (0, "")
+    assert "Limits and locks are kept" in text
+    code, text, _ = cli("recover", "planar-3r", "--lock", "2=41", "--degrees", "--check", tmp_path / "w.csv", "--json")
+    assert code == 3
+    assert json.loads(text)["locks_moved"] == {"joint2": pytest.approx(np.deg2rad(1))}
+
+
+@pytest.mark.parametrize(
+    ("more", "ending"),
+    [
+        (["--goal", "pose:0.3,0.2,0"], "home_with_rows_given_up"),
+        (["--goal", "q:0 0 0"], "home_with_rows_given_up"),
+        (["--lock", "3=10"], "lock_elsewhere"),
+    ],
+    ids=["rows", "joint", "elsewhere"],
+)
+def test_anything_less_than_the_whole_goal_is_exit_code_3(cli, more, ending):
+    code, text, err = cli(*CALL, *more, "--samples", "0", "--json")
+    assert (code, err) == (3, "")
+    data = json.loads(text)
+    assert (data["ok"], data["ending"]) == (False, ending)
+
+
+def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
+    arm = hf.arms.load("planar-3r")
+    x, y, _ = arm.forward_kinematics(np.deg2rad([20, 40, 60]))[:3, 3]
+    file = tmp_path / "rest.yaml"
+    file.write_text(f"line: {{from: {{xyz: [{x:.12f}, {y:.12f}, 0]}}, to: {{xyz: [{x - 0.3:.12f}, {y - 0.2:.12f}, 0]}}}}\n")
+    code, text, err = cli(*CALL, "--path", file, "--samples", "0", "--json")
+    assert (code, err) == (0, "")
+    data = json.loads(text)
+    assert data["rest_of_path"]["finished"] is True
+    assert [leg["name"] for leg in data["legs"]][-1] == "along the path"
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (["recover", "planar-3r", "--lock", "2"], "give --at"),
+        (["recover", "planar-3r", "--at", "0 0 0"], "give --lock"),
+        ([*CALL, "--goal", "1,2,0"], "could be joint values or a pose"),
+        ([*CALL, "--goal", "sky:1"], "not known"),
+        ([*CALL, "--lock", "joint2=3"], "twice"),
+        ([*CALL, "--lock", "3=up"], "not a number"),
+        ([*CALL, "--goal", "pose:1,1,0", "--task", "planar-pose"], "no orientation"),
+        ([*CALL, "--margin", "0.1"], "nothing to keep"),
+    ],
+    ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin"],
+)
+def test_the_command_refuses_in_one_sentence(refused, call, sentence):
+    assert sentence in refused(*call)
