@@ -257,10 +257,8 @@ def test_folders_that_are_no_experiment(records, protocol, tmp_path):
 
 def test_arm_files_travel_with_the_experiment(tmp_path):
     arm = tmp_path / "mine.yaml"
-    arm.write_text(
-        "name: mine\nconvention: standard\nrows:\n"
-        + "".join(f"  - {{name: j{k}, a: {0.5 + 0.1 * k}, alpha: 0, d: 0}}\n" for k in range(3))
-    )
+    rows = "".join(f"  - {{name: j{k}, a: {0.5 + 0.1 * k}, alpha: 0, d: 0}}\n" for k in range(3))
+    arm.write_text("name: mine\nrows:\n" + rows)
     text = read().text().replace("arm: planar-3r", "arm: mine.yaml")
     for k in (1, 2, 3):
         text = text.replace(f"joint: joint{k}", f"joint: j{k - 1}")
