@@ -9,7 +9,17 @@ from holdfast.control import Trajectory, follow
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
-from holdfast.simulate import BrakedDrop, FreeSwing, Runs, free_swing, simulate
+from holdfast.simulate import (
+    BrakedDrop,
+    FreeSwing,
+    LawComparison,
+    PointToPoint,
+    Runs,
+    compare_laws,
+    free_swing,
+    point_to_point,
+    simulate,
+)
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
@@ -29,8 +39,10 @@ __all__ = [
     "InputError",
     "Joint",
     "KernelError",
+    "LawComparison",
     "Link",
     "Optimum",
+    "PointToPoint",
     "Reach",
     "Region",
     "Runs",
@@ -43,6 +55,7 @@ __all__ = [
     "arms",
     "assess",
     "compare",
+    "compare_laws",
     "control",
     "follow",
     "free_swing",
@@ -50,6 +63,7 @@ __all__ = [
     "load",
     "optimise",
     "paths",
+    "point_to_point",
     "set_threads",
     "simulate",
     "solve_ik",

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.assess.assess import Assessment
-from holdfast.assess.interval import Interval
+from holdfast.interval import Interval
 from holdfast.assess.region import Region
 from holdfast.assess.structure import structure
 from holdfast.assess.upgrade import Upgrade

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.assess.interval import Interval, Sums, check_confidence
+from holdfast.interval import Interval, Sums, check_confidence
 from holdfast.errors import InputError
 
 __all__ = ["BINS", "Collector", "Distribution", "Interval"]

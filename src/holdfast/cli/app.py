@@ -11,6 +11,7 @@ from typer.exceptions import TyperException
 from holdfast.cli import (
     arm_commands,
     assess_commands,
+    compare_commands,
     configure_commands,
     export_commands,
     follow_commands,
@@ -58,6 +59,7 @@ assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)
+compare_commands.add(app)
 export_commands.add(app)
 
 

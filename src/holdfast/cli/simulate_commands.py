@@ -97,7 +97,7 @@ def simulate(
     runs = run(
         made,
         read_configuration(model, start, degrees, "--start"),
-        _target(made, target),
+        read_target(made, target),
         [_lock(model, text) for text in lock or []],
         cycles,
         time_limit=time_limit,
@@ -129,7 +129,7 @@ def _one(option: str, text: str) -> float:
     return float(values[0])
 
 
-def _target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+def read_target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
     values = read_numbers("--target", text, "numbers")
     task = law.task
     if values.size == 7:
