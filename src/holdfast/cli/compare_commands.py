@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import numpy as np
 import typer
 
 from holdfast.cli.law_options import LawsOption, read_labelled_law
@@ -227,6 +226,8 @@ def _print_costs(c: LawComparison, costs: list[dict[str, Any]]) -> None:
     from rich.markup import escape
     from rich.table import Table
 
+    from holdfast.report.words import fixed
+
     out = console()
     unit = "cycles" if c.runs[0].cycles else "s"
     table = Table(
@@ -234,8 +235,8 @@ def _print_costs(c: LawComparison, costs: list[dict[str, Any]]) -> None:
     )
     for r in costs:
         cells = [
-            f"{number(r[f'{of}_50{end}'], 3) if np.isfinite(r[f'{of}_50{end}']) else 'none'} {shown}"
-            for of, end, shown in (("deviation", "_m", "m"), ("angle", "_deg", "deg"), ("time", "", unit))
+            f"{fixed(r[f'{of}_50{end}'], digits)} {shown}"
+            for of, end, shown, digits in (("deviation", "_m", "m", 3), ("angle", "_deg", "deg", 1), ("time", "", unit, 2))
         ]
         table.add_row(escape(r["law"]), *cells)
     out.print(table)

@@ -190,7 +190,14 @@ class LawComparison:
         effective = share * (1 - share) / spread * len(hits) if spread > 0 else float(hits.size)
         return Interval.of_share(share, effective)
 
-    def gain(self, law: str, failure: str | int = ANY, than: str | None = None, among_reachable: bool = False) -> Difference:
+    def gain(
+        self,
+        law: str,
+        failure: str | int = ANY,
+        than: str | None = None,
+        among_reachable: bool = False,
+        undecided: Literal["lost", "for", "against"] = "lost",
+    ) -> Difference:
         """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
 
         Paired: for one joint by the method of Newcombe, for ``any joint`` from the mean over the joints of each motion.
@@ -200,21 +207,27 @@ class LawComparison:
             failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
             than: The other law; the first if not given.
             among_reachable: Of the motions whose target is still within reach only; not for ``any joint``.
+            undecided: What undecided runs with a target within reach count as, for they may yet arrive: ``lost`` under either
+                law, as if they all arrived under this law (``for``), or as if they all did under the other (``against``).
 
         Raises:
             InputError: A law or a joint that was not part of the comparison, or no motion to compare.
         """
         other = self.names[0] if than is None else than
+        generous = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
         if failure == ANY:
-            one, two = ((self.pooled(x, "code") == Outcome.CONVERGED).mean(axis=0) for x in (other, law))
-            if len(one) < 2:
-                raise InputError("a mean over the joints takes two motions or more; name one joint")
+            if len(self) < 2 or not self.joints:
+                raise InputError("a mean over the joints takes two motions or more, and a locked joint; name one joint")
+            one, two = (
+                np.mean([_arrived(self.case(x, joint), kind) for joint in self.joints], axis=0)
+                for x, kind in zip((other, law), generous, strict=True)
+            )
             return Difference.of_means(two - one)
         before, after = self.case(other, failure), self.case(law, failure)
         some = before.reachable if among_reachable else np.ones(len(self), dtype=bool)
         if not some.any():
             raise InputError(f"no target is within reach with '{before.failure}' locked; leave out among_reachable")
-        return Difference.of_pairs(before.ended("converged")[some], after.ended("converged")[some])
+        return Difference.of_pairs(_arrived(before, generous[0])[some], _arrived(after, generous[1])[some])
 
     def change(
         self, law: str, of: Literal["error", "excess", "closest"], failure: str | int = ANY, than: str | None = None
@@ -266,7 +279,7 @@ class LawComparison:
 
         ``law, failure, motions, converged`` and its 95 % interval ``converged_low, converged_high``; the same of ``stuck``,
         ``moving`` and ``undecided``; ``reachable`` (share of targets still within reach) and ``converged_reachable`` among
-        them; ``error_*`` and ``excess_*`` (quantiles of the end error and of what it exceeds the least by), ``astray`` (median
+        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``error_*`` and ``excess_*`` (quantiles of the end error and of what it exceeds the least by), ``astray`` (median
         end error of the runs that did not converge), ``closest``, ``path_ratio`` and ``excursion`` (medians), and
         ``past_limits`` (share of runs with a joint beyond a limit). m and rad.
         """
@@ -279,6 +292,7 @@ class LawComparison:
             row |= _ends(name, c.share(name))
         row["reachable"] = float(c.reachable.mean())
         row |= _ends("converged_reachable", c.share(among_reachable=True))
+        row["converged_within_limits"] = float((c.ended("converged") & ~c.past_limits).mean())
         for what, values in (("error", c.error), ("excess", c.excess)):
             for level in LEVELS:
                 row[f"{what}_{round(100 * level):02d}"] = _quantile(values, level)
@@ -349,13 +363,16 @@ def compare_laws(
     Nobody tells the laws: see :func:`holdfast.simulate.simulate`, which this is one call of for each law.
 
     Args:
-        laws: Two or more laws of one arm and task, the first being the one that the others are compared with; or a
+        laws: Laws of one arm and task, the first being the one that the others are compared with; or a
             dictionary of them by name. Without names they are called by :attr:`holdfast.control.Law.label`.
         q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`.
         target: As :func:`holdfast.simulate.simulate` takes it, one or N.
         locked: ``"each"`` joint alone, or a list of joints by name or index from 0, each of which locks alone; None: no
             failures.
-        cycles, time_limit, tolerance, radius: As for :func:`holdfast.simulate.simulate`.
+        cycles: As for :func:`holdfast.simulate.simulate`, and so the next three.
+        time_limit: s or cycles.
+        tolerance: Of the adaptive method.
+        radius: Of the target in cycles, m (and rad).
         restarts: Random starts of the search for the least error that a failed arm can have.
         seed: Of these.
 
@@ -365,7 +382,7 @@ def compare_laws(
     named = dict(laws) if isinstance(laws, Mapping) else _by_label(laws)
     every = tuple(named.values())
     if not every:
-        raise InputError("there is no law to compare; give two or more, for example hf.control.pseudoinverse(arm)")
+        raise InputError("there is no law to compare; give one or more, for example hf.control.pseudoinverse(arm)")
     arm, task = every[0].arm, every[0].task
     for name, law in named.items():
         if law.arm is not arm or not law.task.same_rows(task):
@@ -453,6 +470,11 @@ def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Ar
 def _some(runs: Runs, rows: NDArray[np.int64]) -> Runs:
     arrays = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
     return replace(runs, **arrays)
+
+
+def _arrived(case: Case, generous: bool) -> Flags:
+    """(N,) True for the runs that converged; generously also for those that may yet."""
+    return case.ended("converged") | (generous & case.ended("undecided") & case.reachable)
 
 
 def _quantile(values: Array, level: float) -> float | None:

@@ -72,16 +72,22 @@ def _verdict(c: LawComparison, name: str) -> str:
     if len(c) < 2:
         return ""
     gain, nearer = c.gain(name), c.change(name, "error")
-    told = gain.low > 0 or gain.high < 0
-    more = "more" if gain.value > 0 else "fewer"
-    text = f"With {name} {percent(abs(gain.value))} {more} arrive than with {c.names[0]}"
-    if not told:
-        text = f"Whether {name} lets more arrive than {c.names[0]} cannot be told"
+    first = c.names[0]
+    if gain.low > 0 and c.gain(name, undecided="against").low > 0:
+        text = f"With {name} more arrive than with {first}, by {_points(gain.value)}"
+    elif gain.high < 0 and c.gain(name, undecided="for").high < 0:
+        text = f"With {name} fewer arrive than with {first}, by {_points(-gain.value)}"
+    else:
+        text = f"It cannot be told whether more or fewer arrive with {name} than with {first}"
     if nearer.high < 0 or nearer.low > 0:
         size = "" if c.laws[0].task.angular else " m"
         way = "nearer to" if nearer.value < 0 else "farther from"
         text += f"; on average its runs end {number(abs(nearer.value))}{size} {way} the target"
     return f"{text}."
+
+
+def _points(share: float) -> str:
+    return f"{100 * share:.1f} percentage points"
 
 
 def _listed(parts: Sequence[str]) -> str:
@@ -103,8 +109,8 @@ def _alerts(c: LawComparison) -> list[Callout]:
     if undecided > 0.05:
         found.append(
             Callout(
-                f"Up to {percent(undecided)} of the runs of a law are undecided and count as not arrived; read shares with that "
-                "in mind.",
+                f"Up to {percent(undecided)} of the runs of a law are undecided and count as not arrived; read shares with "
+                "that in mind.",
                 title="Undecided runs",
             )
         )
@@ -199,20 +205,31 @@ def _outcomes(c: LawComparison) -> list[Block]:
                 *[percent(r[o]) for o in _OUTCOMES[1:]],
                 percent(r["reachable"]),
                 "–" if r["converged_reachable"] is None else percent(r["converged_reachable"]),
+                percent(r["converged_within_limits"]),
                 percent(r["past_limits"]),
             ]
         )
-    head = ["law", "locked", "converged", "95 % interval", *_OUTCOMES[1:], "within reach", "converged of these", "past a limit"]
+    head = [
+        "law",
+        "locked",
+        "converged",
+        "95 % interval",
+        *_OUTCOMES[1:],
+        "within reach",
+        "converged of these",
+        "converged within limits",
+        "past a limit",
+    ]
     caption = (
-        f"{counted(len(c), 'motion')} each; intervals by Wilson. Within reach: some configuration of the failed arm has the hand "
-        "at the target (found by search, joint limits aside). Past a limit: a joint left its range on the way."
+        f"{counted(len(c), 'motion')} each; intervals by Wilson. Within reach: some configuration of the failed arm has the "
+        "hand at the target (found by search, joint limits aside). Past a limit: a joint left its range on the way."
     )
     image = figures.svg(outcome_figure(c), "outcomes", "Stacked bars of how the runs ended, by joint and law")
     return [
         Picture(
             image,
-            f"How {counted(len(c), 'motion')} ended under each law, healthy and with each joint locked from the start. Bars end "
-            "at 1; converged is at the target, stuck is at rest elsewhere, moving never comes to rest.",
+            f"How {counted(len(c), 'motion')} ended under each law, healthy and with each joint locked from the start. Bars "
+            "end at 1; converged is at the target, stuck is at rest elsewhere, moving never comes to rest.",
         ),
         Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True),
     ]
@@ -238,7 +255,8 @@ def _gains(c: LawComparison) -> list[Block]:
     caption = (
         f"Differences to {c.names[0]} over the same motions, with 95 % intervals: paired by Newcombe's method and McNemar's "
         "exact test for a joint; from the mean over the joints of each motion (Student's t) for any joint. Excess: above the "
-        "least error that the failed arm could have. Many comparisons at once: one in twenty looks significant by chance."
+        "least error that the failed arm could have. Undecided runs count as not arrived. Many comparisons at once: one in "
+        "twenty looks significant by chance."
     )
     image = figures.svg(gains_figure(c), "gains", "Paired differences to the first law, by joint")
     return [

@@ -105,8 +105,8 @@ def point_to_point(
     while found < count:
         if len(kept) == _PATIENCE:
             raise InputError(
-                f"only {found} of {drawn} motions of '{arm.name}' are as asked for ({wish}), too few for {count}; ask for fewer "
-                "motions, or for less of each"
+                f"only {found} of {drawn} motions of '{arm.name}' are as asked for ({wish}), too few for {count}; ask for "
+                "fewer motions, or for less of each"
             )
         own, solving = seeds.spawn(2)
         q0, q1 = np.random.default_rng(own).uniform(low, high, (2, _BLOCK, arm.n))
