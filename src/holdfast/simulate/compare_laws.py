@@ -279,9 +279,10 @@ class LawComparison:
 
         ``law, failure, motions, converged`` and its 95 % interval ``converged_low, converged_high``; the same of ``stuck``,
         ``moving`` and ``undecided``; ``reachable`` (share of targets still within reach) and ``converged_reachable`` among
-        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``error_*`` and ``excess_*`` (quantiles of the end error and of what it exceeds the least by), ``astray`` (median
-        end error of the runs that did not converge), ``closest``, ``path_ratio`` and ``excursion`` (medians), and
-        ``past_limits`` (share of runs with a joint beyond a limit). m and rad.
+        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``error_*`` and ``excess_*``
+        (quantiles of the end error and of what it exceeds the least by), ``astray`` (median end error of the runs that did not
+        converge), ``closest``, ``path_ratio`` and ``excursion`` (medians), and ``past_limits`` (share of runs with a joint
+        beyond a limit). m and rad.
         """
         return [self._row(self.case(name, failure)) for name in self.names for failure in self.failures]
 
