@@ -8,6 +8,8 @@ from papers.abdi2012.__main__ import nominal
 from papers.claims import Claim, table
 from papers.english1998 import measures, planar
 from papers.english1998.planar import Borders, Planar
+from papers.seven_dof import __main__ as seven_dof
+from papers.seven_dof import study
 
 import holdfast as hf
 
@@ -61,3 +63,22 @@ def test_where_the_tool_ends_is_where_it_hangs_in_the_simulation():
     away = [np.linalg.norm(e.tool_position[-1] - e.tool_position[0]) for e in ends]
     assert measures.fallen(hf.susceptibility.swing_angle(panda), q[None])[0] == pytest.approx(max(away), abs=1e-3)
     assert measures.moved_after(panda, q, 3) == pytest.approx(ends[3].drops[1].distance, abs=1e-6)
+
+
+def test_the_study_on_real_arms_writes_what_it_counts_and_goes_on_where_it_stopped(tmp_path, monkeypatch):
+    arm = hf.arms.load("panda")
+    few = [hf.control.pseudoinverse(arm, "position"), hf.control.damped(arm, 0.2, "position")]
+    monkeypatch.setattr(study, "laws", lambda *_: few)
+    monkeypatch.setattr(study, "TIME_LIMIT", 60.0)
+    lines = seven_dof.run({"position": 6}, ["panda"], tmp_path, tmp_path / "parts")
+    text = (tmp_path / "RESULTS.md").read_text(encoding="utf-8")
+    assert text == "\n".join(lines)
+    drawn = hf.point_to_point(arm, 6, seed=study.SEED)
+    for law in few:
+        runs = [hf.simulate(law, drawn.q0, drawn.target, [k], time_limit=60.0) for k in range(7)]
+        arrived = np.mean([r.outcome == "converged" for r in runs])
+        (row,) = (line for line in lines if line.startswith(f"| panda, position | {law.label} | {100 * arrived:.1f} ("))
+        assert len(row.split("|")) == 12
+    assert {p.name for p in (tmp_path / "figures").iterdir()} == {"panda-position.png", "gains.png", "healthy-position.png"}
+    monkeypatch.setattr(study.hf, "compare_laws", lambda *_, **__: pytest.fail("done already"))
+    assert seven_dof.run({"position": 6}, ["panda"], tmp_path, tmp_path / "parts") == lines

@@ -22,12 +22,12 @@ Part = dict[str, Any]
 
 
 def run(sizes: dict[str, int], arms: Sequence[str], folder: Path, parts: Path) -> list[str]:
-    """All parts, the figures, and the lines of RESULTS.md."""
+    """All parts, the figures, and the lines of RESULTS.md; so many motions of each arm for each task."""
     figures = folder / "figures"
     figures.mkdir(parents=True, exist_ok=True)
-    found = [part(arm, task, sizes[task], parts, figures) for task in TASKS for arm in arms]
+    found = [part(arm, task, motions, parts, figures) for task, motions in sizes.items() for arm in arms]
     draw_gains(found, figures / "gains.png")
-    for task in TASKS:
+    for task in sizes:
         draw_costs([p for p in found if p["task"] == task], figures / f"healthy-{task}.png")
     lines = results(found)
     (folder / "RESULTS.md").write_text("\n".join(lines), encoding="utf-8")
@@ -37,6 +37,11 @@ def run(sizes: dict[str, int], arms: Sequence[str], folder: Path, parts: Path) -
 def title(p: Part) -> str:
     """Arm and task."""
     return f"{p['arm']}, {p['task']}"
+
+
+def tasks(parts: Sequence[Part]) -> list[str]:
+    """Their tasks, each once."""
+    return list(dict.fromkeys(p["task"] for p in parts))
 
 
 def size(p: Part) -> str:
@@ -102,9 +107,9 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         "## Who arrives, every joint as likely to lock as any other",
         "",
-        "In percent of the runs. Within reach: the failed arm has some configuration with the hand at the target, as far as was "
-        "found and joint limits left aside. Astray: median, and 90 % quantile, of the end error of the runs that do not arrive "
-        "(m, or m and rad).",
+        "In percent of the runs. Within reach: the failed arm has some configuration with the hand at the target, as far as "
+        "was found and joint limits left aside. Astray: median, and 90 % quantile, of the end error of the runs that do not "
+        "arrive (m, or m and rad).",
         "",
         "| arm, task | law | arrives (95 % interval) | within reach | arrives of these | stuck | moving | undecided | astray "
         "| arrives within limits |",
@@ -113,9 +118,9 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         "## What the other laws gain over the pseudoinverse",
         "",
-        "Paired over the same motions, 95 % intervals from the mean over the joints of each motion. The last column is what the "
-        "first would be if the undecided runs whose target is within reach all failed, or all arrived, whichever is worse or "
-        "better for the law.",
+        "Paired over the same motions, 95 % intervals from the mean over the joints of each motion. The last column is how "
+        "wide the interval becomes with the undecided runs whose target is within reach: from its lower end if all of the "
+        "pseudoinverse's arrived and none of this law's, to its upper end the other way round.",
         "",
         "| arm, task | law | arrive, percentage points | mean end error | mean excess error | points, at worst to at best |",
         "|---|---|---|---|---|---|",
@@ -125,28 +130,28 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         "## What a law costs while nothing has failed",
         "",
-        "Medians and 95 % quantiles over the motions that converge under every law. Off the line: of the tool, largest distance "
-        "from the straight line; angle: largest between the commanded velocity of the task and the actual one; time: until the "
-        "error is below 1e-3, in 1/Ke. The pseudoinverse does exactly what it is told, whatever it does to the joints.",
+        "Medians and 95 % quantiles over the motions that converge under every law. Off the line: of the tool, largest "
+        "distance from the straight line; angle: largest between the commanded velocity of the task and the actual one; time: "
+        "until the error is below 1e-3, in 1/Ke. The pseudoinverse does exactly what it is told, whatever that takes.",
         "",
         "| arm, task | law | motions | off the line, m | angle, deg | time, 1/Ke |",
         "|---|---|---|---|---|---|",
         *[_cost_row(p, name) for p in parts for name in p["names"]],
         "",
-        *[f"![Cost while healthy, task {task}](figures/healthy-{task}.png)" for task in TASKS],
+        *[f"![Cost while healthy, task {task}](figures/healthy-{task}.png)" for task in tasks(parts)],
         "",
         "## Joint by joint",
         "",
-        "Share that arrives under each law with this joint locked, and in parentheses the share of targets that are still within "
-        "reach.",
+        "Share that arrives under each law with this joint locked, and in parentheses the share of targets that are still "
+        "within reach.",
         "",
         *_joint_tables(parts),
         "",
         "## How far to believe it",
         "",
-        f"- Joint limits are not enforced, only reported: with a joint locked {percent(fewest)} to {percent(limits)} of the runs "
-        "pass one (by arm, task and law). A real arm would stop there. The column *arrives within limits* counts the runs that "
-        "arrive without passing any: that is what is left for sure.",
+        f"- Joint limits are not enforced, only reported: with a joint locked {percent(fewest)} to {percent(limits)} of the "
+        "runs pass one (by arm, task and law). A real arm would stop there. The column *arrives within limits* counts the runs "
+        "that arrive without passing any: that is what is left for sure.",
         "- Nor do the arms collide with themselves, nor do drives saturate; rates are unlimited.",
         "- Starts and targets are spread over all joint values, also folded and nearly singular ones, which no task planner "
         "would choose.",
@@ -164,24 +169,22 @@ def answers(parts: Sequence[Part]) -> list[str]:
     """What the numbers say, in sentences that are made from them."""
     lines = []
     tolerant = parts[0]["names"][-1]
-    for task in TASKS:
+    for task in tasks(parts):
         some = [p for p in parts if p["task"] == task]
-        if not some:
-            continue
         shares = _span([p["any"]["pseudoinverse"]["converged"] for p in some])
         reach = _span([p["any"]["pseudoinverse"]["reachable"] for p in some])
         of_these = _span([p["any"]["pseudoinverse"]["of_reachable"] for p in some])
         lines.append(
-            f"Task {task}, pseudoinverse: {shares} of the motions arrive although a joint is locked and nobody knows; the target "
-            f"is still within reach in {reach}, and of these {of_these} arrive."
+            f"Task {task}, pseudoinverse: {shares} of the motions arrive although a joint is locked and nobody knows; the "
+            f"target is still within reach in {reach}, and of these {of_these} arrive."
         )
         lines.append(f"Task {task}, {tolerant} against the pseudoinverse: {_verdict(some, tolerant)}")
         healthy = [p["cost"][tolerant] for p in some]
+        longer = [p["cost"][tolerant]["time"][2] / p["cost"]["pseudoinverse"]["time"][2] for p in some]
         lines.append(
             f"Task {task}, {tolerant} while healthy: in the median {_numbers([h['deviation'][2] for h in healthy])} m off the "
             f"straight line, {_numbers([np.rad2deg(h['angle'][2]) for h in healthy], 0)} deg off the command at the worst "
-            f"moment, and {_numbers([h['time'][2] / p['cost']['pseudoinverse']['time'][2] for h, p in zip(healthy, some, strict=True)])} "
-            "times as long on the way."
+            f"moment, and {_numbers(longer)} times as long on the way."
         )
     return lines
 
@@ -191,9 +194,7 @@ def _verdict(parts: Sequence[Part], name: str) -> str:
     for p in parts:
         low, high = p["bounds"][name]
         g = gains(p, name)
-        if g["gain_low"] > 0 and low > 0:
-            arrive = f"{100 * g['gain']:+.1f} points arrive"
-        elif g["gain_high"] < 0 and high < 0:
+        if (g["gain_low"] > 0 and low > 0) or (g["gain_high"] < 0 and high < 0):
             arrive = f"{100 * g['gain']:+.1f} points arrive"
         else:
             arrive = f"no difference in arriving that can be told ({100 * g['gain']:+.1f} points)"
