@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -19,7 +19,7 @@ TASKS = ("position", "pose")
 DAMPING, PRE_FAILURE = 0.1, 0.5
 TIME_LIMIT = 1000.0  # 1/Ke
 SEED = 1
-COSTS = ("deviation", "angle", "time")
+COSTS: tuple[Literal["deviation", "angle", "time"], ...] = ("deviation", "angle", "time")
 
 
 def laws(arm: hf.Arm, task: str) -> list[Law]:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from holdfast.cli.law_options import read_labelled_law
 
 CALL = ["compare", "planar-3r", "--law", "pseudoinverse", "--law", "damped:0.3", "--time-limit", "100"]
 
@@ -53,10 +54,13 @@ def test_one_motion_of_ones_own(ask):
     assert data["healthy"][0]["time_50"] == pytest.approx(expected, abs=1e-4)
 
 
-def test_laws_with_their_settings(ask):
-    data = ask("compare", "planar-3r", "--law", "weighted:1,2,3", "--motions", "2", "--lock", "none", "--time-limit", "50")
-    assert list(data["laws"]) == ["weighted:1,2,3"]
-    assert "weights 1, 2, 3" in data["laws"]["weighted:1,2,3"]
+def test_laws_with_their_settings():
+    arm = hf.arms.load("planar-3r")
+    for text in ("weighted:1,2,3", "damped:0.1", "failure-tolerant:0.25", "pseudoinverse"):
+        assert read_labelled_law(text, arm, "planar", gain=2.0).label == text
+    assert read_labelled_law("failure-tolerant", arm, "planar").label == "failure-tolerant:0.5"
+    assert read_labelled_law("weighted:1,2,3", arm, "planar", gain=2.0).describe().endswith("weights 1, 2, 3, gain 2/s")
+    assert hf.control.weighted(arm, np.eye(3) + 0.1, "planar").label == "weighted"
 
 
 @pytest.mark.parametrize(

@@ -165,11 +165,11 @@ class LawComparison:
             path_length=r.path_length[rows],
             path_ratio=ratio,
             excursion=(r.q_high[rows] - r.q_low[rows]).sum(axis=1),
-            past_limits=r.limits_passed[rows].any(axis=1),
+            past_limits=np.asarray(r.limits_passed[rows].any(axis=1)),
             time=r.time[rows],
         )
 
-    def pooled(self, law: str, of: str) -> Array:
+    def pooled(self, law: str, of: str) -> NDArray[Any]:
         """(K, N) of K locked joints: an attribute of :class:`holdfast.simulate.Case`.
 
         Raises:
@@ -183,12 +183,12 @@ class LawComparison:
         """Share of an outcome where each of the joints is as likely to lock as any other, with its 95 % interval.
 
         The runs of one motion with different joints locked are no independent samples: the interval is the Wilson score of as
-        many independent ones as would scatter as much.
+        many independent ones as would scatter as much, and no more than there are.
         """
         hits = (self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0)
         share, spread = float(hits.mean()), float(hits.var(ddof=1)) if len(hits) > 1 else 0.0
-        effective = share * (1 - share) / spread * len(hits) if spread > 0 else float(hits.size)
-        return Interval.of_share(share, effective)
+        effective = share * (1 - share) / spread * len(hits) if spread > 0 else np.inf
+        return Interval.of_share(share, min(effective, float(hits.size * len(self.joints))))
 
     def gain(
         self,
@@ -200,7 +200,9 @@ class LawComparison:
     ) -> Difference:
         """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
 
-        Paired: for one joint by the method of Newcombe, for ``any joint`` from the mean over the joints of each motion.
+        Paired: for one joint by the method of Newcombe. For ``any joint`` the interval holds two: that of Student's t of the
+        mean over the joints of each motion, which knows that the runs of a motion go together, and Newcombe's over all runs,
+        which knows that no difference in few motions is no proof of none.
 
         Args:
             law: Its name.
@@ -219,10 +221,13 @@ class LawComparison:
             if len(self) < 2 or not self.joints:
                 raise InputError("a mean over the joints takes two motions or more, and a locked joint; name one joint")
             one, two = (
-                np.mean([_arrived(self.case(x, joint), kind) for joint in self.joints], axis=0)
+                np.array([_arrived(self.case(x, joint), kind) for joint in self.joints])
                 for x, kind in zip((other, law), generous, strict=True)
             )
-            return Difference.of_means(two - one)
+            means = Difference.of_means(two.mean(axis=0) - one.mean(axis=0))
+            runs = Difference.of_pairs(one.ravel(), two.ravel())
+            p = max(means.p_value, runs.p_value)
+            return Difference(means.value, min(means.low, runs.low), max(means.high, runs.high), runs.confidence, p)
         before, after = self.case(other, failure), self.case(law, failure)
         some = before.reachable if among_reachable else np.ones(len(self), dtype=bool)
         if not some.any():
@@ -271,7 +276,7 @@ class LawComparison:
     @cached_property
     def comparable(self) -> Flags:
         """(N,) True for the motions that converge under every law while nothing has failed."""
-        return np.all([self.case(name).ended("converged") for name in self.names], axis=0)
+        return np.asarray(np.all([self.case(name).ended("converged") for name in self.names], axis=0))
 
     @cached_property
     def table(self) -> list[dict[str, Any]]:
@@ -469,7 +474,7 @@ def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Ar
 
 
 def _some(runs: Runs, rows: NDArray[np.int64]) -> Runs:
-    arrays = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
+    arrays: dict[str, Any] = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
     return replace(runs, **arrays)
 
 

@@ -254,8 +254,8 @@ def _gains(c: LawComparison) -> list[Block]:
     head = ["law", "locked", "arrive, percentage points", "p", f"mean end error, {size}", f"mean excess error, {size}"]
     caption = (
         f"Differences to {c.names[0]} over the same motions, with 95 % intervals: paired by Newcombe's method and McNemar's "
-        "exact test for a joint; from the mean over the joints of each motion (Student's t) for any joint. Excess: above the "
-        "least error that the failed arm could have. Undecided runs count as not arrived. Many comparisons at once: one in "
+        "exact test for a joint; for any joint also from the mean over the joints of each motion (Student's t). Excess: above "
+        "the least error that the failed arm could have. Undecided runs count as not arrived. Many comparisons at once: one in "
         "twenty looks significant by chance."
     )
     image = figures.svg(gains_figure(c), "gains", "Paired differences to the first law, by joint")
@@ -350,7 +350,7 @@ def gain_rows(c: LawComparison) -> list[dict[str, Any]]:
             gain = c.gain(name, failure)
             row |= {"gain": gain.value, "gain_low": gain.low, "gain_high": gain.high, "gain_p_value": gain.p_value}
             for of in ("error", "excess"):
-                d = c.change(name, of, failure)  # type: ignore[arg-type]
+                d = c.change(name, of, failure)
                 row |= {of: d.value, f"{of}_low": d.low, f"{of}_high": d.high}
             rows.append(row)
     return rows

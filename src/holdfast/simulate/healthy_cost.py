@@ -90,7 +90,7 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
     if law.task.frame == "base":
         return np.asarray(way @ into)
     turn = hand[:, :3, :3]
-    return np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way)
+    return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
 
 
 def _off_the_line(gap: Array) -> Array:

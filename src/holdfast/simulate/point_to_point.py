@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -117,8 +117,8 @@ def point_to_point(
         kept.append(block)
         found += len(block)
         drawn += _BLOCK
-    parts = [np.concatenate([getattr(b, name) for b in kept])[:count] for name in ("q0", "target", "q_target")]
-    return PointToPoint(arm, *parts, drawn, wish)
+    q0, target, q_target = (np.concatenate([getattr(b, x) for b in kept])[:count] for x in ("q0", "target", "q_target"))
+    return PointToPoint(arm, q0, target, q_target, drawn, wish)
 
 
 def _joints(arm: Arm, given: Literal["each"] | Sequence[str | int] | None) -> list[int]:
@@ -142,5 +142,4 @@ def _still_reached(
 
 
 def _rows(motions: PointToPoint, keep: NDArray[np.bool_]) -> PointToPoint:
-    arrays = {f.name: getattr(motions, f.name) for f in fields(motions)}
-    return PointToPoint(**{k: v[keep] if isinstance(v, np.ndarray) else v for k, v in arrays.items()})
+    return replace(motions, q0=motions.q0[keep], target=motions.target[keep], q_target=motions.q_target[keep])
