@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 
 from holdfast.report.figures import save_png
-from holdfast.report.outcomes import Gains, Spread, gain_figure, spread_figure
+from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 from holdfast.report.words import percent
 from papers.seven_dof.study import ARMS, COSTS, DAMPING, PRE_FAILURE, SEED, TASKS, TIME_LIMIT, part
 
 HERE = Path(__file__).parent
 SIZES = {"position": 1000, "pose": 150}  # motions of each arm: about ten minutes on two cores
 ANY = "any joint"
+OUTCOMES = ("converged", "stuck", "moving", "undecided")
 
 Part = dict[str, Any]
 
@@ -25,7 +26,9 @@ def run(sizes: dict[str, int], arms: Sequence[str], folder: Path, parts: Path) -
     """All parts, the figures, and the lines of RESULTS.md; so many motions of each arm for each task."""
     figures = folder / "figures"
     figures.mkdir(parents=True, exist_ok=True)
-    found = [part(arm, task, motions, parts, figures) for task, motions in sizes.items() for arm in arms]
+    found = [part(arm, task, motions, parts) for task, motions in sizes.items() for arm in arms]
+    for p in found:
+        draw_outcomes(p, figures / f"{p['arm']}-{p['task']}.png")
     draw_gains(found, figures / "gains.png")
     for task in sizes:
         draw_costs([p for p in found if p["task"] == task], figures / f"healthy-{task}.png")
@@ -55,6 +58,18 @@ def gains(p: Part, name: str, failure: str = ANY) -> dict[str, Any]:
 
 
 # ---- figures -----------------------------------------------------------------------------------------------------
+
+
+def draw_outcomes(p: Part, file: Path) -> None:
+    """How the motions of one arm and task ended, by joint and law."""
+    stacks = []
+    for failure in dict.fromkeys(r["failure"] for r in p["outcomes"]):
+        rows = [r for r in p["outcomes"] if r["failure"] == failure]
+        shares = np.array([[r[o] for o in OUTCOMES] for r in rows])
+        low, high = (np.array([r[f"converged_{end}"] for r in rows]) for end in ("low", "high"))
+        stacks.append(Stack(failure, p["names"], shares, low, high, rows[0]["reachable"]))
+    label = f"share of {p['motions']} motions, each law and failure; {title(p)}"
+    save_png(stack_figure(stacks, OUTCOMES, label, "targets still within reach"), file, dpi=80)
 
 
 def draw_gains(parts: Sequence[Part], file: Path) -> None:
@@ -87,12 +102,15 @@ def draw_costs(parts: Sequence[Part], file: Path) -> None:
 
 def results(parts: Sequence[Part]) -> list[str]:
     """RESULTS.md."""
+    lacking = [task for task in TASKS if task not in tasks(parts)]
+    missing = f" This run is without task {' and '.join(lacking)}." if lacking else ""
+    healthy = [r["past_limits"] for p in parts for r in p["outcomes"] if r["failure"] == "healthy"]
     limits = max(p["any"][n]["past_limits"] for p in parts for n in p["names"])
     fewest = min(p["any"][n]["past_limits"] for p in parts for n in p["names"])
     return [
         "# A lock that nobody has noticed, on real seven-joint arms",
         "",
-        f"Written by `python -m papers.seven_dof`, seed {SEED}. All numbers are measured here; no paper has them.",
+        f"Written by `python -m papers.seven_dof`, seed {SEED}. All numbers are measured here; no paper has them." + missing,
         "",
         "One joint is locked from the start, each in turn, and the controller goes on as if nothing had happened. Motions from "
         "point to point: start and target are configurations drawn uniformly within the joint limits, the target as the pose "
@@ -152,7 +170,8 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         f"- Joint limits are not enforced, only reported: with a joint locked {percent(fewest)} to {percent(limits)} of the "
         "runs pass one (by arm, task and law). A real arm would stop there. The column *arrives within limits* counts the runs "
-        "that arrive without passing any: that is what is left for sure.",
+        f"that arrive without passing any: that is what is left for sure. Of the healthy runs {_span(healthy)} pass a limit: "
+        "these laws do not look at limits at all.",
         "- Nor do the arms collide with themselves, nor do drives saturate; rates are unlimited.",
         "- Starts and targets are spread over all joint values, also folded and nearly singular ones, which no task planner "
         "would choose.",
@@ -201,7 +220,11 @@ def _verdict(parts: Sequence[Part], name: str) -> str:
             arrive = f"no difference in arriving that can be told ({100 * g['gain']:+.1f} points)"
         clear = g["error_low"] > 0 or g["error_high"] < 0
         error = f"mean end error {g['error']:+.3f} {size(p)}" if clear else "end error alike"
-        words.append(f"{p['arm']}: {arrive}, {error}")
+        before, after = (p["any"][n]["astray"] for n in (p["names"][0], name))
+        astray = (
+            f"median error of those that do not arrive {before:.2f} with the pseudoinverse and {after:.2f} {size(p)} with it"
+        )
+        words.append(f"{p['arm']}: {arrive}, {error}, {astray}")
     return f"{'; '.join(words)}."
 
 

@@ -11,7 +11,6 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.control import Law
-from holdfast.report.figures import save_png
 from holdfast.simulate import compare_laws_report as report
 
 ARMS = ("panda", "xarm7", "iiwa14")
@@ -31,12 +30,11 @@ def laws(arm: hf.Arm, task: str) -> list[Law]:
     ]
 
 
-def part(name: str, task: str, motions: int, folder: Path, figures: Path, seed: int = SEED) -> dict[str, Any]:
-    """What was found for an arm and a task: read if it is there, else run; the figure of its outcomes is drawn on the way."""
+def part(name: str, task: str, motions: int, folder: Path, seed: int = SEED) -> dict[str, Any]:
+    """What was found for an arm and a task: read if it is there, else run."""
     arm = hf.arms.load(name)
     file = folder / f"{name}-{task}-{motions}-{seed}-{arm.fingerprint[:10]}.json"
-    figure = figures / f"{name}-{task}.png"
-    if file.exists() and figure.exists():
+    if file.exists():
         return dict(json.loads(file.read_text(encoding="utf-8")))
     begun = time.perf_counter()
     drawn = hf.point_to_point(arm, motions, seed=seed)
@@ -57,7 +55,6 @@ def part(name: str, task: str, motions: int, folder: Path, figures: Path, seed: 
         "reasons": {n: c.reasons(n) for n in c.names},
         "headline": report.headline(c),
     }
-    save_png(report.outcome_figure(c), figure, dpi=80)
     found["seconds"] = time.perf_counter() - begun
     folder.mkdir(parents=True, exist_ok=True)
     file.write_text(json.dumps(found), encoding="utf-8")

@@ -55,7 +55,7 @@ def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, 
     with style():
         figure = Figure(figsize=(WIDTH, 1.2 + 0.215 * total + 0.12 * len(stacks)))
         axes = figure.add_subplot()
-        y, ticks, labels = 0.0, [], []
+        y, ticks, labels, middles = 0.0, [], [], []
         for s in stacks:
             places = y + np.arange(len(s.bars))
             left = np.zeros(len(s.bars))
@@ -71,19 +71,14 @@ def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, 
                 axes.vlines(s.level, places[0] - 0.55, places[-1] + 0.55, color=INK, linewidth=1.4, linestyle=(0, (2, 1)))
             ticks += places.tolist()
             labels += [plain(name, 34) for name in s.bars]
-            if s.name:
-                axes.annotate(
-                    plain(s.name, 24),
-                    (1.0, float(places.mean())),
-                    (6, 0),
-                    textcoords="offset points",
-                    va="center",
-                    fontweight="bold",
-                    annotation_clip=False,
-                )
+            middles.append(float(places.mean()))
             y = float(places[-1]) + 1.7
         axes.set_yticks(ticks, labels)
         axes.set(xlabel=xlabel, xlim=(0, 1), ylim=(y - 1.0, -0.7))
+        groups = axes.secondary_yaxis("right")
+        groups.set_yticks(middles, [plain(s.name, 24) for s in stacks], fontweight="bold")
+        groups.tick_params(axis="y", length=0)
+        groups.spines["right"].set_visible(False)
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
