@@ -30,7 +30,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Array|ArrayLike|Flags|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
     (r"py:.*", r"(Callable|Figure|Axes|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|Store|optional|default.*)"),
     (r"py:.*", r"holdfast\.study\..*"),
-    (r"py:class", r"holdfast\.assess\.interval\.Sums"),
+    (r"py:class", r"holdfast\.interval\.Sums"),
     (r"py:class", r"Motion|Setting"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),

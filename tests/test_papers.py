@@ -12,6 +12,8 @@ from papers.goel2003 import laws
 from papers.goel2003.peak_error import PeakError, golden
 from papers.goel2005 import statements, three_links, two_links
 from papers.numbers import beside
+from papers.seven_dof import __main__ as seven_dof
+from papers.seven_dof import study
 
 import holdfast as hf
 
@@ -203,3 +205,22 @@ def test_statistics_of_the_planar_arm():
     assert told["PAD > 30 deg, %"] == pytest.approx(70.5, abs=5)
     assert told["optimum at the largest damping, %"] == pytest.approx(41.6, abs=5)
     assert told["healthy angle, largest, deg"] < 30
+
+
+def test_the_study_on_real_arms_writes_what_it_counts_and_goes_on_where_it_stopped(tmp_path, monkeypatch):
+    arm = hf.arms.load("panda")
+    few = [hf.control.pseudoinverse(arm, "position"), hf.control.damped(arm, 0.2, "position")]
+    monkeypatch.setattr(study, "laws", lambda *_: few)
+    monkeypatch.setattr(study, "TIME_LIMIT", 60.0)
+    lines = seven_dof.run({"position": 6}, ["panda"], tmp_path, tmp_path / "parts")
+    text = (tmp_path / "RESULTS.md").read_text(encoding="utf-8")
+    assert text == "\n".join(lines)
+    drawn = hf.point_to_point(arm, 6, seed=study.SEED)
+    for law in few:
+        runs = [hf.simulate(law, drawn.q0, drawn.target, [k], time_limit=60.0) for k in range(7)]
+        arrived = np.mean([r.outcome == "converged" for r in runs])
+        (row,) = (line for line in lines if line.startswith(f"| panda, position | {law.label} | {100 * arrived:.1f} ("))
+        assert len(row.split("|")) == 12
+    assert {p.name for p in (tmp_path / "figures").iterdir()} == {"panda-position.png", "gains.png", "healthy-position.png"}
+    monkeypatch.setattr(study.hf, "compare_laws", lambda *_, **__: pytest.fail("done already"))
+    assert seven_dof.run({"position": 6}, ["panda"], tmp_path, tmp_path / "parts") == lines

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.assess.interval import Interval
 from holdfast.control import FailureTolerant, trade_off
+from holdfast.interval import Interval
 from papers.claims import Claim, Verdict
 from papers.goel2003.peak_error import PeakError
 from papers.numbers import beside

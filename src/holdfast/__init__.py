@@ -10,7 +10,17 @@ from holdfast.converge import Recovery, recover
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
-from holdfast.simulate import BrakedDrop, FreeSwing, Runs, free_swing, simulate
+from holdfast.simulate import (
+    BrakedDrop,
+    FreeSwing,
+    LawComparison,
+    PointToPoint,
+    Runs,
+    compare_laws,
+    free_swing,
+    point_to_point,
+    simulate,
+)
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
@@ -30,8 +40,10 @@ __all__ = [
     "InputError",
     "Joint",
     "KernelError",
+    "LawComparison",
     "Link",
     "Optimum",
+    "PointToPoint",
     "Reach",
     "Recovery",
     "Region",
@@ -45,6 +57,7 @@ __all__ = [
     "arms",
     "assess",
     "compare",
+    "compare_laws",
     "control",
     "follow",
     "free_swing",
@@ -52,6 +65,7 @@ __all__ = [
     "load",
     "optimise",
     "paths",
+    "point_to_point",
     "recover",
     "set_threads",
     "simulate",

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
+import sys
+from pathlib import Path
 
 import matplotlib.image
 import numpy as np
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
 
 CALL = ["simulate", "planar-2r", "--start", "0 -30", "--degrees", "--lock", "1"]
 
@@ -37,6 +43,33 @@ def test_a_motion_is_printed_written_and_drawn(cli, tmp_path):
     assert rows[-1, -1] < 1e-5
     assert (rows[:, 1] == 0).all()
     assert matplotlib.image.imread(figure).shape[1] > 600
+
+
+def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
+    out = tmp_path / "run"
+    code, said, err = cli(*CALL, "--target", "0,1.7320508", "--out", out)
+    assert (code, err) == (0, "")
+    assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
+    page = (out / "report.html").read_text(encoding="utf-8")
+    check(page, scripts=1)
+    assert "comes to rest elsewhere" in page
+    assert "locked: joint1" in page
+    data = json.loads(re.search(r"var data = (\{.*\});", page)[1])
+    assert data["marked"][0] == [1]
+    assert "holdfast simulate planar-2r" in page
+    assert matplotlib.image.imread(out / "run.png").shape[1] > 900
+    assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1.133893, abs=1e-5)
+
+
+def test_a_lock_on_the_way_is_marked_from_then_on(cli, tmp_path):
+    out = tmp_path / "run"
+    code, _, _ = cli("simulate", "planar-3r", "--start", "0.3 0.7 1", "--target", "-0.5,1", "--lock", "2@0.5", "--out", out)
+    assert code == 0
+    page = (out / "report.html").read_text(encoding="utf-8")
+    marked = json.loads(re.search(r"var data = (\{.*\});", page)[1])["marked"]
+    assert marked[0] == []
+    assert marked[-1] == [2]
+    assert "joint2 locks" in page
 
 
 def test_cycles_and_a_lock_on_the_way(cli):

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from holdfast.assess.assess import Assessment
-from holdfast.assess.interval import Interval
 from holdfast.assess.region import Region
 from holdfast.assess.structure import structure
 from holdfast.assess.upgrade import Upgrade
 from holdfast.errors import InputError
 from holdfast.failures import failure_sets
+from holdfast.interval import Interval
 
 
 @dataclass(frozen=True)

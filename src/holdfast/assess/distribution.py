@@ -9,8 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.assess.interval import Interval, Sums, check_confidence
 from holdfast.errors import InputError
+from holdfast.interval import Interval, Sums, check_confidence
 
 __all__ = ["BINS", "Collector", "Distribution", "Interval"]
 

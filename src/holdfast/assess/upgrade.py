@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.assess.distribution import Distribution
-from holdfast.assess.interval import Interval
 from holdfast.errors import InputError
 from holdfast.indices import Index
+from holdfast.interval import Interval
 from holdfast.status import Status
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ from typer.exceptions import TyperException
 from holdfast.cli import (
     arm_commands,
     assess_commands,
+    compare_commands,
     configure_commands,
     export_commands,
     follow_commands,
@@ -60,6 +61,7 @@ follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)
 recover_commands.add(app)
+compare_commands.add(app)
 export_commands.add(app)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from holdfast.cli.options import read_numbers
+from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -28,6 +29,38 @@ PreFailureOption = Annotated[
         show_default=False,
     ),
 ]
+
+
+LawsOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--law",
+        help="A law to compare, with its setting after a colon: pseudoinverse, failure-tolerant or failure-tolerant:0.3, "
+        "damped:0.1, weighted:1,2,3. May be given again; the others are compared with the first.",
+        show_default="pseudoinverse and failure-tolerant",
+    ),
+]
+
+
+def read_labelled_law(text: str, arm: Arm, task: str | Task, **more: Any) -> Law:
+    """A law as its label says, ``slug`` or ``slug:setting``."""
+    from holdfast.control import by_name
+    from holdfast.control.laws import BY_NAME
+
+    slug, colon, value = text.partition(":")
+    setting = BY_NAME[slug].setting if slug in BY_NAME else ""
+    given: dict[str, Any] = dict(more)
+    if colon:
+        if slug in BY_NAME and not setting:
+            raise InputError(f"--law '{text}': the {BY_NAME[slug].name} takes no setting; write {slug} alone")
+        numbers = read_numbers(f"--law {slug}", value, f"{slug}:NUMBER")
+        if numbers.size == 1 and setting != "weights":
+            given[setting] = float(numbers[0])
+        elif setting == "weights":
+            given[setting] = numbers
+        else:
+            raise InputError(f"--law '{text}' has {numbers.size} numbers after the colon; give one")
+    return by_name(slug, arm, task=task, **given)
 
 
 def read_law(

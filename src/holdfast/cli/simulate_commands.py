@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -31,15 +33,6 @@ if TYPE_CHECKING:
     from holdfast.control import Law
     from holdfast.simulate import Path as MotionPath
     from holdfast.simulate import Runs
-
-SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn and written so far only
-SAMPLES = 1000
-ENDS = {
-    "converged": "arrives",
-    "stuck": "comes to rest elsewhere",
-    "moving": "never comes to rest",
-    "undecided": "is undecided",
-}
 
 
 def simulate(
@@ -83,6 +76,10 @@ def simulate(
     tip: TipOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for report.html with the arm moving, run.png and run.csv.", show_default=False),
+    ] = None,
     json_: JsonOption = False,
 ) -> None:
     """Simulate an arm whose controller does not know that joints have locked: does the hand still arrive?
@@ -97,22 +94,18 @@ def simulate(
     runs = run(
         made,
         read_configuration(model, start, degrees, "--start"),
-        _target(made, target),
+        read_target(made, target),
         [_lock(model, text) for text in lock or []],
         cycles,
         time_limit=time_limit,
     )
-    if csv is not None or plot is not None:
-        longest = float(runs.time) if cycles else min(float(runs.time), SHOWN / gain)
-        path = runs.path(0, SAMPLES + 1, until=longest or None)
-        if csv is not None:
-            _write(runs, path, csv)
-        if plot is not None:
-            _draw(runs, path, plot)
+    files: list[Path] = []
+    if csv is not None or plot is not None or out is not None:
+        files = _files(runs, csv, plot, out)
     if json_:
         print_json(_data(runs))
     else:
-        _print(runs, [file for file in (csv, plot) if file is not None])
+        _print(runs, files)
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:
@@ -129,7 +122,8 @@ def _one(option: str, text: str) -> float:
     return float(values[0])
 
 
-def _target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+def read_target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """``--target`` as the library takes it: the task's rows (m,), or a pose (4, 4)."""
     values = read_numbers("--target", text, "numbers")
     task = law.task
     if values.size == 7:
@@ -185,6 +179,7 @@ def _print(runs: Runs, files: list[Path]) -> None:
     from rich.table import Table
 
     from holdfast.simulate import Reason
+    from holdfast.simulate.run_report import ENDS
 
     out, arm = console(), runs.law.arm
     unit = "cycles" if runs.cycles else "s"
@@ -213,6 +208,32 @@ def _print(runs: Runs, files: list[Path]) -> None:
         out.print(f"written: {escape(str(file))}", soft_wrap=True)
 
 
+def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) -> list[Path]:
+    from holdfast.report.figures import save_png
+    from holdfast.simulate.run_report import RunReport
+
+    report = RunReport(runs)
+    files = []
+    tables, pictures = [csv], [plot]
+    if out is not None:
+        try:
+            out.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise StoreError(f"--out: folder '{out}' cannot be made: {error.strerror or error}; choose another") from error
+        tables.append(out / "run.csv")
+        pictures.append(out / "run.png")
+    for file in tables:
+        if file is not None:
+            _write(runs, report.path, file)
+            files.append(file)
+    for file in pictures:
+        if file is not None:
+            files.append(save_png(report.figure(), file))
+    if out is not None:
+        files.append(report.write(out / "report.html", f"holdfast {shlex.join(sys.argv[1:])}"))
+    return files
+
+
 def _write(runs: Runs, path: MotionPath, file: Path) -> None:
     joints = [f"{j.name}_{j.unit}" for j in runs.law.arm.joints]
     header = ",".join(["time_cycles" if runs.cycles else "time_s", *joints, "tool_x_m", "tool_y_m", "tool_z_m", "error"])
@@ -222,29 +243,6 @@ def _write(runs: Runs, path: MotionPath, file: Path) -> None:
             np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error
-
-
-def _draw(runs: Runs, path: MotionPath, file: Path) -> None:
-    from holdfast.report.figures import save_png
-    from holdfast.report.motion import Panel, motion_figure
-
-    arm = runs.law.arm
-    size = "m and rad" if runs.law.task.angular else "m"
-    travelled = np.linalg.norm(path.x - path.x[0], axis=1)
-    least = float(runs.least_error())
-    panels = [
-        Panel(
-            path.time,
-            path.error,
-            f"error of the hand, {size}",
-            f"Ends {runs.outcome}",
-            (least, "least the failed arm can have"),
-        ),
-        Panel(path.time, travelled, "distance of the tool from its start, m", "Tool"),
-    ]
-    locked = [name for name, t in zip(arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)]
-    caption = f"{arm.name}, {runs.law.name}, locked: {', '.join(locked) or 'none'}; the controller does not know; one run"
-    save_png(motion_figure(panels, caption, "cycle" if runs.cycles else "time, s"), file)
 
 
 def add(app: typer.Typer) -> None:

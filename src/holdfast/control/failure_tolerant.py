@@ -48,7 +48,7 @@ class FailureTolerant(Law):
     minimum.
     """
 
-    name, slug = "failure-tolerant inverse", "failure-tolerant"
+    name, slug, setting = "failure-tolerant inverse", "failure-tolerant", "pre_failure_error"
     source = "Goel et al. 2003, eq. (8), (9)"
 
     def __init__(
@@ -106,6 +106,11 @@ class FailureTolerant(Law):
         out, single = self._evaluate(q, v)
         values = np.ascontiguousarray(out[:, self.arm.n + k])
         return values[0] if single else values
+
+    @property
+    def label(self) -> str:
+        """See :attr:`Law.label`."""
+        return f"{self.slug}:{self.pre_failure_error:g}"
 
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""

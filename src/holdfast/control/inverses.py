@@ -37,6 +37,7 @@ class Weighted(Law):
     """
 
     name, slug, source = "weighted inverse", "weighted", "Goel et al. 2005, eq. (10)"
+    setting = "weights"
 
     def __init__(
         self,
@@ -63,11 +64,20 @@ class Weighted(Law):
         spread = ca.sparsify(ca.SX(ca.DM(root)))
         return spread @ damped_least_norm(j @ spread, v, 0.0)
 
+    @property
+    def _diagonal(self) -> list[str]:
+        """The weights as text; empty if they are a full matrix."""
+        diagonal = np.diag(self.weights)
+        return [f"{x:g}" for x in diagonal] if np.array_equal(self.weights, np.diag(diagonal)) else []
+
+    @property
+    def label(self) -> str:
+        """See :attr:`Law.label`; without its setting for a full matrix, which the command line does not take."""
+        return ":".join([self.slug, ",".join(self._diagonal)]) if self._diagonal else self.slug
+
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""
-        diagonal = np.diag(self.weights)
-        plain = np.array_equal(self.weights, np.diag(diagonal))
-        return f"{super().phrase()}, weights " + (", ".join(f"{x:g}" for x in diagonal) if plain else "as a full matrix")
+        return f"{super().phrase()}, weights {', '.join(self._diagonal) or 'as a full matrix'}"
 
 
 class Damped(Law):
@@ -77,6 +87,7 @@ class Damped(Law):
     """
 
     name, slug, source = "damped inverse", "damped", "Goel et al. 2003, section 2"
+    setting = "damping"
 
     def __init__(
         self,
@@ -98,6 +109,11 @@ class Damped(Law):
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
         """See :meth:`Law.damping`."""
         return self._constant(q, v, self.fixed_damping)
+
+    @property
+    def label(self) -> str:
+        """See :attr:`Law.label`."""
+        return f"{self.slug}:{self.fixed_damping:g}"
 
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""

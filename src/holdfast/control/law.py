@@ -43,6 +43,7 @@ class Law(ABC):
     Attributes:
         name: For people.
         slug: On the command line and in files.
+        setting: The option that a value after the slug stands for, as in ``failure-tolerant:0.5``; empty if there is none.
         source: Paper and equation.
 
     Raises:
@@ -52,6 +53,7 @@ class Law(ABC):
 
     name = ""
     slug = ""
+    setting = ""
     source = ""
 
     def __init__(
@@ -229,6 +231,11 @@ class Law(ABC):
             StoreError: The files cannot be written.
         """
         return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
+
+    @property
+    def label(self) -> str:
+        """The law as the command line takes it, with its setting if it has one: ``pseudoinverse``, ``damped:0.1``."""
+        return self.slug
 
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""

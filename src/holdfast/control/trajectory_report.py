@@ -5,25 +5,19 @@ from __future__ import annotations
 import platform
 from pathlib import Path
 
-import casadi as ca
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
-from holdfast.arm import kinematics
-from holdfast.arm.task import plane_normal
 from holdfast.control.slow_motion import SlowMotion
+from holdfast.control.stick_figure import corners, projections
 from holdfast.control.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.errors import ArmError
-from holdfast.kernels import Kernel
 from holdfast.report import figures, page
-from holdfast.report.animation import Motion, Projection, animation, shown_seconds
+from holdfast.report.animation import Motion, animation, shown_seconds
 from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples, timeline_figure
 from holdfast.report.words import as_given
 from holdfast.versions import versions
-
-Array = NDArray[np.float64]
 
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
@@ -117,8 +111,8 @@ class _Facts:
             f"{t.time[k]:.2f} s, {t.objective.name} {t.value[k]:.4g}{unit}, joint rates {t.rate_norm[k]:.3g} rad/s" for k in few
         ]
         square = np.r_[False, t.arm.prismatic, False]
-        moving = Motion(t.time[few], corners(t, few), square, t.poses[few][:, :3, 3], readings)
-        drawn = animation(moving, projections(t, moving), "motion", f"{t.arm.name} moving along its path")
+        moving = Motion(t.time[few], corners(t.arm, t.q[few]), square, t.poses[few][:, :3, 3], readings)
+        drawn = animation(moving, projections(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
         speed = t.time[-1] / shown_seconds(t.time)
         how = "at its own speed" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as it is"
         caption = (
@@ -322,40 +316,3 @@ class _Facts:
         if command:
             blocks.append(Code(command, "The same motion again:"))
         return blocks
-
-
-def corners(t: Trajectory, rows: NDArray[np.int64]) -> Array:
-    """Base, joints and tool (F, n + 2, 3) at samples, in the world, m; a sliding joint where its slide is."""
-    q = kinematics.joint_symbols(t.arm)
-    moving, _ = kinematics.frames(t.arm, kinematics.joint_steps(t.arm, q), None)
-    tool = kinematics.chain(t.arm, q).position
-    points = ca.vertcat(*[origin for _, origin in moving], tool)
-    return Kernel("corners of the arm", [q], [ca.densify(points)]).rows(t.q[rows]).reshape(len(rows), -1, 3)
-
-
-def projections(t: Trajectory, motion: Motion) -> list[Projection]:
-    """Side and top view; of an arm that moves in a plane, that plane."""
-    normal = plane_normal(t.arm)
-    x, y, z = np.eye(3)
-    if normal is None:
-        size = np.ptp(motion.chain.reshape(-1, 3), axis=0)
-        side = (
-            Projection(x, z, ("x, m", "z, m"), "Side view")
-            if size[0] >= size[1]
-            else Projection(y, z, ("y, m", "z, m"), "Side view")
-        )
-        return [side, Projection(x, y, ("x, m", "y, m"), "Top view")]
-    up = -t.arm.gravity - normal * (normal @ -t.arm.gravity)
-    if np.linalg.norm(up) < 1e-6 * max(float(np.linalg.norm(t.arm.gravity)), 1e-12):
-        up = y - normal * normal[1] if abs(normal[1]) < 0.9 else x - normal * normal[0]
-    up = up / np.linalg.norm(up)
-    right = np.cross(up, normal)
-    return [Projection(right, up, (f"{_axis(right)}, m", f"{_axis(up)}, m"), "In the plane of the arm")]
-
-
-def _axis(direction: Array) -> str:
-    """The name of a direction: of a world axis, or its numbers."""
-    for name, axis in zip("xyz", np.eye(3), strict=True):
-        if abs(direction @ axis) > 1 - 1e-9:
-            return name if direction @ axis > 0 else f"-{name}"
-    return "along (" + ", ".join(f"{x:.2f}" for x in direction) + ")"

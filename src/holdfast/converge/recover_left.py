@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assess.interval import Interval, Sums
 from holdfast.assess.region import Region
 from holdfast.clearance import Clearance
 from holdfast.converge.recover_rows import RowSolver
+from holdfast.interval import Interval, Sums
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -42,6 +42,8 @@ class Motion:
         square: (K,) corners drawn as squares.
         path: (P, 3) where the tool was to be, m.
         readings: (F,) a short text for each frame.
+        marked: (F, K) corners between base and tool that are drawn filled, or None.
+        goal: (3,) a place marked by a ring, m, or None.
     """
 
     time: Array
@@ -49,6 +51,8 @@ class Motion:
     square: NDArray[np.bool_]
     path: Array
     readings: Sequence[str]
+    marked: NDArray[np.bool_] | None = None
+    goal: Array | None = None
 
 
 def animation(motion: Motion, views: Sequence[Projection], name: str, about: str) -> Markup:
@@ -61,7 +65,8 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
         about: What it shows, for people who cannot see it.
     """
     width = _WIDE if len(views) > 1 else _ALONE
-    everything = np.concatenate([motion.chain.reshape(-1, 3), motion.path])
+    goal = np.zeros((0, 3)) if motion.goal is None else motion.goal[None]
+    everything = np.concatenate([motion.chain.reshape(-1, 3), motion.path, goal])
     flat = [(everything @ v.right, everything @ v.up) for v in views]
     span = max(float(np.ptp(x)) for x, _ in flat) * 1.1 or 1.0
     tall = max(float(np.ptp(y)) for _, y in flat) * 1.1
@@ -85,6 +90,7 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
                 "names": view.names,
                 "frames": frames,
                 "path": _points(place(motion.path)),
+                "goal": place(goal).tolist(),
                 "ghosts": [_points(frames[k]) for k in (len(frames) // 2, -1)],
                 "first": _points(frames[0]),
                 "nodes": frames[0].tolist(),
@@ -94,10 +100,12 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
                 "y": lambda t, middle=middle, center=center: round(float(center[1] - (t - middle[1]) * scale), 1),
             }
         )
+    marked = np.zeros(motion.chain.shape[:2], dtype=bool) if motion.marked is None else motion.marked
     data = {
         "seconds": shown_seconds(motion.time),
         "frames": [p["frames"].tolist() for p in panels],
         "readings": list(motion.readings),
+        "marked": [np.flatnonzero(row).tolist() for row in marked],
     }
     environment = Environment(
         loader=PackageLoader("holdfast.report"),
@@ -115,6 +123,7 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
             height=round(height, 1),
             frame=(left, above, width - right, round(height - below, 1)),
             square=motion.square.tolist(),
+            marked=marked[0].tolist(),
             readings=motion.readings,
             last=len(motion.time) - 1,
             # Inside a script nothing is escaped, so nothing may end it.

@@ -92,8 +92,8 @@ def timeline_figure(time: Array, panels: Sequence[Timeline]) -> Figure:
         return finished(figure)
 
 
-def small_multiples(time: Array, panels: Sequence[Timeline]) -> Figure:
-    """Small panels, three in a row, over one time (T,), s; the lines of the one with most are named below."""
+def small_multiples(time: Array, panels: Sequence[Timeline], xlabel: str = "time, s") -> Figure:
+    """Small panels, three in a row, over one time (T,); the lines of the one with most are named below."""
     across = min(3, len(panels))
     down = -(-len(panels) // across)
     with style():
@@ -107,7 +107,7 @@ def small_multiples(time: Array, panels: Sequence[Timeline]) -> Figure:
             if k % across == 0 or panels[k].ylabel != panels[k - 1].ylabel:
                 axes.set_ylabel(panels[k].ylabel)
             if k >= len(panels) - across:
-                axes.set_xlabel("time, s")
+                axes.set_xlabel(xlabel)
                 axes.tick_params(labelbottom=True)
         legend_below(figure, max(grid.flat, key=lambda axes: len(axes.get_lines())), 5)
         return finished(figure)

@@ -1,7 +1,25 @@
 """What then happens: the closed loop of a controller that knows of no failure, and the free swing of a failed joint."""
 
 from holdfast.simulate.closed_loop import simulate
+from holdfast.simulate.compare_laws import Case, LawComparison, compare_laws
 from holdfast.simulate.free_swing import BrakedDrop, FreeSwing, free_swing
+from holdfast.simulate.healthy_cost import HealthyCost
+from holdfast.simulate.point_to_point import PointToPoint, point_to_point
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
 
-__all__ = ["BrakedDrop", "FreeSwing", "Outcome", "Path", "Reason", "Runs", "free_swing", "simulate"]
+__all__ = [
+    "BrakedDrop",
+    "Case",
+    "FreeSwing",
+    "HealthyCost",
+    "LawComparison",
+    "Outcome",
+    "Path",
+    "PointToPoint",
+    "Reason",
+    "Runs",
+    "compare_laws",
+    "free_swing",
+    "point_to_point",
+    "simulate",
+]
