@@ -2,5 +2,6 @@
 
 from holdfast.converge.bounds import joint_bounds
 from holdfast.converge.reachable import reachable_when_locked
+from holdfast.converge.tolerant_workspace import TolerantWorkspace, tolerant_workspace
 
-__all__ = ["joint_bounds", "reachable_when_locked"]
+__all__ = ["TolerantWorkspace", "joint_bounds", "reachable_when_locked", "tolerant_workspace"]
