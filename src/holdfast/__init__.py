@@ -6,11 +6,12 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
+from holdfast.converge import TolerantWorkspace, joint_bounds, reachable_when_locked, tolerant_workspace
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
 from holdfast.simulate import BrakedDrop, FreeSwing, Runs, free_swing, simulate
-from holdfast.solve import Optimum, Reach, optimise, solve_ik
+from holdfast.solve import Optimum, Reach, optimise, self_motion, solve_ik
 from holdfast.status import Status
 
 __version__ = "0.1.0"
@@ -38,6 +39,7 @@ __all__ = [
     "StoreError",
     "Task",
     "TaskError",
+    "TolerantWorkspace",
     "Trajectory",
     "__version__",
     "arms",
@@ -47,11 +49,15 @@ __all__ = [
     "follow",
     "free_swing",
     "indices",
+    "joint_bounds",
     "load",
     "optimise",
     "paths",
+    "reachable_when_locked",
+    "self_motion",
     "set_threads",
     "simulate",
     "solve_ik",
     "susceptibility",
+    "tolerant_workspace",
 ]

@@ -15,6 +15,7 @@ from holdfast.cli import (
     export_commands,
     follow_commands,
     index_commands,
+    self_motion_commands,
     simulate_commands,
     susceptibility_commands,
     swing_commands,
@@ -58,6 +59,7 @@ assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)
+self_motion_commands.add(app)
 export_commands.add(app)
 
 

@@ -75,6 +75,12 @@ class TolerantWorkspace:
         """Of what the healthy arm reaches; NaN if that is nothing."""
         return self.size / self.healthy_size if self.healthy_size > 0 else float("nan")
 
+    @property
+    def lost_to(self) -> Array:
+        """(n,) of the points within the artificial limits, the share that some lock of each joint loses; NaN if none is."""
+        size = int(self.within.sum())
+        return 1 - self.survives.sum(axis=0) / size if size else np.full(self.arm.n, np.nan)
+
     def describe(self) -> str:
         """What was computed, for people."""
         low, high = self.size_interval
@@ -293,6 +299,11 @@ def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
         polish=False,
     ).x
     for _ in range(2):  # a simplex that has shrunk onto a ridge starts again
-        options = {"xatol": 1e-7, "fatol": 1e-10, "maxfev": 400, "initial_simplex": found + np.vstack([np.zeros(5), 0.05 * np.eye(5)])}
+        options = {
+            "xatol": 1e-7,
+            "fatol": 1e-10,
+            "maxfev": 400,
+            "initial_simplex": found + np.vstack([np.zeros(5), 0.05 * np.eye(5)]),
+        }
         found = minimize(lambda x: float(cost(x[None], _POLISH_RADII)[0]), found, method="Nelder-Mead", options=options).x
     return np.clip(limits(found[None])[0], own[:, :1], own[:, 1:])
