@@ -72,7 +72,8 @@ def self_motion_figure(
             rows[-1].set_xticks([])
         rows[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "values taken")
         rows[0].set_title("Values that keep the target within reach" if not len(curves) else "Along the self-motion manifold")
-        for axes, view in zip(np.atleast_1d(right.subplots(len(views), 1)), views, strict=True):
+        panels = np.atleast_1d(right.subplots(len(views), 1)) if views else ()
+        for axes, view in zip(panels, views, strict=True):
             _draw_arm(axes, view)
         handles = [
             Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target"),
