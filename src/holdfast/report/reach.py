@@ -70,7 +70,7 @@ def self_motion_figure(
             _draw_joint(axes, panel, k, curves, total)
         if not len(curves):
             rows[-1].set_xticks([])
-        rows[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "values taken")
+        rows[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "")
         rows[0].set_title("Values that keep the target within reach" if not len(curves) else "Along the self-motion manifold")
         panels = np.atleast_1d(right.subplots(len(views), 1)) if views else ()
         for axes, view in zip(panels, views, strict=True):
