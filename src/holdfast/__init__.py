@@ -6,7 +6,7 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
-from holdfast.converge import Recovery, recover
+from holdfast.converge import Recovery, TolerantWorkspace, joint_bounds, reachable_when_locked, recover, tolerant_workspace
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -21,7 +21,7 @@ from holdfast.simulate import (
     point_to_point,
     simulate,
 )
-from holdfast.solve import Optimum, Reach, optimise, solve_ik
+from holdfast.solve import Optimum, Reach, optimise, self_motion, solve_ik
 from holdfast.status import Status
 
 __version__ = "0.1.0"
@@ -52,6 +52,7 @@ __all__ = [
     "StoreError",
     "Task",
     "TaskError",
+    "TolerantWorkspace",
     "Trajectory",
     "__version__",
     "arms",
@@ -62,13 +63,17 @@ __all__ = [
     "follow",
     "free_swing",
     "indices",
+    "joint_bounds",
     "load",
     "optimise",
     "paths",
     "point_to_point",
+    "reachable_when_locked",
     "recover",
+    "self_motion",
     "set_threads",
     "simulate",
     "solve_ik",
     "susceptibility",
+    "tolerant_workspace",
 ]

@@ -17,6 +17,7 @@ from holdfast.cli import (
     follow_commands,
     index_commands,
     recover_commands,
+    self_motion_commands,
     simulate_commands,
     susceptibility_commands,
     swing_commands,
@@ -62,6 +63,7 @@ swing_commands.add(app)
 simulate_commands.add(app)
 recover_commands.add(app)
 compare_commands.add(app)
+self_motion_commands.add(app)
 export_commands.add(app)
 
 
