@@ -1,0 +1,21 @@
+"""Where it ends: where a failed arm can come to rest, what attracts it, and from where."""
+
+from holdfast.converge.curves import Curve, Curves, Segment
+from holdfast.converge.linearisation import Kind, Linearisation, linearisation
+from holdfast.converge.stationary import RestPoints, stationary
+from holdfast.converge.theorem import column_residual, is_stuck, null_components, stuck_subspace
+
+__all__ = [
+    "Curve",
+    "Curves",
+    "Kind",
+    "Linearisation",
+    "RestPoints",
+    "Segment",
+    "column_residual",
+    "is_stuck",
+    "linearisation",
+    "null_components",
+    "stationary",
+    "stuck_subspace",
+]
