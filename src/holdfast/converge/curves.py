@@ -136,7 +136,8 @@ class Curves:
         """(P, n) rest points at one locked value, rad (or m): where curves that are not degenerate pass it."""
         from holdfast.converge.rest_system import wrapped
 
-        arm, found = self.law.arm, [np.empty((0, arm.n))]
+        arm = self.law.arm
+        found = [np.empty((0, arm.n))]
         for curve in self.curves:
             if curve.degenerate:
                 continue
@@ -173,7 +174,7 @@ def merged(arcs: Sequence[Arc], turning: bool) -> list[Arc]:
     united = _united(sorted((low, low + size) for low, size in starts))
     # What reaches beyond pi comes round to the first arcs.
     while len(united) > 1 and united[0][0] + TURN <= united[-1][1] + TOUCH:
-        low, high = united.pop(0)
+        _, high = united.pop(0)
         united[-1] = (united[-1][0], max(united[-1][1], high + TURN))
     return [(-np.pi, np.pi)] if any(high - low >= TURN - TOUCH for low, high in united) else united
 

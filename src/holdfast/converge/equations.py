@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
-from holdfast.kernels import SX, Kernel, Loop
+from holdfast.kernels import Kernel, Loop
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
 
@@ -93,7 +93,8 @@ class RestEquations:
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""
-        rows, used = len(z), self._used(mask)
+        rows = len(z)
+        used = np.flatnonzero(np.concatenate([mask, np.ones(2 + self.law.task.m)]))
         values, slopes = self._kernel(z, pose[:3, 3], pose[:3, :3], mask)
         return values.reshape(rows, -1)[:, used], slopes.reshape(rows, -1, self.size)[:, used]
 
@@ -134,7 +135,3 @@ class RestEquations:
         out = found.state[:, : self.size]
         values, _ = self.values(out, pose, mask)
         return out, np.linalg.norm(values, axis=1) <= 10 * TOLERANCE
-
-    def _used(self, mask: Array) -> Flags:
-        """(n + 2 + m,) False for the rates of locked joints, which are no equations."""
-        return np.concatenate([mask > 0, np.ones(2 + self.law.task.m, dtype=bool)])

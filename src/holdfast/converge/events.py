@@ -9,6 +9,7 @@ its sign, which Goel et al. 2005 leave out.
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
@@ -21,7 +22,8 @@ from holdfast.converge.rest_system import RestSystem
 Array = NDArray[np.float64]
 
 SHORT = 1e-4  # rad and m: events nearer than this are at one place
-_BISECTIONS, _NEWTON = 48, 4
+_BISECTIONS, _NEWTON = 44, 3
+_CROSSING = 1e-3  # of the largest singular value: directions with less are those of a crossing curve
 
 
 class Event(IntEnum):
@@ -42,13 +44,13 @@ class Event(IntEnum):
 def marked(system: RestSystem, joint: int, z: Array, closed: bool, constant: bool) -> Curve:
     """A curve from its traced points z (K, size), with all events found and put in as points."""
     n = system.law.arm.n
-    forward = np.gradient(z, axis=0)
-    tests = _tests(system, joint, z, forward)
+    tests, tangents = _tests(system, joint, z, np.gradient(z, axis=0))
     skip = (Event.FOLD, Event.DETERMINANT, Event.PAIR) if constant else ()
     signs = np.sign(tests)
     changes = (signs[1:] * signs[:-1] < 0) & ~np.isin(np.arange(len(Event)), skip)
     at, which = np.nonzero(changes)
-    share, points = _bisected(system, joint, z[at], z[at + 1], which, signs[at, which])
+    steps = Steps(system, z[at], z[at + 1], tangents[at], tangents[at + 1])
+    share, points = _bisected(system, joint, steps, which, signs[at, which])
     position = np.concatenate([np.arange(len(z), dtype=float), at + share])
     label = np.concatenate([np.full(len(z), -1), which])
     order = np.argsort(position, kind="stable")
@@ -75,61 +77,84 @@ def marked(system: RestSystem, joint: int, z: Array, closed: bool, constant: boo
     )
 
 
-def _tests(system: RestSystem, joint: int, z: Array, forward: Array) -> Array:
-    """(N, 6) the functions of which a change of sign is an event."""
-    n = system.law.arm.n
+@dataclass(frozen=True)
+class Steps:
+    """Steps along a curve, from one point to the next.
+
+    Attributes:
+        system: What the curve is of.
+        start, end: (N, size) unknowns.
+        start_tangent, end_tangent: (N, size) unit tangents.
+    """
+
+    system: RestSystem
+    start: Array
+    end: Array
+    start_tangent: Array
+    end_tangent: Array
+
+    def between(self, share: Array) -> Array:
+        """Points (N, size) at a share (N,) of the steps: a cubic, and from it back to the curve.
+
+        Where another curve crosses, the way back is not defined in its direction; there the cubic stays as it is.
+        """
+        x = share[:, None]
+        step, active = self.end - self.start, self.system.active
+        size = np.linalg.norm(step, axis=1, keepdims=True)
+        z = self.start + x * x * (3 - 2 * x) * step
+        z += x * (1 - x) * size * ((1 - x) * self.start_tangent - x * self.end_tangent)
+        across = step[:, None, active] / size[:, None]
+        plane = np.einsum("ij,ij->i", across[:, 0], z[:, active])
+        for _ in range(_NEWTON):
+            values, slopes = self.system.values(z)
+            off = np.einsum("ij,ij->i", across[:, 0], z[:, active]) - plane
+            back = np.linalg.pinv(np.concatenate([slopes, across], axis=1), rcond=_CROSSING)
+            z[:, active] -= np.einsum("ijk,ik->ij", back, np.column_stack([values, off]))
+        return z
+
+
+def _tests(system: RestSystem, joint: int, z: Array, forward: Array) -> tuple[Array, Array]:
+    """(N, 6) the functions of which a change of sign is an event, and unit tangents (N, size)."""
     _, slopes = system.values(z)
-    tangent = np.linalg.svd(slopes)[2][:, -1]
-    # Idle joints and the like leave trivial columns; the last right vector is then still along the curve.
+    tangent = np.zeros_like(z)
+    tangent[:, system.active] = np.linalg.svd(slopes)[2][:, -1]
     tangent *= np.sign(np.einsum("ij,ij->i", tangent, forward))[:, None]
-    moving = np.abs(slopes).max(axis=(0, 1)) > 0
-    square = np.concatenate([slopes[:, :, moving], tangent[:, None, moving]], axis=1)
-    branch = np.linalg.slogdet(square)[0] if square.shape[1] == square.shape[2] else np.ones(len(z))
-    values = system.eigenvalues(z[:, :n])
+    branch = np.linalg.slogdet(np.concatenate([slopes, tangent[:, None, system.active]], axis=1))[0]
+    values = system.eigenvalues(z[:, : system.law.arm.n])
     first, second = np.triu_indices(values.shape[1], 1)
     pair = np.prod(values[:, first] + values[:, second], axis=1).real
-    return np.stack([tangent[:, joint], branch, system.pulls(z), z[:, -1], np.prod(values, axis=1).real, pair], axis=1)
+    tests = [tangent[:, joint], branch, system.pulls(z), z[:, -1], np.prod(values, axis=1).real, pair]
+    return np.stack(tests, axis=1), tangent
 
 
-def _bisected(system: RestSystem, joint: int, a: Array, b: Array, which: NDArray[np.intp], sign: Array) -> tuple[Array, Array]:
-    """Where, as a share of the step from a to b (N, size), a test function changes its sign, and the points there."""
-    rows = np.arange(len(a))
-    low, high = np.zeros(len(a)), np.ones(len(a))
-    points = a.copy()
-    for _ in range(_BISECTIONS if len(a) else 0):
+def _bisected(system: RestSystem, joint: int, steps: Steps, which: NDArray[np.intp], sign: Array) -> tuple[Array, Array]:
+    """Where, as a share of each step, a test function changes its sign, and the points there."""
+    rows, forward = np.arange(len(which)), steps.end - steps.start
+    low, high = np.zeros(len(which)), np.ones(len(which))
+    points = steps.start.copy()
+    for _ in range(_BISECTIONS if len(which) else 0):
         middle = (low + high) / 2
-        points = _between(system, a, b, middle)
-        same = np.sign(_tests(system, joint, points, b - a)[rows, which]) == sign
+        points = steps.between(middle)
+        same = np.sign(_tests(system, joint, points, forward)[0][rows, which]) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return (low + high) / 2, points
-
-
-def _between(system: RestSystem, a: Array, b: Array, share: Array) -> Array:
-    """Points of the curve between a and b (N, size), in the plane across the step at a share (N,) of it."""
-    step = b - a
-    z = a + share[:, None] * step
-    for _ in range(_NEWTON):
-        values, slopes = system.values(z)
-        square = np.concatenate([slopes, step[:, None]], axis=1)
-        z = z - np.einsum("ijk,ik->ij", np.linalg.pinv(square, rcond=1e-12), np.pad(values, ((0, 0), (0, 1))))
-    return z
 
 
 def _segments(system: RestSystem, z: Array, label: NDArray[np.int64], kind: NDArray[np.uint8]) -> tuple[Segment, ...]:
     """Stretches of one kind between events."""
     n, out = system.law.arm.n, list[Segment]()
     # Events of several functions at one place leave stretches of no length between them.
-    cuts, last = [0], len(z) - 1
-    cuts += [
-        k for k in np.flatnonzero(label >= 0) if np.linalg.norm(z[k] - z[0]) > SHORT and np.linalg.norm(z[k] - z[last]) > SHORT
-    ]
+    last = len(z) - 1
+    away = np.minimum(np.linalg.norm(z - z[0], axis=1), np.linalg.norm(z - z[last], axis=1))
+    cuts = [0, *np.flatnonzero((label >= 0) & (away > SHORT))]
     for first, end in itertools.pairwise([*cuts, last]):
         if np.linalg.norm(z[end] - z[first]) <= SHORT:
             continue
         inside = kind[first + 1 : end]
         inside = inside[np.isin(inside, (Kind.SINK, Kind.SADDLE, Kind.SOURCE))]
         if not len(inside):
-            middle = _between(system, z[first : first + 1], z[end : end + 1], np.array([0.5]))[:, :n]
+            chord = (z[[end]] - z[[first]]) / np.linalg.norm(z[end] - z[first])
+            middle = Steps(system, z[[first]], z[[end]], chord, chord).between(np.array([0.5]))[:, :n]
             inside = kinds(system.eigenvalues(middle), system.linear.rates(middle, system.pose)[1])
         found = Kind(int(inside[len(inside) // 2]))
         if out and out[-1].kind == found and not (label[out[-1].first + 1 : end] == Event.FOLD).any():

@@ -32,6 +32,7 @@ class RestSystem:
         idle: Joints that the task does not notice, from 0: they stand at 0, and are left out of everything.
         mask: (n,) 0 for locked joints, else 1.
         healthy: (n,) neither locked nor idle.
+        active: Unknowns but for idle joints, as indices; one more than equations where one joint is locked.
     """
 
     def __init__(self, law: Law, pose: Array, joints: tuple[int, ...]) -> None:
@@ -45,6 +46,9 @@ class RestSystem:
         self.linear = linearisation(law)
         self._free = np.ones(self.equations.size)
         self._free[list(self.idle)] = 0.0
+        self.active = np.flatnonzero(self._free)
+        unlocked = np.flatnonzero(self.mask)
+        self._rows = np.flatnonzero(~np.isin(np.r_[unlocked, np.full(law.task.m + 2, -1)], self.idle))
 
     def starts(self, count: int, generator: np.random.Generator) -> Array:
         """Random unknowns (count, size), idle joints at 0."""
@@ -84,12 +88,9 @@ class RestSystem:
         return bool(self.still(q)[error > 1e-3].mean() > 0.5)
 
     def values(self, z: Array) -> tuple[Array, Array]:
-        """The equations (N, e) at unknowns (N, size), and their Jacobian (N, e, size), with idle joints held."""
+        """The equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) by those that are active."""
         values, slopes = self.equations.values(z, self.pose, self.mask)
-        keep = np.ones(values.shape[1], dtype=bool)
-        order = np.flatnonzero(self.mask > 0)
-        keep[np.flatnonzero(np.isin(order, self.idle))] = False
-        return values[:, keep], slopes[:, keep] * self._free
+        return values[:, self._rows], slopes[:, self._rows][:, :, self.active]
 
     def pulls(self, z: Array) -> Array:
         """(N,) see :meth:`RestEquations.pulls`."""

@@ -1,4 +1,4 @@
-"""Where a failed arm can come to rest while its joint stands at a given value: all points that were found, and what they are."""
+"""Where a failed arm can come to rest while its joint stands at a given value: all points found, and what they are."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from holdfast.solve.self_motion import Component, distance_to_curve
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SPACING = 0.03  # of the unknowns, rad and m
+SPACING = 0.04  # of the unknowns, rad and m
 WAVE, PATIENCE, MOST_WAVES = 128, 3, 30
 _NEWTON = 6
 _SHORTEST = 2.0**-12  # of the spacing: the curve ends where no longer step succeeds
@@ -75,7 +75,7 @@ class Tracer:
         """Those of z (N, size) that lie on none of the curves."""
         for curve in curves:
             if len(z):
-                component = Component(curve.q, False, (None, None), 0.0)
+                component = Component(curve.q[:-1] if curve.closed else curve.q, curve.closed, (None, None), 0.0)
                 z = z[distance_to_curve(self._arm, component, z[:, : self._n]) > _ON_CURVE * self.spacing]
         return z
 
@@ -99,10 +99,10 @@ class Tracer:
     def _follow(self, z: Array, tangent: Array) -> tuple[list[Array], bool]:
         """Points of the curve one way from z, and whether it came back to z."""
         points, start, first = [z], z, tangent
-        step, length = self.spacing, 0.0
+        step, length, bend = self.spacing, 0.0, np.zeros_like(z)
         sliding = self.system.law.arm.prismatic
         while length < _LONGEST:
-            new, direction, sound = self._corrected(z + step * tangent, tangent)
+            new, direction, sound = self._corrected(z + step * tangent + (step * step / 2) * bend, tangent)
             moved = float(np.linalg.norm(new - z))
             if not sound or direction @ tangent < _STRAIGHT or not 0.3 * step < moved < 1.7 * step:
                 step /= 2
@@ -113,30 +113,41 @@ class Tracer:
                 points.append(self._same_turn(start, z))
                 return points, True
             points.append(new)
-            z, tangent, length = new, direction, length + moved
+            z, bend, tangent, length = new, (direction - tangent) / moved, direction, length + moved
             if np.abs(z[: self._n][sliding]).max(initial=0.0) > _FAR:
                 break
             step = min(1.5 * step, self.spacing)
         return points, False
 
     def _corrected(self, z: Array, tangent: Array | None) -> tuple[Array, Array, bool]:
-        """The nearest point of the curve, its unit tangent (turned like the given one), and whether there is one."""
-        sound = False
+        """The point of the curve in the plane through z across the tangent, its unit tangent, and whether there is one.
+
+        Without a tangent, the nearest point, with its tangent either way.
+        """
+        if tangent is None:
+            values, slopes = self.system.values(z[None])
+            tangent = np.zeros_like(z)
+            tangent[self.system.active] = np.linalg.svd(slopes[0])[2][-1]
+        active = self.system.active
+        square = np.empty((active.size, active.size))
+        right = np.zeros((active.size, 2))
+        square[-1], right[-1, 1] = tangent[active], 1.0
         for _ in range(_NEWTON):
             values, slopes = self.system.values(z[None])
-            if not np.isfinite(slopes).all():
-                return z, z, False
-            left, size, right = np.linalg.svd(slopes[0])
-            rank = len(size)
-            if np.linalg.norm(values[0]) < TOLERANCE:
-                sound = True
+            square[:-1], right[:-1, 0] = slopes[0], values[0]
+            try:
+                step = np.linalg.solve(square, right)
+            except np.linalg.LinAlgError:
                 break
-            step = right[:rank].T @ ((left.T @ values[0]) * size / (size * size + 1e-22))
-            z = z - step
-        direction = right[-1]
-        if tangent is not None and direction @ tangent < 0:
-            direction = -direction
-        return z, direction, sound
+            if not np.isfinite(step).all():
+                break
+            if np.linalg.norm(values[0]) < TOLERANCE:
+                direction = np.zeros_like(z)
+                direction[active] = step[:, 1] / np.linalg.norm(step[:, 1])
+                return z, direction, True
+            z = z.copy()
+            z[active] -= step[:, 0]
+        return z, tangent, False
 
     def _passes(self, start: Array, first: Array, z: Array, new: Array) -> bool:
         """Whether the step from z to new passes the start, modulo whole turns, in its direction."""
