@@ -1,6 +1,31 @@
-"""Where it ends: over a workspace, from where a failed arm still arrives."""
+"""Where it ends: where a failed arm can come to rest, what attracts it, and from where."""
 
+from holdfast.converge.convergence_map import ConvergenceMap, convergence_map
+from holdfast.converge.curves import Curve, Curves, Segment
+from holdfast.converge.linearisation import Kind, Linearisation, linearisation
+from holdfast.converge.measures import Measures
 from holdfast.converge.starts import Places
+from holdfast.converge.stationary import RestPoints, stationary
+from holdfast.converge.theorem import column_residual, is_stuck, null_components, stuck_subspace
 from holdfast.converge.workspace import Workspace, workspace
 
-__all__ = ["Places", "Workspace", "workspace"]
+__all__ = [
+    "ConvergenceMap",
+    "Curve",
+    "Curves",
+    "Kind",
+    "Linearisation",
+    "Measures",
+    "Places",
+    "RestPoints",
+    "Segment",
+    "Workspace",
+    "column_residual",
+    "convergence_map",
+    "is_stuck",
+    "linearisation",
+    "null_components",
+    "stationary",
+    "stuck_subspace",
+    "workspace",
+]

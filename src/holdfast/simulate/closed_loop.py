@@ -91,7 +91,7 @@ def simulate(
     Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
     """
     start, single = configurations(law.arm, q0)
-    poses, wanted = _target(law, target)
+    poses, wanted = target_poses(law, target)
     locks, shared = _locks(law, locked)
     counts = {"q0": len(start), "target": len(poses), "locked": len(locks)}
     rows = max(counts.values()) if min(counts.values()) else 0
@@ -130,7 +130,7 @@ def simulate(
 # ---- input -------------------------------------------------------------------------------------------------------
 
 
-def _target(law: Law, target: ArrayLike) -> tuple[Array, Array | None]:
+def target_poses(law: Law, target: ArrayLike) -> tuple[Array, Array | None]:
     """Targets as poses (M, 4, 4), and as the task's rows (M, m) where they were given so."""
     task, given = law.task, np.asarray(target, dtype=np.float64)
     if given.ndim in (2, 3) and given.shape[-2:] == (4, 4):
@@ -345,7 +345,7 @@ class Motion:
 
     def _poses(self, runs: Runs) -> Array:
         target = runs.target
-        return check_poses(target) if target.shape[-2:] == (4, 4) else _target(self.law, target)[0]
+        return check_poses(target) if target.shape[-2:] == (4, 4) else target_poses(self.law, target)[0]
 
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path:
         """See :meth:`Runs.path`."""
