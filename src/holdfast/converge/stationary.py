@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.arm.targets import target_poses
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind, Kinds, kinds
 from holdfast.converge.rest_system import RestSystem, distinct, wrapped
 from holdfast.errors import InputError
-from holdfast.simulate.closed_loop import target_poses
 
 if TYPE_CHECKING:
     from holdfast.converge.curves import Curves
@@ -155,7 +155,7 @@ def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
 
 def read_target(law: Law, target: ArrayLike) -> Array:
     """One target as a tool pose (4, 4)."""
-    poses, _ = target_poses(law, target)
+    poses, _ = target_poses(law.task, target)
     if len(poses) != 1 or not np.isfinite(poses).all():
         raise InputError("the target must be one, of finite numbers")
     return poses[0]
