@@ -11,11 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.control.law import Law
+from holdfast.converge.arriving import arriving
+from holdfast.converge.bounds import joint_bounds
 from holdfast.converge.healthy_paths import healthy_paths
 from holdfast.converge.measures import Arcs, Flags, Index, Measures, averaged, spaced, within
 from holdfast.converge.starts import Places, configurations_at, read_places, without_idle_limits
+from holdfast.converge.stationary import stationary
 from holdfast.errors import InputError, TaskError
-from holdfast.simulate import Outcome, simulate
+from holdfast.simulate import Outcome, Reason, simulate
 from holdfast.study import Column, Store
 
 Array = NDArray[np.float64]
@@ -25,9 +28,12 @@ Progress = Callable[[int, int], None]
 
 TIME_CONSTANTS = 2000.0  # 1/Ke
 TOLERANCE = 1e-8
+CYCLES = 0.02  # rad on either side of a Hopf point, where limit cycles were seen within 0.005
 BESIDE = 1e-3  # rad: locked angles this near to a sink or a degenerate angle are simulated too
 _CHUNK = 128  # starts analysed together and stored as one; no result depends on it
-ENDS = ("converged", "stuck", "moving", "undecided", "no_sink")
+ENDS = ("converged", "stuck", "moving", "undecided", "arriving", "no_sink")  # the first four as Outcome has them
+ARRIVING, NO_SINK = 4, 5
+_ARRIVES = np.array([1.0, 0.0, 0.0, np.nan, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +51,8 @@ class Workspace:
         lost: (P,) of them, those whose healthy motion ran into a singular configuration; left out of everything.
         reach: R100, Ravg, Rsens: of the share of a motion from which the target stays in reach, percent.
         finish: F100, Favg, Fsens: of the share of it from which the failed arm arrives, percent; undecided runs left out.
-        ends: (P, 5) how the failures ended: converged, stuck, moving, undecided, and not simulated because the joint locked
-            where there is no sink.
+        ends: (P, 6) how the failures ended: converged, stuck, moving, undecided; arriving, which is undecided at the time
+            limit but next to a solution that attracts; and not simulated because the joint locked where there is no sink.
     """
 
     law: Law
@@ -75,18 +81,18 @@ class Workspace:
     @property
     def simulated(self) -> int:
         """Failures that were simulated."""
-        return int(self.ends[:, :4].sum())
+        return int(self.ends[:, :NO_SINK].sum())
 
     @property
     def undecided(self) -> float:
-        """Share of the simulated failures that were undecided at the time limit; NaN if none was simulated."""
-        return float(self.ends[:, 3].sum() / self.simulated) if self.simulated else float("nan")
+        """Share of the simulated failures that were undecided at the time limit, arriving or not; NaN if there is none."""
+        return float(self.ends[:, [Outcome.UNDECIDED, ARRIVING]].sum() / self.simulated) if self.simulated else float("nan")
 
     @property
     def saved(self) -> float:
         """Share of the failures that did not have to be simulated, because the joint locked where there is no sink."""
         every = int(self.ends.sum())
-        return float(self.ends[:, 4].sum() / every) if every else float("nan")
+        return float(self.ends[:, NO_SINK].sum() / every) if every else float("nan")
 
     def means(self) -> dict[str, Array]:
         """Mean of every measure over the starts that have it, (n + 1,) each, percent."""
@@ -101,9 +107,12 @@ class Workspace:
         ]
         ends = dict(zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
         if self.ends.sum():
-            told = ", ".join(f"{ends[name]} {name}" for name in ENDS[:4])
-            share = f" ({100 * self.undecided:.2f} % undecided)" if self.simulated else ""
-            lines.append(f"{self.simulated} failures simulated: {told}{share}")
+            told = ", ".join(f"{ends[name]} {name}" for name in ENDS[:3])
+            share = f" ({100 * self.undecided:.2f} %)" if self.simulated else ""
+            lines.append(
+                f"{self.simulated} failures simulated: {told}, {ends['undecided'] + ends['arriving']} undecided at the time "
+                f"limit{share}, of which {ends['arriving']} next to a solution that attracts, counted as arriving"
+            )
         if self.method == "procedure":
             lines.append(
                 f"{ends['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked where no sink is, "
@@ -138,8 +147,9 @@ def workspace(
     (:func:`holdfast.simulate`): F100, Favg and Fsens are the same of the share of that part from which the failed arm
     arrives. *Any* joint: all joints must be inside, and the arm must arrive whichever fails.
 
-    Failures that are undecided at the time limit, nearly all at the very ends of a range, where the arm comes to the target
-    ever more slowly, are left out of F and counted in ``ends``.
+    Near the very ends of a range the arm comes to the target ever more slowly. A failure that is undecided at the time limit
+    counts as arriving if it stands next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
+    counted in ``ends``.
 
     Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
     in proportion; both are weighted by their lengths.
@@ -157,8 +167,9 @@ def workspace(
         tolerance: Of the simulation's steps, rad.
         relative_to: ``inside``: F of the part inside, as in the paper; configurations without any are left out. ``whole``:
             of the whole way.
-        sinks: For the procedure, of joints (from 0), the arcs of locked angles with sinks, rad. If not given, they are found
-            by :func:`holdfast.stationary`.
+        sinks: For the procedure, of joints (from 0), the arcs of locked values at which failures are simulated, rad. If not
+            given: where :func:`holdfast.stationary` finds sinks and whole curves of rest points, and 0.02 rad on either side of
+            Hopf points, beside which limit cycles live.
         seed: Of the search for configurations, and of random starts.
         store: A folder to keep the results in; a stopped analysis goes on there.
         progress: Called with (starts done, starts in all).
@@ -239,13 +250,13 @@ def _job(
     if len(targets) != 1:
         raise InputError(f"there are {len(targets)} targets; a workspace is that of one, see convergence_map for more")
     pose = targets.poses[0]
-    bounds = _bounds(law, pose, seed)
+    bounds = tuple(tuple(arcs) for arcs in joint_bounds(without_idle_limits(arm), pose, task, seed))
     if not any(bounds):
         place = ", ".join(f"{x:g}" for x in pose[:3, 3])
         raise InputError(f"no configuration of '{arm.name}' was found at the target ({place}) m; choose one within its reach")
     arcs = None
     if method == "procedure":
-        arcs = _sinks(law, pose, task.angular) if sinks is None else {k: list(sinks.get(k, ())) for k in range(arm.n)}
+        arcs = _sinks(law, pose) if sinks is None else {k: list(sinks.get(k, ())) for k in range(arm.n)}
     return _Job(law, pose, bounds, configurations, points, method, cells, limit, tolerance, relative_to, arcs, seed)
 
 
@@ -322,7 +333,7 @@ class _Job:
         return dict(zip(self.names, values, strict=True))
 
     def _finishes(self, q: Array, inside: Flags, owner: Index, starts: int) -> tuple[Array, NDArray[np.int64]]:
-        """Share (R, n + 1) of the part inside from which the failed arm arrives, and how failures ended (starts, 5)."""
+        """Share (R, n + 1) of the part inside from which the failed arm arrives, and how failures ended (starts, 6)."""
         n, rows = self.law.arm.n, q.shape[1]
         share, ends = np.full((rows, n + 1), np.nan), np.zeros((starts, len(ENDS)), dtype=np.int64)
         if not self.points or not rows:
@@ -339,7 +350,7 @@ class _Job:
         joint = np.repeat([g[2] for g in groups], [len(g[0]) for g in groups])
         ended = self._ends(q[cell, row], joint)
         np.add.at(ends, (owner[row], ended), 1)
-        arrives = np.select([ended == Outcome.UNDECIDED, np.isin(ended, (Outcome.STUCK, Outcome.MOVING))], [np.nan, 0.0], 1.0)
+        arrives = _ARRIVES[ended]
         parts = np.split(arrives, np.cumsum([len(g[0]) for g in groups])[:-1])
         both = count[n] / np.maximum(count[:n], 1)  # (n, R) how much of the part of a joint is inside for all
         for j in range(n):
@@ -352,8 +363,8 @@ class _Job:
         return share, ends
 
     def _ends(self, q: Array, joint: NDArray[np.int64]) -> NDArray[np.int64]:
-        """(N,) how failures of joints (N,) at configurations (N, n) end: an outcome, or 4 where none was simulated."""
-        ended = np.full(len(q), len(ENDS) - 1)
+        """(N,) how failures of joints (N,) at configurations (N, n) end, as numbered by ``ENDS``."""
+        ended = np.full(len(q), NO_SINK)
         wanted = np.ones(len(q), dtype=bool)
         if self.sinks is not None:
             for j, arcs in self.sinks.items():
@@ -364,7 +375,10 @@ class _Job:
             runs = simulate(
                 self.law, q[wanted], self.pose, locked=joint[wanted], time_limit=self.limit, tolerance=self.tolerance
             )
-            ended[wanted] = runs.code
+            code = runs.code.astype(np.int64)
+            slow = np.flatnonzero(runs.reason == Reason.SLOW)
+            code[slow[arriving(self.law, runs.q_final[slow], self.pose, joint[wanted][slow])]] = ARRIVING
+            ended[wanted] = code
         return ended
 
 
@@ -374,23 +388,11 @@ def _mean(values: Array) -> Array:
     return np.where(count > 0, np.where(known, values, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan)
 
 
-def _bounds(law: Law, pose: Array, seed: int) -> tuple[tuple[tuple[float, float], ...], ...]:
-    from holdfast.solve.self_motion import self_motion
-
-    # stand-in until hf.joint_bounds is merged
-    arm = without_idle_limits(law.arm)
-    motion = self_motion(arm, pose, law.task, 0.01, seed)
-    found: list[list[tuple[float, float]]] = [[] for _ in range(arm.n)]
-    for c in motion.components:
-        closing = np.zeros(arm.n)
-        if c.closed:
-            closing = c.q[-1] - c.q[0]
-        for j in range(arm.n):
-            low, high = float(c.q[:, j].min()), float(c.q[:, j].max())
-            round_ = abs(closing[j]) > np.pi
-            found[j].append((-np.pi, np.pi) if round_ else (low, high))
-    return tuple(tuple(x) for x in found)
-
-
-def _sinks(law: Law, pose: Array, angular: bool) -> dict[int, Arcs]:
-    raise NotImplementedError
+def _sinks(law: Law, pose: Array) -> dict[int, Arcs]:
+    """Of each joint, the locked values with a sink, and those beside which motions may circle or creep."""
+    found: dict[int, Arcs] = {}
+    for j in range(law.arm.n):
+        curves = stationary(law, pose, locked=j)
+        circling = [(x - CYCLES, x + CYCLES) for c in curves.curves for x in c.locked[c.hopf_points].tolist()]
+        found[j] = [*curves.sink_arcs, *((x, x) for x in curves.degenerate_angles), *circling]
+    return found

@@ -98,8 +98,8 @@ def _figure(w: Workspace, names: tuple[str, ...], label: str) -> Any:
     )
     second = "R: share of the way on which the joint may lock and the target stays in reach"
     if names[0] == "F100":
-        done = f"{w.simulated} failures simulated, {int(w.ends[:, 3].sum())} undecided"
-        skipped = f", {int(w.ends[:, 4].sum())} locked where no sink is" if w.method == "procedure" else ""
+        done = f"{w.simulated} failures simulated, {100 * w.undecided:.2f} % undecided at the time limit"
+        skipped = f", {int(w.ends[:, -1].sum())} locked where no sink is" if w.method == "procedure" else ""
         second = f"F: share of that part from which the failed arm arrives; {done}{skipped}"
     return place_maps(plane, {name: w.measures[name] for name in names}, columns, label, f"{first}\n{second}")
 
