@@ -71,16 +71,18 @@ class ConvergenceMap:
         """(P, C, n + 1) True where a run ended so.
 
         Args:
-            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; or ``trapped``: it did not converge although the
-                target was in reach.
+            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``; ``in_reach``: it converged, or could have; or
+                ``trapped``: it did not converge although the target was in reach.
 
         Raises:
             InputError: Another word.
         """
         if outcome == "trapped":
             return np.asarray(self.known[..., None] & (self.code != Outcome.CONVERGED) & self.in_reach)
+        if outcome == "in_reach":
+            return self.in_reach
         if outcome not in _OUTCOMES:
-            raise InputError(f"outcome '{outcome}' is not known; use {', '.join(_OUTCOMES)} or trapped")
+            raise InputError(f"outcome '{outcome}' is not known; use {', '.join(_OUTCOMES)}, in_reach or trapped")
         return np.asarray(self.code == _OUTCOMES[outcome])
 
     def values(self, outcome: str = "converged") -> Array:
@@ -113,8 +115,8 @@ class ConvergenceMap:
             told = ", ".join(f"{outcome} {100 * every[outcome][name].value:.1f} %" for outcome in _OUTCOMES)
             arrives, trapped = every["converged"][name], every["trapped"][name]
             lines.append(
-                f"{name} locked: {told} (converged: {100 * arrives.low:.1f} to {100 * arrives.high:.1f} %); with the target in "
-                f"reach and not there: {100 * trapped.value:.1f} %"
+                f"{name} locked: {told}; converged with 95 % confidence {100 * arrives.low:.1f} to {100 * arrives.high:.1f} %, "
+                f"not there though the target was in reach {100 * trapped.value:.1f} %"
             )
         return lines
 

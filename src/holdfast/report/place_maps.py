@@ -10,12 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import INK, ORANGE, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
 from holdfast.report.scenes import Scale, finish_bar
 
 Array = NDArray[np.float64]
 
 _NOTHING = "#e9ecef"  # a place without a value
+_PARTS = ((BLUE, ""), (SKY, ""), (ORANGE, ""), ("#f0b98d", "//"), ("#a8497f", ".."), ("#c3c9cf", "xx"))  # of a bar, in order
 
 
 @dataclass(frozen=True)
@@ -95,3 +96,56 @@ def _draw(axes: Axes, plane: Plane, values: Array, scale: Scale) -> None:
         axes.plot(*plane.mark, "x", color=ORANGE, markersize=7, markeredgewidth=1.8, label=plain(plane.mark_label))
     axes.grid(visible=False)
     axes.tick_params(colors=INK, length=2)
+
+
+def binned(points: Array, values: Array, bins: int) -> tuple[Plane, Array]:
+    """Places gathered in square cells, ``bins`` of them along the longer edge, and the means (B, C) of their values (P, C).
+
+    Args:
+        points: (P, 2) m.
+        values: (P, C), NaN where there are none.
+        bins: Cells.
+    """
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = max(float((high - low).max()), 1e-9) / bins
+    count = np.maximum(np.ceil((high - low) / size - 1e-9), 1).astype(int)
+    place = np.minimum(((points - low) / size).astype(int), count - 1)
+    number, inverse = np.unique(place[:, 1] * count[0] + place[:, 0], return_inverse=True)
+    means = np.full((len(number), values.shape[1]), np.nan)
+    for j, column in enumerate(values.T):
+        known = ~np.isnan(column)
+        total = np.bincount(inverse[known], minlength=len(number))
+        sums = np.bincount(inverse[known], column[known], len(number))
+        means[total > 0, j] = sums[total > 0] / total[total > 0]
+    cells = np.stack([number % count[0], number // count[0]], axis=1)
+    axes = tuple(low[k] + size * (np.arange(count[k]) + 0.5) for k in range(2))
+    centres = np.stack([axes[0][cells[:, 0]], axes[1][cells[:, 1]]], axis=1)
+    return Plane(centres, ("", ""), cells, (axes[0], axes[1])), means
+
+
+def outcome_bars(names: Sequence[str], parts: Mapping[str, Array], intervals: Array, caption: str) -> Figure:
+    """Stacked horizontal bars that add up to 100 %: how runs ended, one bar for each case.
+
+    Args:
+        names: (K,) of the cases.
+        parts: By label, (K,) percent; drawn from left to right.
+        intervals: (K, 2) confidence limits of the first part, percent.
+        caption: What was computed.
+    """
+    with style():
+        figure = Figure(figsize=(WIDTH * 0.85, 1.3 + 0.36 * len(names)))
+        axes = figure.add_subplot()
+        rows, left = np.arange(len(names)), np.zeros(len(names))
+        for (label, values), (color, hatch) in zip(parts.items(), _PARTS, strict=False):
+            axes.barh(rows, values, left=left, height=0.66, color=color, hatch=hatch, edgecolor="white", linewidth=0.5, label=label)
+            left = left + values
+        first = next(iter(parts.values()))
+        reach = np.abs(intervals.T - first)
+        axes.errorbar(first, rows, xerr=reach, fmt="none", ecolor=INK, elinewidth=1.2, capsize=3)
+        axes.set_yticks(rows, [plain(n, 40) for n in names])
+        axes.set(xlabel="runs, percent", xlim=(0, 100), ylim=(len(names) - 0.5, -0.5))
+        axes.grid(axis="y", visible=False)
+        axes.tick_params(axis="y", length=0)
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3, columnspacing=2.0)
+        figure.supxlabel("\n".join(plain(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
+        return finished(figure)
