@@ -21,6 +21,7 @@ MODULES = [
     "holdfast.clearance",
     "holdfast.cli",
     "holdfast.control",
+    "holdfast.converge",
     "holdfast.indices",
     "holdfast.indices.susceptibility",
     "holdfast.kernels",

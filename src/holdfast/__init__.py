@@ -6,12 +6,24 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
-from holdfast.converge import stationary
+from holdfast.converge import (
+    ConvergenceMap,
+    LawChoice,
+    TolerantWorkspace,
+    Workspace,
+    best_law,
+    convergence_map,
+    joint_bounds,
+    reachable_when_locked,
+    stationary,
+    tolerant_workspace,
+    workspace,
+)
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
 from holdfast.simulate import BrakedDrop, FreeSwing, Runs, free_swing, simulate
-from holdfast.solve import Optimum, Reach, optimise, solve_ik
+from holdfast.solve import Optimum, Reach, optimise, self_motion, solve_ik
 from holdfast.status import Status
 
 __version__ = "0.1.0"
@@ -25,11 +37,13 @@ __all__ = [
     "Capsules",
     "Clearance",
     "Comparison",
+    "ConvergenceMap",
     "FreeSwing",
     "HoldfastError",
     "InputError",
     "Joint",
     "KernelError",
+    "LawChoice",
     "Link",
     "Optimum",
     "Reach",
@@ -39,21 +53,30 @@ __all__ = [
     "StoreError",
     "Task",
     "TaskError",
+    "TolerantWorkspace",
     "Trajectory",
+    "Workspace",
     "__version__",
     "arms",
     "assess",
+    "best_law",
     "compare",
     "control",
+    "convergence_map",
     "follow",
     "free_swing",
     "indices",
+    "joint_bounds",
     "load",
     "optimise",
     "paths",
+    "reachable_when_locked",
+    "self_motion",
     "set_threads",
     "simulate",
     "solve_ik",
     "stationary",
     "susceptibility",
+    "tolerant_workspace",
+    "workspace",
 ]

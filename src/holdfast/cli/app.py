@@ -15,9 +15,11 @@ from holdfast.cli import (
     export_commands,
     follow_commands,
     index_commands,
+    self_motion_commands,
     simulate_commands,
     susceptibility_commands,
     swing_commands,
+    workspace_commands,
 )
 from holdfast.errors import HoldfastError
 
@@ -58,6 +60,8 @@ assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)
+self_motion_commands.add(app)
+workspace_commands.add(app)
 export_commands.add(app)
 
 

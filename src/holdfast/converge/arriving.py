@@ -28,7 +28,7 @@ def arriving(law: Law, q: Array, pose: Array, joint: NDArray[np.int64]) -> Flags
     """(N,) True where a run that stands at q (N, n) is next to a solution that attracts, with ``joint`` (N,) locked.
 
     The solution is found by damped least squares over the healthy joints from q, and must be within 0.1 rad; all eigenvalues
-    of the linearised motion there must have a negative real part.
+    of the linearised motion there but those of the failed arm's own self-motion must have a negative real part.
     """
     out = np.zeros(len(q), dtype=bool)
     for j in np.unique(joint):
@@ -39,7 +39,8 @@ def arriving(law: Law, q: Array, pose: Array, joint: NDArray[np.int64]) -> Flags
         rows, found = rows[reached], found[reached]
         if rows.size:
             real = linearisation(law).eigenvalues(found, pose, healthy).real
-            out[rows] = (real < -DECAYS).all(axis=1)
+            # Joints to spare leave as many zeros: the self-motion of the failed arm, along which nothing moves.
+            out[rows] = (real[:, max(law.arm.n - 1 - law.task.m, 0) :] < -DECAYS).all(axis=1)
     return out
 
 

@@ -154,7 +154,7 @@ def convergence_map(
     Over ``starts``: from every place the arm starts in ``configurations`` configurations (with one degree of redundancy
     picked at random from points equally far apart on its self-motion, else random ones), towards the target, or one of the
     targets at random. Over ``targets``: towards every place it starts from ``configurations`` configurations picked at
-    random from those of the starts, or from ``q0``. Each motion is simulated with each joint standing, and with none.
+    random from those of the starts, or from ``q0`` (all of them where they are fewer). Each motion is simulated with each joint standing, and with none.
 
     Args:
         law: The control law; of any arm, task and redundancy.
@@ -198,7 +198,10 @@ def convergence_map(
             pool = as_configurations(arm, q0)[0]
         if not len(pool) or not np.isfinite(pool).all():
             raise InputError("there is no configuration to start from; choose starts within reach, or finite q0")
-        q = pool[third.integers(0, len(pool), (len(places), configurations))]
+        # Few are all used, and none twice.
+        each = min(configurations, len(pool))
+        chosen = np.argsort(third.random((len(places), len(pool))), axis=1)[:, :each]
+        q = pool[chosen]
         target = np.broadcast_to(places.poses[:, None], (*q.shape[:2], 4, 4))
     code, in_reach, passed = _run(law, q, target, time_limit, tolerance, seed, progress)
     return ConvergenceMap(law, places, over, q, np.asarray(target), code, in_reach, passed, seed)

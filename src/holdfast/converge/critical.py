@@ -54,7 +54,9 @@ class CriticalPoints:
         q, ok = self.engine.attempt(starts, np.broadcast_to(pose, (count, 4, 4)), TOLERANCE)
         return q[ok]
 
-    def solve(self, pose: Array, q: Array, joint: NDArray[np.int64], held: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+    def solve(
+        self, pose: Array, q: Array, joint: NDArray[np.int64], held: NDArray[np.bool_]
+    ) -> tuple[Array, NDArray[np.bool_]]:
         """From starts q (B, n): critical points of ``joint`` (B,) with the joints ``held`` (B, n) where they are.
 
         Returns:
@@ -65,7 +67,9 @@ class CriticalPoints:
             return q, np.zeros(0, dtype=bool)
         return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
 
-    def _solve(self, pose: Array, q: Array, joint: NDArray[np.int64], held: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+    def _solve(
+        self, pose: Array, q: Array, joint: NDArray[np.int64], held: NDArray[np.bool_]
+    ) -> tuple[Array, NDArray[np.bool_]]:
         n, m, count = self.arm.n, self.m, len(q)
         bound = ~held  # whose columns must be at right angles to u
         bound[np.arange(count), joint] = False

@@ -6,6 +6,7 @@ Angles here are those of the links in the plane: each joint turns counter-clockw
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,50 +60,42 @@ class ThreeLinks:
         """(3, 2) artificial limits of the link angles, from those of the joints (3, 2)."""
         return np.sort(self.offset[:, None] + self.sign[:, None] * limits, axis=1)
 
-    def joint_limits(self, limits: Array) -> Array:
-        """The other way round, each interval moved by whole turns towards 0."""
-        made = np.sort(self.sign[:, None] * (limits - self.offset[:, None]), axis=1)
-        return np.asarray(made - FULL * np.round(made.mean(axis=1, keepdims=True) / FULL))
 
-
-def area(arm: ThreeLinks, limits: Array, radii: int) -> tuple[Array, Array]:
+def area(arm: ThreeLinks, limits: Array, radii: int) -> Array:
     """Area (P,), m^2, of the failure-tolerant workspace for artificial limits (P, 3, 2) of the link angles.
 
     ``int r a(r) dr`` over the annulus that locks of joints 2 and 3 leave, with the angular measure a(r) of
-    :func:`angles_left`; Gauss-Legendre in four panels.
-
-    Returns:
-        The area with ``radii`` nodes in all, and the difference to half as many.
+    :func:`angles_left`: Gauss-Legendre at ``radii`` nodes in four panels.
     """
     low, high = annulus(arm, limits)
-    return _integral(arm, limits, low, high, radii), _integral(arm, limits, low, high, radii // 2)
-
-
-def _integral(arm: ThreeLinks, limits: Array, low: Array, high: Array, radii: int) -> Array:
-    panels = 4
-    x, w = np.polynomial.legendre.leggauss(max(radii // panels, 2))
-    unit = np.concatenate([(k + (x + 1) / 2) / panels for k in range(panels)])
-    weight = np.tile(w / 2 / panels, panels)
+    unit, weight = _nodes(radii)
     width = np.maximum(high - low, 0.0)
     r = low[:, None] + width[:, None] * unit
     measure = np.where(width[:, None] > 0, angles_left(arm, limits, np.maximum(r, 1e-12)), 0.0)
     return np.asarray(width * (weight * r * measure).sum(axis=1))
 
 
-def annulus(arm: ThreeLinks, limits: Array) -> tuple[Array, Array]:
-    """Inner and outer radius (P,) of what the arm reaches wherever joint 2 or joint 3 locks within its limits (P, 3, 2).
+@cache
+def _nodes(radii: int, panels: int = 4) -> tuple[Array, Array]:
+    x, w = np.polynomial.legendre.leggauss(max(radii // panels, 2))
+    return np.concatenate([(k + (x + 1) / 2) / panels for k in range(panels)]), np.tile(w / 2 / panels, panels)
 
-    With joint 2 at an angle, links 1 and 2 are one of length ``L = |l1 + l2 e^(i angle)|``, and the arm reaches
-    ``|L - l3| <= r <= L + l3``; with joint 3 likewise.
+
+def annulus(arm: ThreeLinks, limits: Array) -> tuple[Array, Array]:
+    """Inner and outer radius (P,) of what the arm reaches wherever joint 2 or joint 3 locks within its limits (P, 3, 2)."""
+    second, third = _annulus(arm, limits, 1), _annulus(arm, limits, 2)
+    return np.maximum(second[0], third[0]), np.minimum(second[1], third[1])
+
+
+def _annulus(arm: ThreeLinks, limits: Array, joint: int) -> tuple[Array, Array]:
+    """With joint 2 at an angle, links 1 and 2 are one of length ``L = |l1 + l2 e^(i angle)|``, and the arm reaches
+    ``|L - l3| <= r <= L + l3``; with joint 3 likewise. ``joint`` counts from 0.
     """
     first, second, third = arm.lengths
-    inner, outer = np.zeros(len(limits)), np.full(len(limits), np.inf)
-    for k, (a, b, other) in ((1, (first, second, third)), (2, (second, third, first))):
-        least, most = _cosines(limits[:, k])
-        short, long = (np.sqrt(np.maximum(a * a + b * b + 2 * a * b * c, 0.0)) for c in (least, most))
-        inner = np.maximum(inner, np.maximum(np.abs(short - other), np.abs(long - other)))
-        outer = np.minimum(outer, short + other)
-    return inner, outer
+    a, b, other = (first, second, third) if joint == 1 else (second, third, first)
+    least, most = _cosines(limits[:, joint])
+    short, long = (np.sqrt(np.maximum(a * a + b * b + 2 * a * b * c, 0.0)) for c in (least, most))
+    return np.maximum(np.abs(short - other), np.abs(long - other)), short + other
 
 
 def angles_left(arm: ThreeLinks, limits: Array, r: Array) -> Array:
@@ -111,32 +104,55 @@ def angles_left(arm: ThreeLinks, limits: Array, r: Array) -> Array:
     A point is there if the healthy arm reaches it within the artificial limits, and the arm with joint 1 locked at any angle
     within its limits does. Both are said by what is left out, arcs of directions; joint 1 has its middle at 0.
     """
-    width = limits[:, 0, 1] - limits[:, 0, 0]
-    start, end = _left_out(arm, limits, r, width)
+    parts = _lost_to_first(arm, limits, r), _out_of_limits(arm, limits, r)
+    start, end = (np.concatenate([p[side] for p in parts], axis=-1) for side in (0, 1))
     return np.asarray(FULL - _covered(start, end))
 
 
-def _left_out(arm: ThreeLinks, limits: Array, r: Array, width: Array) -> tuple[Array, Array]:
-    """Start and end (P, R, A) of the arcs of directions that are not in the region; end < start where there is none."""
-    wide = width[:, None]
-    # Joint 1 locked: the other two links reach an annulus about the elbow.
+def parts(arm: ThreeLinks, limits: Array, points: Array) -> list[NDArray[np.bool_]]:
+    """Of points (N, 2) in the plane of the task, for limits (3, 2) of the link angles: which ones the healthy arm reaches
+    within the limits; then, for each joint, which ones it reaches wherever that joint locks. The region is all of them.
+    """
+    away = points - arm.centre
+    r, direction = np.maximum(np.hypot(*away.T), 1e-12), np.arctan2(away[:, 1], away[:, 0])
+    turned = (direction - limits[0].mean())[:, None]
+
+    def left(arcs: tuple[Array, Array]) -> NDArray[np.bool_]:
+        start, end = arcs[0][0], arcs[1][0]
+        return np.asarray(~((end > start) & ((turned - start) % FULL < end - start)).any(axis=1))
+
+    made = [left(_out_of_limits(arm, limits[None], r[None])), left(_lost_to_first(arm, limits[None], r[None]))]
+    for joint in (1, 2):
+        inner, outer = _annulus(arm, limits[None], joint)
+        made.append((r >= inner) & (r <= outer))
+    return made
+
+
+def _lost_to_first(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]:
+    """Start and end (P, R, 2) of the arcs of directions lost to some lock of joint 1; end < start where there is none.
+
+    With joint 1 locked the other two links reach an annulus about the elbow.
+    """
+    half = (limits[:, 0, 1] - limits[:, 0, 0])[:, None] / 2
     first, second, third = arm.lengths
-    with np.errstate(divide="ignore", invalid="ignore"):
-        near = (r * r + first**2 - (second - third) ** 2) / (2 * r * first)
-        far = (r * r + first**2 - (second + third) ** 2) / (2 * r * first)
+    near = (r * r + first**2 - (second - third) ** 2) / (2 * r * first)
+    far = (r * r + first**2 - (second + third) ** 2) / (2 * r * first)
     inner, outer = np.arccos(np.clip(near, -1, 1)), np.arccos(np.clip(far, -1, 1))
-    none = np.where((near < -1) | (far > 1), 4 * FULL, 0.0)
-    starts = [-inner - wide / 2 - none, outer - wide / 2 - none]
-    ends = [np.where(inner > 0, inner + wide / 2, -FULL) + none, np.where(outer < np.pi, FULL - outer + wide / 2, -FULL) + none]
-    # Healthy: directions that links 2 and 3 within their limits do not give, for no angle of joint 1 within its own.
-    low, high = _directions(arm, limits, r)
-    starts.extend(np.moveaxis(low + wide[..., None] / 2, -1, 0))
-    ends.extend(np.moveaxis(high - wide[..., None] / 2, -1, 0))
-    return np.stack(starts, axis=-1), np.stack(ends, axis=-1)
+    everything = np.where((near < -1) | (far > 1), 4 * FULL, 0.0)
+    start = np.stack([-inner - half, outer - half], axis=-1) - everything[..., None]
+    end = [np.where(inner > 0, inner + half, -4 * FULL), np.where(outer < np.pi, FULL - outer + half, -4 * FULL)]
+    return start, np.stack(end, axis=-1) + 2 * everything[..., None]
+
+
+def _out_of_limits(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]:
+    """Likewise (P, R, 12) of the directions that the healthy arm does not reach, with joint 1 anywhere within its limits."""
+    half = (limits[:, 0, 1] - limits[:, 0, 0])[:, None, None] / 2
+    start, end = _directions(arm, limits, r)
+    return start + half, end - half
 
 
 def _directions(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]:
-    """Arcs (P, R, 13) of directions, measured from link 1, in which the arm does not reach r within limits 2 and 3.
+    """Arcs (P, R, 12) of directions, measured from link 1, in which the arm does not reach r within limits 2 and 3.
 
     The directions that it reaches end where joint 1 is critical (joint 3 at 0 or pi) or a joint rests on its limit: twelve
     values, between which one test each decides.
@@ -215,15 +231,3 @@ def _covered(start: Array, end: Array) -> Array:
     reach = np.maximum.accumulate(stops, axis=-1)
     before = np.concatenate([np.zeros_like(reach[..., :1]), reach[..., :-1]], axis=-1)
     return np.asarray(np.maximum(reach - np.maximum(begins, before), 0.0).sum(axis=-1))
-
-
-def holds(arm: ThreeLinks, limits: Array, points: Array) -> NDArray[np.bool_]:
-    """(N,) Whether points (N, 2) in the plane of the task are in the region, for limits (3, 2) of the link angles."""
-    away = points - arm.centre
-    r, direction = np.hypot(*away.T), np.arctan2(away[:, 1], away[:, 0])
-    inner, outer = (float(x[0]) for x in annulus(arm, limits[None]))
-    width = limits[None, 0, 1] - limits[None, 0, 0]
-    start, end = (x[0] for x in _left_out(arm, limits[None], np.maximum(r, 1e-12)[None], width))
-    turned = (direction - limits[0].mean())[:, None]
-    out = ((end > start) & ((turned - start) % FULL < end - start)).any(axis=1)
-    return np.asarray((r >= inner) & (r <= outer) & ~out)

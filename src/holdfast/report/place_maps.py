@@ -63,15 +63,16 @@ def place_maps(
             for j, column in enumerate(columns):
                 axes = panels[i, j]
                 _draw(axes, plane, values[:, j], scale)
-                axes.set_title(plain(f"{name}, {column}", 26), fontsize=9.5)
+                if i == 0:
+                    axes.set_title(plain(column, 22))
                 if i == down - 1:
                     axes.set_xlabel(plane.labels[0])
                 if j == 0:
-                    axes.set_ylabel(plane.labels[1])
+                    axes.set_ylabel(f"{plain(name)}\n{plane.labels[1]}")
         bar = figure.colorbar(scale.mappable, ax=list(panels.ravel()), shrink=0.9, aspect=14 * down, pad=0.015)
         finish_bar(bar, label, scale)
         figure.supxlabel("\n".join(plain(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
-        if plane.mark is not None:
+        if plane.mark is not None:  # room for the titles, too
             handles, labels = panels[0, 0].get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside upper right")
         return finished(figure)
