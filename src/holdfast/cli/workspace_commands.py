@@ -25,8 +25,6 @@ from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
-    from holdfast.arm import Arm
-    from holdfast.arm.task import Task
     from holdfast.control import Law
     from holdfast.converge import Workspace
 

@@ -99,16 +99,14 @@ class ConvergenceMap:
         """
         check_confidence(confidence)
         values = self.values(outcome)
-        return {
-            name: shared(values[:, k], int(self.known.sum()), confidence) for k, name in enumerate(self.columns)
-        }
+        return {name: shared(values[:, k], int(self.known.sum()), confidence) for k, name in enumerate(self.columns)}
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         runs = int(self.known.sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {int(self.known.any(axis=1).sum())} of {len(self.places)} {self.over} "
-            f"with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
+            f"{self.law.describe()} on '{self.law.arm.name}': {int(self.known.any(axis=1).sum())} of {len(self.places)} "
+            f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         every = {outcome: self.shares(outcome) for outcome in (*_OUTCOMES, "trapped")} if runs else {}
         for name in self.columns if runs else ():
@@ -154,7 +152,8 @@ def convergence_map(
     Over ``starts``: from every place the arm starts in ``configurations`` configurations (with one degree of redundancy
     picked at random from points equally far apart on its self-motion, else random ones), towards the target, or one of the
     targets at random. Over ``targets``: towards every place it starts from ``configurations`` configurations picked at
-    random from those of the starts, or from ``q0`` (all of them where they are fewer). Each motion is simulated with each joint standing, and with none.
+    random from those of the starts, or from ``q0`` (all of them where they are fewer). Each motion is simulated with each
+    joint standing, and with none.
 
     Args:
         law: The control law; of any arm, task and redundancy.

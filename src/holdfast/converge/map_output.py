@@ -71,7 +71,9 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
     from holdfast.report.place_maps import Plane, binned, outcome_bars, place_maps
 
     arm, task = m.law.arm, m.law.task
-    told = f"{arm.name}, {m.law.name}, task {task.name}: {int(m.known.sum())} motions over {len(m.places)} {m.over}, seed {m.seed}"
+    told = (
+        f"{arm.name}, {m.law.name}, task {task.name}: {int(m.known.sum())} motions over {len(m.places)} {m.over}, seed {m.seed}"
+    )
     arrived = m.shares("converged")
     values = {word: np.array([s.value for s in m.shares(word).values()]) for word in _WORDS}
     trapped = values["trapped"]
@@ -96,7 +98,9 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
     views = {"map": None} if task.m == 2 and not task.angular else {f"map-{name}": axes for name, axes in _VIEWS.items()}
     for name, axes in views.items():
         across = task.rows[:, :3] if axes is None else np.eye(3)[list(axes)]
-        words = tuple(f"{'xyz'[int(np.argmax(np.abs(r)))]}, m" if np.isclose(np.abs(r).max(), 1) else "along the task, m" for r in across)
+        words = tuple(
+            f"{'xyz'[int(np.argmax(np.abs(r)))]}, m" if np.isclose(np.abs(r).max(), 1) else "along the task, m" for r in across
+        )
         point = across @ target[0, :3, 3] if len(target) else np.zeros(2)
         mark = (float(point[0]), float(point[1])) if alone else None
         points = m.places.points @ across.T
@@ -109,7 +113,9 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
             plane = replace(first, labels=(words[0], words[1]), mark=mark, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
             depth = "; mean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        found[name] = place_maps(plane, shown, m.columns[:-1], "of the motions, percent", f"{told}\nwhere the {m.over} are{depth}")
+        found[name] = place_maps(
+            plane, shown, m.columns[:-1], "of the motions, percent", f"{told}\nwhere the {m.over} are{depth}"
+        )
     return found
 
 

@@ -93,9 +93,7 @@ def _figure(w: Workspace, names: tuple[str, ...], label: str) -> Any:
     point = rows @ w.target[:3, 3]
     target = (float(point[0]), float(point[1]))
     plane = Plane(w.places.points @ rows.T, words, w.places.cells, w.places.axes, target, "target")
-    first = (
-        f"{arm.name}, {w.law.name}: {len(w.places)} starts, {int(w.configurations.sum())} configurations; grey: no value"
-    )
+    first = f"{arm.name}, {w.law.name}: {len(w.places)} starts, {int(w.configurations.sum())} configurations; grey: no value"
     second = "R: share of the way on which the joint may lock and the target stays in reach"
     if names[0] == "F100":
         done = f"{w.simulated} failures simulated, {100 * w.undecided:.2f} % undecided at the time limit"

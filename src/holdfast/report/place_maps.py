@@ -138,7 +138,9 @@ def outcome_bars(names: Sequence[str], parts: Mapping[str, Array], intervals: Ar
         axes = figure.add_subplot()
         rows, left = np.arange(len(names)), np.zeros(len(names))
         for (label, values), (color, hatch) in zip(parts.items(), _PARTS, strict=False):
-            axes.barh(rows, values, left=left, height=0.66, color=color, hatch=hatch, edgecolor="white", linewidth=0.5, label=label)
+            axes.barh(
+                rows, values, left=left, height=0.66, color=color, hatch=hatch, edgecolor="white", linewidth=0.5, label=label
+            )
             left = left + values
         first = next(iter(parts.values()))
         reach = np.abs(intervals.T - first)

@@ -1,0 +1,51 @@
+"""``holdfast workspace``: what it prints and writes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+FEW = ["--starts", "grid:5", "--configurations", "4", "--points", "2"]
+
+
+def test_measures_of_a_planar_arm(cli, ask, tmp_path):
+    code, out, err = cli("workspace", "planar-3r", "--target", "1.5,1.5", *FEW, "--procedure", "--out", tmp_path)
+    assert (code, err) == (0, "")
+    assert "-24.30 to 114.30 deg" in out
+    assert "Rsens" in out
+    assert "no sink" in out
+    assert {"workspace.csv", "workspace.json", "reach.png", "finish.png", "run"} == {p.name for p in tmp_path.iterdir()}
+    data = ask("workspace", "planar-3r", "--target", "1.5,1.5", *FEW, "--procedure", "--out", tmp_path)
+    assert data["method"] == "procedure"
+    assert data["starts"] == 12
+    assert np.rad2deg(data["bounds_rad"]["joint2"][0]) == pytest.approx([-111.797, 111.797], abs=1e-3)
+
+
+def test_maps_of_other_arms_and_several_laws(cli, ask, tmp_path):
+    few = ["--starts", "4", "--configurations", "2", "--time-limit", "60"]
+    call = ["workspace", "panda", "--task", "position", "--target", "0.5,0.2,0.4", *few]
+    data = ask(*call, "--out", tmp_path / "one")
+    assert data["places"] == 4
+    assert (tmp_path / "one" / "outcomes.png").exists()
+    both = ask(*call, "--laws", "pseudoinverse; damped:0.1")
+    assert len(both["maps"]) == 2
+    assert both["best"] in both["laws"]
+    code, out, _ = cli("workspace", "planar-3r", "--map", "--over", "targets", "--target", "grid:4", *few)
+    assert code == 0
+    assert "targets" in out
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (["--target", "1,2,3"], "needs 2, in m"),
+        (["--target", "1.5,1.5", "--map", "--procedure"], "--procedure"),
+        (["--target", "1.5,1.5", "--laws", "damped:x"], "not a number"),
+        (["--target", "1.5,1.5", "--laws", "pseudoinverse:2"], "takes no number"),
+        (["--target", "9,9"], "within its reach"),
+    ],
+)
+def test_bad_input(cli, more, message):
+    code, _, err = cli("workspace", "planar-3r", *more)
+    assert code == 2
+    assert message in err
