@@ -1,4 +1,4 @@
-"""The failure-tolerant workspace: closed form against triangles at sampled locks, and the sampled one against the closed form."""
+"""The failure-tolerant workspace: closed form against triangles at sampled locks, sampled region against closed form."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def within(angle, low, high):
     return (angle - low + 1e-9) % (2 * np.pi) <= high - low + 2e-9
 
 
-def brute(lengths, limits, points, locks=401):
+def brute(lengths, limits, points, locks=161):
     """Parts of the region at points (N, 2): reached within the limits, and with each joint at sampled angles of its range."""
     a, b, c = lengths
     z = points @ np.array([1, 1j])
@@ -44,22 +44,22 @@ def brute(lengths, limits, points, locks=401):
 
 def test_the_closed_form_against_triangles(rng):
     total = 0
-    for _ in range(6):
+    for _ in range(4):
         lengths = rng.uniform(0.6, 1.2, 3)
         arm = hf.Arm.from_dh([hf.DH(a=x, alpha=0.0) for x in lengths], name="3R")
         middle, half = np.array([0.3, *rng.uniform(-1.8, 1.8, 2)]), rng.uniform(0.1, [0.5, 1.2, 1.2])
         limits = np.stack([middle - half, middle + half], axis=1)
         region = tolerant_workspace(arm, task="planar", limits=limits)
-        points = region.points[:, :2]
-        healthy, survives = brute(lengths, limits, points)
+        some = rng.choice(len(region.points), 4000, replace=False)
+        healthy, survives = brute(lengths, limits, region.points[some, :2])
         # Sampled locks differ only in a thin rim.
-        assert (healthy != region.within).mean() < 2e-3
-        assert ((survives & region.within[:, None]) != region.survives).any(axis=1).mean() < 2e-3
+        assert (healthy != region.within[some]).mean() < 3e-3
+        assert ((survives & region.within[some, None]) != region.survives[some]).any(axis=1).mean() < 3e-3
         cell = (2 * lengths.sum() / 160) ** 2
         assert region.inside.sum() * cell == pytest.approx(region.size, abs=0.08 * np.sqrt(region.size) + 3 * cell)
         assert region.size_interval[1] - region.size_interval[0] < 0.01
         total += region.inside.sum()
-    assert total > 100
+    assert total > 50
 
 
 def test_a_tilted_arm_with_axes_up_and_down_has_the_same_area(rng):

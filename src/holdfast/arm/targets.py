@@ -49,4 +49,4 @@ def target_pose(task: Task, target: ArrayLike) -> Array:
         raise InputError(f"the target has shape {np.shape(target)}; give one target, ({task.m},) or (4, 4)")
     if not np.isfinite(poses).all():
         raise InputError("the target holds NaN or infinity; give finite numbers")
-    return poses[0]
+    return np.asarray(poses[0])

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
+from numpy.typing import NDArray
 
 from holdfast.cli.options import (
     ArmArgument,
@@ -28,6 +29,7 @@ from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
+    from holdfast.arm.task import Task
     from holdfast.converge import TolerantWorkspace
     from holdfast.converge.bounds import Arcs
     from holdfast.solve import SelfMotion
@@ -78,7 +80,7 @@ def self_motion(
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
-    wanted = read_target(rows, target) if target is not None else _pose(str(pose))
+    wanted = read_target(rows, target) if target is not None else _pose(rows, str(pose))
     motion = trace(model, wanted, rows, spacing, seed)
     arcs = joint_bounds(model, wanted, rows, seed) if bounds or plot is not None else None
     if csv is not None:
@@ -91,10 +93,12 @@ def self_motion(
         _print(model, motion, arcs, [file for file in (csv, plot) if file is not None])
 
 
-def _pose(text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _pose(task: Task, text: str) -> NDArray[np.float64]:
     values = read_pose("--pose", text)
     if values.shape == (4, 4):
         return values
+    if task.angular:
+        raise InputError(f"--pose has 3 numbers; task '{task.name}' needs 6, x,y,z in m and roll,pitch,yaw in degrees")
     made = np.eye(4)
     made[:3, 3] = values
     return made

@@ -68,7 +68,6 @@ def joint_bounds(
     Source: Goel et al. 2005, eq. (8) and (9); the segment test, limits and the scan are ours.
     """
     rows = as_task(arm, task)
-    pose = target_pose(rows, target)
     if arm.n <= rows.m:
         raise TaskError(
             f"'{arm.name}' has {arm.n} joints and the task '{rows.name}' {rows.m} rows: without redundancy every lock loses "
@@ -76,6 +75,7 @@ def joint_bounds(
         )
     if starts < 1:
         raise InputError(f"starts is {starts}; it must be 1 or more")
+    pose = target_pose(rows, target)
     solve = critical_points(arm, rows)
     generator = np.random.default_rng(np.random.SeedSequence(seed))
     known = solve.seeds(pose, max(starts, 128), generator)
@@ -244,8 +244,8 @@ def _decide(solve: CriticalPoints, pose: Array, cuts: list[_Cuts], known: Array,
         found = reached(joint, half)
         good, bad = np.where(found, half, good), np.where(found, bad, half)
     for index, value in zip(moved, good, strict=True):
-        c, k = edges[index][:2]
-        c.at[k], c.critical[k] = value, False
+        cut, place = edges[index][:2]
+        cut.at[place], cut.critical[place] = value, False
 
 
 def _towards(at: Array, other: Array) -> Array:

@@ -62,7 +62,8 @@ class CriticalPoints:
         Returns:
             Where each start led, and whether that is a critical point within the limits.
         """
-        parts = [self._solve(pose, *(x[s : s + _CHUNK] for x in (q, joint, held))) for s in range(0, len(q), _CHUNK)]
+        chunks = [slice(s, s + _CHUNK) for s in range(0, len(q), _CHUNK)]
+        parts = [self._solve(pose, q[c], joint[c], held[c]) for c in chunks]
         if not parts:
             return q, np.zeros(0, dtype=bool)
         return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])

@@ -62,7 +62,8 @@ def reachable_when_locked(
     if beyond.size:
         value = np.atleast_1d(angles)[beyond[0]]
         raise InputError(
-            f"joint '{arm.joint_names[k]}' cannot be locked at {value:g} {arm.joints[k].unit}; its limits are {low:g} to {high:g}"
+            f"joint '{arm.joint_names[k]}' cannot be locked at {value:g} {arm.joints[k].unit}; its limits are {low:g} to "
+            f"{high:g}"
         )
     single_target = np.ndim(target) == (2 if given is None else 1)
     counts = {1 if single_target else len(poses), 1 if angles.ndim == 0 else angles.size} - {1}

@@ -42,8 +42,8 @@ class Space:
     rotation: Array
 
     @classmethod
-    def of(cls, arm: Arm, task: Task, rotation: Array, generator: np.random.Generator) -> Space:
-        """The box of the tool points of many random configurations, 2 % wider."""
+    def of(cls, arm: Arm, task: Task, rotation: Array) -> Space:
+        """The box of the tool points of many random configurations, 2 % wider; always the same ones."""
         linear = task.rows[:, :3]
         rank = int(np.linalg.matrix_rank(linear, tol=1e-9)) if len(linear) else 0
         if rank == 3:
@@ -53,7 +53,7 @@ class Space:
         else:
             raise TaskError(f"task '{task.name}' does not hold a point of space or of a plane; use position, planar or pose")
         low, high = finite_limits(arm)
-        tool = arm.forward_kinematics(generator.uniform(low, high, (_BOX_DRAWS, arm.n)))[:, :3, 3] @ directions.T
+        tool = arm.forward_kinematics(np.random.default_rng(0).uniform(low, high, (_BOX_DRAWS, arm.n)))[:, :3, 3] @ directions.T
         least, most = tool.min(axis=0), tool.max(axis=0)
         return cls(directions, least - 0.02 * (most - least), most + 0.02 * (most - least), rotation)
 
@@ -80,12 +80,10 @@ def limited(arm: Arm, limits: Array) -> Arm:
     for k, joint in enumerate(arm.joints):
         low, high = (float(x) for x in limits[k])
         free = turning[k] and high - low >= 2 * np.pi - 1e-9
-        joints.append(joint if free else replace(joint, type=_kind(joint.type), lower=low, upper=high))
+        joints.append(
+            joint if free else replace(joint, type="prismatic" if joint.prismatic else "revolute", lower=low, upper=high)
+        )
     return replace(arm, joints=tuple(joints))
-
-
-def _kind(kind: str) -> str:
-    return "revolute" if kind == "continuous" else kind
 
 
 def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +18,7 @@ from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.errors import InputError, TaskError
 
 Array = NDArray[np.float64]
-Limits = ArrayLike | Mapping[str | int, tuple[float, float]]
+Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
 
 POINTS, ANGLES = 1000, 24
 _GRID = 161  # points along each edge of the map of the exact region
@@ -155,7 +156,7 @@ def tolerant_workspace(
     if three is not None:
         found = _best_exact(arm, three, seed) if optimise else _read_limits(arm, limits)
         return _exact(arm, rows, three, found, optimise)
-    space = tolerant_sampled.Space.of(arm, rows, turn, np.random.default_rng(seed))
+    space = tolerant_sampled.Space.of(arm, rows, turn)
     if optimise:
         found = tolerant_sampled.best_limits(arm, rows, space, min(points, _SEARCH_POINTS), angles, seed)
     else:
@@ -169,14 +170,15 @@ def _read_limits(arm: Arm, limits: Limits | None) -> Array:
     if limits is None:
         return made
     if isinstance(limits, Mapping):
-        for joint, pair in limits.items():
-            made[arm.joint_index(joint)] = pair
+        for name, pair in limits.items():
+            made[arm.joint_index(name)] = pair
     else:
         given = np.asarray(limits, dtype=np.float64)
         if given.shape != (arm.n, 2):
             raise InputError(f"limits have shape {given.shape}; they must be ({arm.n}, 2), lower and upper of each joint")
         made = given.copy()
-    for joint, (low, high) in zip(arm.joints, made, strict=True):
+    for k, (low, high) in enumerate(made):
+        joint = arm.joints[k]
         if not (np.isfinite([low, high]).all() and low <= high):
             raise InputError(f"limits of joint '{joint.name}' are {low:g} to {high:g}; give finite ones, the lower first")
         if low < joint.lower - 1e-9 or high > joint.upper + 1e-9:
@@ -209,7 +211,7 @@ def _sampled(
     survives = np.zeros((points, arm.n), dtype=bool)
     table = tolerant_sampled.survival(arm, task, poses[within], values, seed)
     survives[within] = np.stack([t.all(axis=1) for t in table], axis=1)
-    inside = survives.all(axis=1)
+    inside = np.asarray(survives.all(axis=1))
     share = Interval.of(int(inside.sum()), points, confidence)
     return TolerantWorkspace(
         arm=arm,
@@ -257,7 +259,7 @@ def _exact(arm: Arm, task: Task, three: ThreeLinks, limits: Array, optimised: bo
         healthy=healthy,
         within=parts[0],
         survives=np.stack(parts[1:], axis=1) & parts[0][:, None],
-        inside=np.all(parts, axis=0),
+        inside=np.asarray(np.stack(parts).all(axis=0)),
         exact=True,
         angles=0,
         optimised=optimised,
@@ -272,7 +274,10 @@ def _reach(three: ThreeLinks) -> tuple[float, float]:
 
 def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
     """Limits (3, 2) of the largest region; joint 1 about 0, because the region turns with it."""
-    from scipy.optimize import differential_evolution, minimize
+    from scipy import optimize
+
+    search: Any = optimize.differential_evolution  # its stubs know no vectorized cost
+    polish: Any = optimize.minimize
 
     own = np.stack([arm.lower, arm.upper], axis=1)
 
@@ -287,7 +292,7 @@ def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
         links = np.array([three.link_limits(j) for j in joints])
         return np.where(beyond, 0.0, -tolerant_planar.area(three, links, radii))
 
-    found = differential_evolution(
+    found = search(
         lambda x: cost(x.T, _SEARCH_RADII),
         # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
         [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
@@ -298,12 +303,11 @@ def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
         rng=np.random.default_rng(seed),
         polish=False,
     ).x
-    for _ in range(2):  # a simplex that has shrunk onto a ridge starts again
-        options = {
-            "xatol": 1e-7,
-            "fatol": 1e-10,
-            "maxfev": 400,
-            "initial_simplex": found + np.vstack([np.zeros(5), 0.05 * np.eye(5)]),
-        }
-        found = minimize(lambda x: float(cost(x[None], _POLISH_RADII)[0]), found, method="Nelder-Mead", options=options).x
-    return np.clip(limits(found[None])[0], own[:, :1], own[:, 1:])
+    for _ in range(3):  # a simplex that has shrunk onto a ridge starts again
+        found = polish(
+            lambda x: float(cost(x[None], _POLISH_RADII)[0]),
+            found,
+            method="Nelder-Mead",
+            options={"xatol": 1e-5, "fatol": 1e-8, "initial_simplex": found + np.vstack([np.zeros(5), 0.05 * np.eye(5)])},
+        ).x
+    return np.asarray(np.clip(limits(found[None])[0], own[:, :1], own[:, 1:]))

@@ -63,16 +63,17 @@ def self_motion_figure(
     with style():
         height = max(0.86 * len(joints) + 0.9, 3.4 * len(views) if len(views) > 1 else 3.9)
         figure = Figure(figsize=(WIDTH, height))
-        left, right = figure.subfigures(1, 2, width_ratios=(1.25, 1.0))
+        left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1.25, 1.0)))
         rows = np.atleast_1d(left.subplots(len(joints), 1, sharex=True))
         total = sum(float(s[-1]) for s, _ in curves) or 1.0
         for k, (axes, panel) in enumerate(zip(rows, joints, strict=True)):
             _draw_joint(axes, panel, k, curves, total)
         if not len(curves):
             rows[-1].set_xticks([])
-        rows[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "values taken")
+        rows[-1].set_xlabel("length along the curves, one after the other, rad" if len(curves) else "")
         rows[0].set_title("Values that keep the target within reach" if not len(curves) else "Along the self-motion manifold")
-        for axes, view in zip(np.atleast_1d(right.subplots(len(views), 1)), views, strict=True):
+        panels = np.atleast_1d(right.subplots(len(views), 1)) if views else ()
+        for axes, view in zip(panels, views, strict=True):
             _draw_arm(axes, view)
         handles = [
             Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target"),
@@ -188,7 +189,7 @@ def _draw_map(axes: Axes, view: RegionMap) -> None:
                 axes.contourf(x, y, chosen.reshape(size).astype(float), levels=[0.5, 1.5], colors=[color])
     else:
         for chosen, color in sets:
-            axes.scatter(*view.points[chosen].T, s=9, c=color, linewidths=0)
+            axes.scatter(view.points[chosen, 0], view.points[chosen, 1], s=9, c=color, linewidths=0)
     axes.plot(0, 0, marker="s", color=INK, markersize=6)
     axes.set_aspect("equal", adjustable="datalim")
     axes.set(xlabel=view.labels[0], ylabel=view.labels[1], title=view.title)
