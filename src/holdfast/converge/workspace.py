@@ -189,7 +189,7 @@ def workspace(
     folder = None
     if store is not None:
         folder = Store.create(store, job.plan(places), job.store_columns(), count, _CHUNK)
-    chunks: list[dict[str, Array]] = []
+    chunks: list[dict[str, NDArray[Any]]] = []
     for k, (first, stop) in enumerate(ranges):
         if folder is not None and k in folder.done:
             rows = folder.read(k, job.names)
@@ -309,7 +309,7 @@ class _Job:
             Column("ends", "int64", (("end", len(ENDS)),), "1", ", ".join(ENDS)),
         ]
 
-    def analyse(self, poses: Array) -> dict[str, Array]:
+    def analyse(self, poses: Array) -> dict[str, NDArray[Any]]:
         """All results of starts (P, 4, 4)."""
         arm, count = self.law.arm, len(poses)
         owner, q0 = configurations_at(arm, self.law.task, poses, self.configurations, self.seed)
@@ -318,18 +318,19 @@ class _Job:
         q = np.empty((self.cells, len(q0), arm.n))
         for k, there in enumerate(paths.cells(q0, target, self.cells)):
             q[k] = there
-        kept = np.isfinite(q[-1]).all(axis=1)
+        kept: Flags = np.asarray(np.isfinite(q[-1]).all(axis=1))
         lost = np.bincount(owner[~kept], minlength=count)
         tried = np.bincount(owner, minlength=count)
         owner, q = owner[kept], q[:, kept]
         inside = np.stack([within(q[..., j], self.bounds[j], not arm.prismatic[j]) for j in range(arm.n)])
-        inside = np.concatenate([inside, inside.all(axis=0)[None]])  # (n + 1, K, R)
+        inside = np.concatenate([inside, inside.all(axis=0, keepdims=True)])  # (n + 1, K, R)
         length = inside.mean(axis=1).T
         share, ends = self._finishes(q, inside, owner, count)
         if self.relative_to == "whole":
             share = np.where(length > 0, share * length, 0.0 if self.points else np.nan)
         reach, finish = Measures.of(length, owner, count), Measures.of(share, owner, count)
-        values = (reach.full, reach.average, reach.spread, finish.full, finish.average, finish.spread, tried, lost, ends)
+        measures = (reach.full, reach.average, reach.spread, finish.full, finish.average, finish.spread)
+        values: list[NDArray[Any]] = [*measures, tried, lost, ends]
         return dict(zip(self.names, values, strict=True))
 
     def _finishes(self, q: Array, inside: Flags, owner: Index, starts: int) -> tuple[Array, NDArray[np.int64]]:

@@ -89,8 +89,9 @@ def _draw(axes: Axes, plane: Plane, values: Array, scale: Scale) -> None:
         extent = (x[0] - half[0], x[-1] + half[0], y[0] - half[1], y[-1] + half[1])
         axes.imshow(picture, origin="lower", extent=extent, interpolation="nearest")
     else:
-        axes.scatter(*plane.points[~known].T, s=9, color=_NOTHING, linewidths=0)
-        axes.scatter(*plane.points[known].T, s=11, c=scale.colors(values[known]), linewidths=0)
+        x, y = plane.points.T
+        axes.scatter(x[~known], y[~known], s=9, color=_NOTHING, linewidths=0)
+        axes.scatter(x[known], y[known], s=11, c=scale.colors(values[known]), linewidths=0)
         axes.set_aspect("equal")
     if plane.mark is not None:
         axes.plot(*plane.mark, "x", color="white", markersize=8, markeredgewidth=3.4)
