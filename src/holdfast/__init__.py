@@ -6,7 +6,21 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
-from holdfast.converge import Recovery, TolerantWorkspace, joint_bounds, reachable_when_locked, recover, tolerant_workspace
+from holdfast.converge import (
+    ConvergenceMap,
+    LawChoice,
+    Recovery,
+    TolerantWorkspace,
+    Workspace,
+    best_law,
+    convergence_map,
+    joint_bounds,
+    reachable_when_locked,
+    recover,
+    stationary,
+    tolerant_workspace,
+    workspace,
+)
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -35,11 +49,13 @@ __all__ = [
     "Capsules",
     "Clearance",
     "Comparison",
+    "ConvergenceMap",
     "FreeSwing",
     "HoldfastError",
     "InputError",
     "Joint",
     "KernelError",
+    "LawChoice",
     "LawComparison",
     "Link",
     "Optimum",
@@ -54,12 +70,15 @@ __all__ = [
     "TaskError",
     "TolerantWorkspace",
     "Trajectory",
+    "Workspace",
     "__version__",
     "arms",
     "assess",
+    "best_law",
     "compare",
     "compare_laws",
     "control",
+    "convergence_map",
     "follow",
     "free_swing",
     "indices",
@@ -74,6 +93,8 @@ __all__ = [
     "set_threads",
     "simulate",
     "solve_ik",
+    "stationary",
     "susceptibility",
     "tolerant_workspace",
+    "workspace",
 ]

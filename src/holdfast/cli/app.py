@@ -21,6 +21,7 @@ from holdfast.cli import (
     simulate_commands,
     susceptibility_commands,
     swing_commands,
+    workspace_commands,
 )
 from holdfast.errors import HoldfastError
 
@@ -64,6 +65,7 @@ simulate_commands.add(app)
 recover_commands.add(app)
 compare_commands.add(app)
 self_motion_commands.add(app)
+workspace_commands.add(app)
 export_commands.add(app)
 
 

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.interval import Interval, check_confidence
 from holdfast.converge import tolerant_planar, tolerant_sampled
 from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.errors import InputError, TaskError
+from holdfast.interval import Interval, check_confidence
 
 Array = NDArray[np.float64]
 Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]

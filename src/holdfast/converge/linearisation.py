@@ -1,0 +1,102 @@
+"""The failed closed loop near a point of rest: its linearisation, eigenvalues, and what they make of the point.
+
+Source: Goel, Maciejewski, Balakrishnan 2005, eq. (22). That signs change only where the determinant vanishes is not so:
+complex pairs cross too, and eigenvalues are looked at everywhere.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from functools import cached_property, lru_cache
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.law import Law
+from holdfast.kernels import Kernel
+from holdfast.simulate.motion import System
+
+Array = NDArray[np.float64]
+Kinds = NDArray[np.uint8]
+
+REACHED = 1e-6  # m and rad: an error below it is none
+ZERO_BAND = 1e-6  # of the linearisation's norm, or of 1: real parts below it have no sign
+
+
+class Kind(IntEnum):
+    """What a point of rest is.
+
+    ``SOLUTION``: the target is reached. The others are erroneous: ``SINK`` (attracts), ``SADDLE``, ``SOURCE`` (repels), and
+    ``DEGENERATE`` where a real part is zero, so that the linearisation does not decide.
+    """
+
+    SOLUTION = 0
+    SINK = 1
+    SADDLE = 2
+    SOURCE = 3
+    DEGENERATE = 4
+
+    @property
+    def word(self) -> str:
+        """For people."""
+        return self.name.lower()
+
+
+def kinds(eigenvalues: Array, error: Array) -> Kinds:
+    """(N,) :class:`Kind` from eigenvalues (N, h), complex, and errors (N,); NaN is degenerate."""
+    real = np.real(eigenvalues)
+    band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
+    conditions = [error < REACHED, (real < -band).all(axis=1), (real > band).all(axis=1), (np.abs(real) > band).all(axis=1)]
+    chosen = np.select(conditions, [Kind.SOLUTION, Kind.SINK, Kind.SOURCE, Kind.SADDLE], Kind.DEGENERATE)
+    return chosen.astype(np.uint8)
+
+
+class Linearisation:
+    """Rates and linearisation of the failed arm under one law, without its speed limit, in units of ``1/Ke``."""
+
+    def __init__(self, law: Law) -> None:
+        self.law, self._system = law, System(law)
+
+    @cached_property
+    def _rates(self) -> Kernel:
+        s = self._system
+        e, _ = s.error(s.q)
+        return Kernel("rest rates", [s.q, s.target, s.rotation], [ca.vertcat(self.law.rates(s.q, e), ca.norm_2(e))])
+
+    @cached_property
+    def _slopes(self) -> Kernel:
+        s = self._system
+        e, j = s.error(s.q)
+        rates = self.law.rates(s.q, e)
+        # Where the target is reached the rates of a linear law change by those for -J; the derivative of the rotation
+        # vector is 0/0 there.
+        arrived = ca.horzcat(*[self.law.rates(s.q, -j[:, k]) for k in range(self.law.arm.n)])
+        return Kernel("linearisation", [s.q, s.target, s.rotation], [ca.jacobian(rates, s.q), arrived, ca.norm_2(e)])
+
+    def rates(self, q: Array, pose: Array) -> tuple[Array, Array]:
+        """Commanded rates (N, n) of all joints at q (N, n), and errors (N,)."""
+        out = self._rates.rows(q, pose[:3, 3], pose[:3, :3])
+        return out[:, :-1], out[:, -1]
+
+    def matrices(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
+        """Linearisation (N, h, h) of the healthy joints at q (N, n)."""
+        slopes, arrived, error = self._slopes(q, pose[:3, 3], pose[:3, :3])
+        out = np.where((np.atleast_1d(error) < REACHED)[:, None, None], arrived, slopes)
+        return np.asarray(out[:, healthy][:, :, healthy])
+
+    def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
+        """Eigenvalues (N, h) by falling real part; NaN where the law has no answer."""
+        matrices = self.matrices(q, pose, healthy)
+        good = np.isfinite(matrices).all(axis=(1, 2))
+        out = np.full(matrices.shape[:2], np.nan, dtype=np.complex128)
+        if good.any():
+            values = np.linalg.eigvals(matrices[good])
+            out[good] = np.take_along_axis(values, np.argsort(-values.real, axis=1, kind="stable"), axis=1)
+        return out
+
+
+@lru_cache(maxsize=16)
+def linearisation(law: Law) -> Linearisation:
+    """The compiled linearisation of a law."""
+    return Linearisation(law)
