@@ -93,10 +93,9 @@ class RestEquations:
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""
-        rows = len(z)
         used = np.flatnonzero(np.concatenate([mask, np.ones(2 + self.law.task.m)]))
         values, slopes = self._kernel(z, pose[:3, 3], pose[:3, :3], mask)
-        return values.reshape(rows, -1)[:, used], slopes.reshape(rows, -1, self.size)[:, used]
+        return values[:, used], slopes[:, used]
 
     def pulls(self, z: Array, pose: Array, mask: Array) -> Array:
         """(N,) what is left of ``A J' u`` on the locked joints: 0 where J loses rank."""

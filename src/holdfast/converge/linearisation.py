@@ -6,6 +6,7 @@ complex pairs cross too, and eigenvalues are looked at everywhere.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
 from functools import cached_property, lru_cache
 
@@ -78,6 +79,18 @@ class Linearisation:
         """Commanded rates (N, n) of all joints at q (N, n), and errors (N,)."""
         out = self._rates.rows(q, pose[:3, 3], pose[:3, :3])
         return out[:, :-1], out[:, -1]
+
+    def field(self, pose: Array, healthy: NDArray[np.bool_]) -> Callable[[Array], Array]:
+        """The motion itself, rates (n,) of q (n,) with other joints still, as quick as it can be; not for several threads."""
+        n, call = self.law.arm.n, self._rates.single()
+        row = np.concatenate([np.zeros(n), pose[:3, 3], pose[:3, :3].ravel()])
+        mask = healthy.astype(np.float64)
+
+        def rates(q: Array) -> Array:
+            row[:n] = q
+            return np.asarray(call(row)[:n] * mask)
+
+        return rates
 
     def matrices(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
         """Linearisation (N, h, h) of the healthy joints at q (N, n)."""

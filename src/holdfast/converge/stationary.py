@@ -141,7 +141,7 @@ def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None
     values = np.atleast_1d(np.asarray(at, dtype=np.float64))
     if values.shape != (len(joints),) or not np.isfinite(values).all():
         raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
-    return _Search(RestSystem(law, pose, joints), values).run(np.random.default_rng(seed))
+    return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed))
 
 
 def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
@@ -161,59 +161,58 @@ def read_target(law: Law, target: ArrayLike) -> Array:
     return poses[0]
 
 
-class _Search:
-    """The search for all points of rest at given values of the locked joints."""
+def search(system: RestSystem, at: Array, generator: np.random.Generator) -> RestPoints:
+    """All points of rest that random starts find with the locked joints at (k,)."""
+    # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
+    spare = int(system.healthy.sum()) > system.law.task.m
+    reached, first = _gathered(system, at, system.solutions, generator, 1 if spare else MOST_WAVES)
+    stuck, second = _gathered(system, at, system.stuck, generator, MOST_WAVES)
+    return rest_points(system, at, np.concatenate([reached, stuck]), first + second)
 
-    def __init__(self, system: RestSystem, at: Array) -> None:
-        self.system, self.at, self.starts = system, at, 0
 
-    def run(self, generator: np.random.Generator) -> RestPoints:
-        """All points of rest."""
-        system = self.system
-        # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
-        spare = int(system.healthy.sum()) > system.law.task.m
-        reached = self._gather(system.solutions, generator, 1 if spare else MOST_WAVES)
-        return self._points(np.concatenate([reached, self._gather(system.stuck, generator, MOST_WAVES)]))
+def _gathered(
+    system: RestSystem, at: Array, attempt: Callable[[Array], Array], generator: np.random.Generator, most: int
+) -> tuple[Array, int]:
+    """Points of rest (P, n) from waves of starts, until some waves bring none that is isolated and new; how many starts."""
+    arm = system.law.arm
+    alone, loose = np.empty((0, arm.n)), np.empty((0, arm.n))
+    starts = idle = 0
+    for _ in range(most):
+        z = system.starts(WAVE, generator)
+        z[:, list(system.joints)] = at
+        starts += WAVE
+        found = wrapped(arm, attempt(z))
+        firm = system.isolated(found)
+        fresh = distinct(arm, found[firm], alone, SAME)
+        alone = np.concatenate([alone, fresh])
+        loose = np.concatenate([loose, distinct(arm, found[~firm], loose, SAME_DEGENERATE)])[:SAMPLE]
+        idle = 0 if len(fresh) else idle + 1
+        if idle == PATIENCE:
+            break
+    return np.concatenate([alone, loose]), starts
 
-    def _gather(self, attempt: Callable[[Array], Array], generator: np.random.Generator, most: int) -> Array:
-        """Points of rest (P, n) from waves of starts, until some waves bring none that is isolated and new."""
-        system, n = self.system, self.system.law.arm.n
-        alone, loose, idle = np.empty((0, n)), np.empty((0, n)), 0
-        for _ in range(most):
-            z = system.starts(WAVE, generator)
-            z[:, list(system.joints)] = self.at
-            self.starts += WAVE
-            found = wrapped(system.law.arm, attempt(z))
-            firm = system.isolated(found)
-            fresh = distinct(system.law.arm, found[firm], alone, SAME)
-            alone = np.concatenate([alone, fresh])
-            loose = np.concatenate([loose, distinct(system.law.arm, found[~firm], loose, SAME_DEGENERATE)])[:SAMPLE]
-            idle = 0 if len(fresh) else idle + 1
-            if idle == PATIENCE:
-                break
-        return np.concatenate([alone, loose])
 
-    def _points(self, q: Array) -> RestPoints:
-        system = self.system
-        arm, healthy = system.law.arm, system.healthy
-        rates, error = system.linear.rates(q, system.pose)
-        eigenvalues = system.eigenvalues(q)
-        kind = kinds(eigenvalues, error)
-        points = RestPoints(
-            law=system.law,
-            target=system.pose,
-            locked=system.joints,
-            at=self.at,
-            q=q,
-            kind=kind,
-            eigenvalues=eigenvalues,
-            error=error,
-            residual=np.linalg.norm(rates[:, healthy], axis=1),
-            continuum=~system.isolated(q),
-            within_limits=((q >= arm.lower) & (q <= arm.upper)).all(axis=1),
-            starts=self.starts,
-        )
-        return points._subset(np.lexsort((np.round(error, 9), kind)))
+def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoints:
+    """Points of rest q (P, n) with what there is to know of them, by kind and error."""
+    arm, healthy = system.law.arm, system.healthy
+    rates, error = system.linear.rates(q, system.pose)
+    eigenvalues = system.eigenvalues(q)
+    kind = kinds(eigenvalues, error)
+    points = RestPoints(
+        law=system.law,
+        target=system.pose,
+        locked=system.joints,
+        at=at,
+        q=q,
+        kind=kind,
+        eigenvalues=eigenvalues,
+        error=error,
+        residual=np.linalg.norm(rates[:, healthy], axis=1),
+        continuum=~system.isolated(q),
+        within_limits=((q >= arm.lower) & (q <= arm.upper)).all(axis=1),
+        starts=starts,
+    )
+    return points._subset(np.lexsort((np.round(error, 9), kind)))
 
 
 def _shown(arm: Arm, k: int, value: float) -> str:
