@@ -6,7 +6,7 @@ from holdfast.arm.task import Task
 from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
 from holdfast.clearance import Capsules, Clearance
 from holdfast.control import Trajectory, follow
-from holdfast.converge import stationary
+from holdfast.converge import basins, stationary
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -43,6 +43,7 @@ __all__ = [
     "__version__",
     "arms",
     "assess",
+    "basins",
     "compare",
     "control",
     "follow",

@@ -16,6 +16,7 @@ from holdfast.cli import (
     follow_commands,
     index_commands,
     simulate_commands,
+    stationary_commands,
     susceptibility_commands,
     swing_commands,
 )
@@ -58,6 +59,7 @@ assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)
+stationary_commands.add(app)
 export_commands.add(app)
 
 

@@ -4,15 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
+from numpy.typing import NDArray
 
 from holdfast.cli.options import read_numbers
+from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
     from holdfast.control import Law
 
+TargetOption = Annotated[
+    str,
+    typer.Option(
+        "--target",
+        help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
+        show_default=False,
+    ),
+]
 LawOption = Annotated[str, typer.Option("--law", help="pseudoinverse, weighted, damped or failure-tolerant.")]
 WeightsOption = Annotated[
     str | None, typer.Option("--weights", help="weighted: one number above 0 per joint, as 1,2,3.", show_default=False)
@@ -49,3 +60,25 @@ def read_law(
         **more,
     }
     return by_name(name, arm, task=task, **{k: v for k, v in given.items() if v is not None})
+
+
+def read_target(law: Law, text: str) -> NDArray[np.float64]:
+    """--target as the library takes it: the task's rows, or a pose from x,y,z and a quaternion."""
+    values = read_numbers("--target", text, "numbers")
+    task = law.task
+    if values.size == 7:
+        from scipy.spatial.transform import Rotation
+
+        if not (np.isfinite(values).all() and np.linalg.norm(values[3:]) > 1e-9):
+            raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
+        pose = np.eye(4)
+        pose[:3, 3], pose[:3, :3] = values[:3], Rotation.from_quat(values[3:]).as_matrix()
+        return pose
+    if task.angular or task.frame != "base":
+        raise InputError(
+            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "
+            "x,y,z,w"
+        )
+    if values.size != task.m:
+        raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
+    return values

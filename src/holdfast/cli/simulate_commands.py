@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.law_options import (
+    DampingOption,
+    LawOption,
+    PreFailureOption,
+    TargetOption,
+    WeightsOption,
+    read_law,
+    read_target,
+)
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -28,7 +36,6 @@ from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
-    from holdfast.control import Law
     from holdfast.simulate import Path as MotionPath
     from holdfast.simulate import Runs
 
@@ -47,14 +54,7 @@ def simulate(
     start: Annotated[
         str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
     ],
-    target: Annotated[
-        str,
-        typer.Option(
-            "--target",
-            help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
-            show_default=False,
-        ),
-    ],
+    target: TargetOption,
     lock: Annotated[
         list[str] | None,
         typer.Option(
@@ -97,7 +97,7 @@ def simulate(
     runs = run(
         made,
         read_configuration(model, start, degrees, "--start"),
-        _target(made, target),
+        read_target(made, target),
         [_lock(model, text) for text in lock or []],
         cycles,
         time_limit=time_limit,
@@ -127,27 +127,6 @@ def _one(option: str, text: str) -> float:
     if values.size != 1:
         raise InputError(f"{option} has {values.size} numbers after @; give one time")
     return float(values[0])
-
-
-def _target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    values = read_numbers("--target", text, "numbers")
-    task = law.task
-    if values.size == 7:
-        from scipy.spatial.transform import Rotation
-
-        if not (np.isfinite(values).all() and np.linalg.norm(values[3:]) > 1e-9):
-            raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
-        pose = np.eye(4)
-        pose[:3, 3], pose[:3, :3] = values[:3], Rotation.from_quat(values[3:]).as_matrix()
-        return pose
-    if task.angular or task.frame != "base":
-        raise InputError(
-            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "
-            "x,y,z,w"
-        )
-    if values.size != task.m:
-        raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
-    return values
 
 
 def _data(runs: Runs) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,8 +27,9 @@ Indices = NDArray[np.int64]
 
 STARTS = 2000
 NEAR = 1e-2  # rad (and m): a run that ends nearer than this to a point of rest ended there
-ARRIVED, MOVING, UNDECIDED = -1, -2, -3
-_OFFSET, _LENGTH = 1e-5, 60.0  # rad: where a basin boundary begins, how far it is followed
+ARRIVED, MOVING, UNDECIDED, STUCK = -1, -2, -3, -4
+_WORDS = {ARRIVED: "target", STUCK: "stuck on a continuum", MOVING: "moving", UNDECIDED: "undecided"}
+_OFFSET, _LENGTH = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
 _SPACING = 0.02
 
 
@@ -39,8 +40,8 @@ class Basins:
     Attributes:
         points: Points of rest; those at which runs ended are among them.
         starts: (N, n) rad and m.
-        end: (N,) index of the point, or ``ARRIVED`` (-1) at the target but not at an isolated solution, ``MOVING`` (-2),
-            ``UNDECIDED`` (-3).
+        end: (N,) index of the point; or -1 at the target, but not at an isolated solution; -2 moving; -3 undecided; -4 stuck,
+            but not at an isolated point of rest.
         runs: The runs.
         confidence: Of the intervals.
         boundaries: Lines of configurations (K, n) that run into saddles, for two healthy joints: starts on either side may end
@@ -60,16 +61,13 @@ class Basins:
     @property
     def shares(self) -> list[tuple[str, Interval]]:
         """What was arrived at, solutions and sinks always, and the share of starts with its Wilson interval."""
-        size, out = len(self.end), []
-        for k, kind in enumerate(self.points.kind):
-            hits = int((self.end == k).sum())
-            if hits or (kind in (Kind.SOLUTION, Kind.SINK) and not self.points.continuum[k]):
-                out.append((f"{Kind(kind).word} {k + 1}", Interval.of(hits, size, self.confidence)))
-        for code, name in ((ARRIVED, "target"), (MOVING, "moving"), (UNDECIDED, "undecided")):
-            hits = int((self.end == code).sum())
-            if hits:
-                out.append((name, Interval.of(hits, size, self.confidence)))
-        return out
+        always = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
+        codes = sorted({*self.end.tolist(), *np.flatnonzero(always).tolist()}, key=lambda k: (k < 0, abs(k)))
+        return [(self.name(k), Interval.of(int((self.end == k).sum()), len(self.end), self.confidence)) for k in codes]
+
+    def name(self, code: int) -> str:
+        """A value of ``end`` for people: the kind and number from 1 of a point, or a word."""
+        return _WORDS[code] if code < 0 else f"{Kind(self.points.kind[code]).word} {code + 1}"
 
     @property
     def converged(self) -> Interval:
@@ -177,16 +175,15 @@ def _completed(system: RestSystem, points: RestPoints, runs: Runs) -> RestPoints
 
 def _ends(points: RestPoints, runs: Runs) -> Indices:
     """(N,) see :class:`Basins`."""
-    end = np.full(len(runs.code), UNDECIDED, dtype=np.int64)
-    end[runs.code == Outcome.MOVING] = MOVING
-    end[runs.code == Outcome.CONVERGED] = ARRIVED
+    codes = {Outcome.CONVERGED: ARRIVED, Outcome.STUCK: STUCK, Outcome.MOVING: MOVING, Outcome.UNDECIDED: UNDECIDED}
+    end = np.array([codes[Outcome(c)] for c in runs.code], dtype=np.int64)
     free = without_limits(points.law.arm)
-    for outcome, chosen in ((Outcome.CONVERGED, points.kind == Kind.SOLUTION), (Outcome.STUCK, points.kind != Kind.SOLUTION)):
-        rows, among = np.flatnonzero(runs.code == outcome), np.flatnonzero(chosen & ~(points.continuum & (points.error < 1e-6)))
+    reached = points.kind == Kind.SOLUTION
+    for outcome, alike in ((Outcome.CONVERGED, reached), (Outcome.STUCK, ~reached)):
+        rows, among = np.flatnonzero(runs.code == outcome), np.flatnonzero(alike & ~points.continuum)
         if rows.size and among.size:
             away, nearest = joint_space.nearest(free, points.q[among], runs.q_final[rows])
-            near = away < NEAR if outcome == Outcome.CONVERGED else np.ones(rows.size, dtype=bool)
-            end[rows[near]] = among[nearest[near]]
+            end[rows[away < NEAR]] = among[nearest[away < NEAR]]
     return end
 
 
@@ -194,25 +191,22 @@ def _boundaries(system: RestSystem, points: RestPoints) -> Iterator[Array]:
     """The stable manifolds of the saddles, followed backwards in time at unit speed."""
     from scipy.integrate import solve_ivp
 
-    moving = system.healthy
+    rates = system.linear.field(system.pose, system.healthy)
 
     def back(_: float, q: Array) -> Array:
-        rates = system.linear.rates(q[None], system.pose)[0][0] * moving
-        return np.asarray(-rates / max(float(np.linalg.norm(rates)), 1e-12))
+        now = rates(q)
+        return np.asarray(-now / max(float(np.linalg.norm(now)), 1e-12))
 
     def slow(_: float, q: Array) -> float:
-        rates = system.linear.rates(q[None], system.pose)[0][0] * moving
-        return float(np.linalg.norm(rates)) - 1e-5
+        return float(np.linalg.norm(rates(q))) - 1e-6
 
     slow.terminal = True  # type: ignore[attr-defined]
     for q in points.q[points.kind == Kind.SADDLE]:
-        matrix = system.linear.matrices(q[None], system.pose, moving)[0]
+        matrix = system.linear.matrices(q[None], system.pose, system.healthy)[0]
         values, vectors = np.linalg.eig(matrix)
         into = np.zeros(len(q))
-        into[moving] = vectors[:, np.argmin(values.real)].real
+        into[system.healthy] = vectors[:, np.argmin(values.real)].real
         for side in (1.0, -1.0):
             start = q + side * _OFFSET * into / np.linalg.norm(into)
-            run = solve_ivp(
-                back, (0, _LENGTH), start, method="RK45", rtol=1e-8, atol=1e-10, max_step=0.1, events=slow, dense_output=True
-            )
+            run = solve_ivp(back, (0, _LENGTH), start, rtol=1e-8, atol=1e-10, max_step=0.1, events=slow, dense_output=True)
             yield run.sol(np.arange(0, run.t[-1], _SPACING)).T

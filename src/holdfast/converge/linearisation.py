@@ -44,6 +44,12 @@ class Kind(IntEnum):
         return self.name.lower()
 
 
+def attracts(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
+    """(N,) True where no real part is above 0, zeros allowed; NaN does not attract."""
+    band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
+    return np.asarray((eigenvalues.real < band).all(axis=1))
+
+
 def kinds(eigenvalues: Array, error: Array) -> Kinds:
     """(N,) :class:`Kind` from eigenvalues (N, h), complex, and errors (N,); NaN is degenerate."""
     real = np.real(eigenvalues)

@@ -76,6 +76,12 @@ class RestSystem:
         q, arrived = _solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
         return q[arrived]
 
+    def reaches(self, values: Array, generator: np.random.Generator) -> Flags:
+        """(N,) whether the target is reached from one random start with the locked joint at values (N,)."""
+        q = self.starts(len(values), generator)[:, : self.law.arm.n]
+        q[:, self.joints[0]] = values
+        return _solutions(self.law).search(q, self.pose, self.mask)[1]
+
     def still(self, q: Array) -> Flags:
         """(N,) whether only locked joints are commanded at q (N, n)."""
         rates, _ = self.linear.rates(q, self.pose)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
-from holdfast.converge.linearisation import Kind, Kinds, kinds
+from holdfast.converge.linearisation import Kind, Kinds, attracts, kinds
 from holdfast.converge.rest_system import RestSystem, distinct, wrapped
 from holdfast.errors import InputError
 from holdfast.simulate.closed_loop import target_poses
@@ -43,7 +43,8 @@ class RestPoints:
             gain Ke.
         error: (P,) norm of the task's error, m and rad.
         residual: (P,) norm of the healthy joints' rates in units of Ke: 0 but for rounding.
-        continuum: (P,) True for points that are not isolated, a sample of what may be a curve or a surface of points of rest.
+        continuum: (P,) True for points that are not isolated, a sample of what may be a curve or a surface of points of rest,
+            as where a spherical shoulder can turn without moving what is locked.
         within_limits: (P,) all joints are within their limits, which the law does not heed.
         starts: Random starts that were used; points on which none arrives are missed.
     """
@@ -74,6 +75,11 @@ class RestPoints:
         return [Kind(k).word for k in self.kind]
 
     @property
+    def attracting(self) -> Flags:
+        """(P,) True for sinks, and for points that repel in no direction: those of a continuum that the arm can end on."""
+        return attracts(self.eigenvalues)
+
+    @property
     def balance(self) -> int:
         """Isolated points that attract or repel all around, minus saddles: sum of the signs of the determinants.
 
@@ -92,8 +98,10 @@ class RestPoints:
             here = self.kind == kind
             if (here & ~self.continuum).any():
                 lines.append(f"{int((here & ~self.continuum).sum())} x {kind.word}")
-            if (here & self.continuum).any():
-                lines.append(f"{int((here & self.continuum).sum())} x {kind.word}, sampled from points that are not isolated")
+            loose = here & self.continuum
+            if loose.any():
+                attracting = "" if kind == Kind.SOLUTION else f", {int((loose & self.attracting).sum())} of them attracting"
+                lines.append(f"{int(loose.sum())} x {kind.word}, sampled from points that are not isolated{attracting}")
         return lines
 
     def _subset(self, rows: Flags) -> RestPoints:
