@@ -44,7 +44,8 @@ LockOption = Annotated[
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--at is in degrees (sliding joints stay in m).")]
 PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
 SeedOption = Annotated[int, typer.Option("--seed", help="Of the random starts.")]
-SHOWN = 12  # points of a continuum in a table
+SHOWN = 12  # points of a kind in a table
+MANY = 3  # eigenvalues: of more only the ends of their range
 
 
 def stationary(
@@ -227,24 +228,28 @@ def _basins_data(found: Basins) -> dict[str, Any]:
 def _print_points(points: RestPoints) -> None:
     from rich.markup import escape
 
+    from holdfast.converge.linearisation import REACHED
+
     out, arm = console(), points.law.arm
     for line in points.describe():
         out.print(escape(line), soft_wrap=True)
     table = _table(arm, "error", "eigenvalues, Ke", "")
-    left = SHOWN
-    for k, kind in enumerate(points.kinds):
-        if points.continuum[k]:
-            left -= 1
-            if left < 0:
-                continue
-        notes = ["one of many"] if points.continuum[k] else []
-        notes += ["attracting"] if points.continuum[k] and kind != "solution" and points.attracting[k] else []
+    shown = np.flatnonzero(_first(points.kind, SHOWN))
+    for k in shown:
+        loose = points.continuum[k]
+        notes = ["one of many"] if loose else []
+        notes += ["attracting"] if loose and points.error[k] > REACHED and points.attracting[k] else []
         notes += [] if points.within_limits[k] else ["beyond limits"]
-        values = ", ".join(_complex(x) for x in points.eigenvalues[k])
-        table.add_row(kind, *_joints(arm, points.q[k]), number(points.error[k]), values, ", ".join(notes))
+        table.add_row(
+            points.kinds[k],
+            *_joints(arm, points.q[k]),
+            number(points.error[k]),
+            _spread(points.eigenvalues[k]),
+            ", ".join(notes),
+        )
     out.print(table)
-    if left < 0:
-        out.print(f"and {-left} more that are not isolated; --json has all", soft_wrap=True)
+    if len(shown) < len(points):
+        out.print(f"and {len(points) - len(shown)} more; --json has all", soft_wrap=True)
 
 
 def _print_curves(curves: Curves, plot: Path | None) -> None:
@@ -294,6 +299,17 @@ def _table(arm: Arm, *more: str) -> Any:
 
 def _joints(arm: Arm, q: Any) -> list[str]:
     return [f"{x:.4f}" if j.prismatic else f"{np.rad2deg(x):.4f}" for j, x in zip(arm.joints, q, strict=True)]
+
+
+def _first(kind: Any, most: int) -> Any:
+    """(P,) True for the first so many of each kind."""
+    return np.array([int((kind[:k] == kind[k]).sum()) < most for k in range(len(kind))], dtype=bool)
+
+
+def _spread(values: Any) -> str:
+    """Eigenvalues, or of many the ends of their range."""
+    few = values if len(values) <= MANY else values[[0, -1]]
+    return (", " if len(values) <= MANY else " to ").join(_complex(x) for x in few)
 
 
 def _complex(value: complex) -> str:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
+from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel, Loop
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
@@ -72,7 +73,8 @@ class RestEquations:
 
     @cached_property
     def _kernel(self) -> Kernel:
-        return Kernel("rest", [self._z, *self.system.parameters], [self._equations, self._slopes])
+        inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
+        return Kernel("rest", inputs, outputs, suitable(inputs, outputs))
 
     @cached_property
     def _pulls(self) -> Kernel:
@@ -89,7 +91,9 @@ class RestEquations:
         better = ca.sumsqr(ca.substitute(self._equations, self._z, trial)) < size
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
-        return Loop("rest points", state, [*self.system.parameters, free], after, residual)
+        parameters = [*self.system.parameters, free]
+        backend = suitable([state, *parameters], [after])
+        return Loop("rest points", state, parameters, after, residual, backend)
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""

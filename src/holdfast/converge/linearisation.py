@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
+from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel
 from holdfast.simulate.motion import System
 
@@ -75,11 +76,9 @@ class Linearisation:
     def _slopes(self) -> Kernel:
         s = self._system
         e, j = s.error(s.q)
-        rates = self.law.rates(s.q, e)
-        # Where the target is reached the rates of a linear law change by those for -J; the derivative of the rotation
-        # vector is 0/0 there.
-        arrived = ca.horzcat(*[self.law.rates(s.q, -j[:, k]) for k in range(self.law.arm.n)])
-        return Kernel("linearisation", [s.q, s.target, s.rotation], [ca.jacobian(rates, s.q), arrived, ca.norm_2(e)])
+        inputs = [s.q, s.target, s.rotation]
+        outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(e)]
+        return Kernel("linearisation", inputs, outputs, suitable(inputs, outputs))
 
     def rates(self, q: Array, pose: Array) -> tuple[Array, Array]:
         """Commanded rates (N, n) of all joints at q (N, n), and errors (N,)."""
@@ -100,9 +99,12 @@ class Linearisation:
 
     def matrices(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
         """Linearisation (N, h, h) of the healthy joints at q (N, n)."""
-        slopes, arrived, error = self._slopes(q, pose[:3, 3], pose[:3, :3])
-        out = np.where((np.atleast_1d(error) < REACHED)[:, None, None], arrived, slopes)
-        return np.asarray(out[:, healthy][:, :, healthy])
+        slopes, j, error = self._slopes(q, pose[:3, 3], pose[:3, :3])
+        # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
+        # of the rotation vector is 0/0 there.
+        for row in np.flatnonzero(error < REACHED):
+            slopes[row] = self.law.velocity(q[row], -j[row].T).T
+        return np.asarray(slopes[:, healthy][:, :, healthy])
 
     def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
         """Eigenvalues (N, h) by falling real part; NaN where the law has no answer."""

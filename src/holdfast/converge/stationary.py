@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind, Kinds, attracts, kinds
-from holdfast.converge.rest_system import RestSystem, distinct, wrapped
+from holdfast.converge.rest_system import RestSystem, distinct, idle_joints, wrapped
 from holdfast.errors import InputError
 from holdfast.simulate.closed_loop import target_poses
 
@@ -25,7 +25,7 @@ Joints = str | int | Sequence[str | int]
 
 WAVE, PATIENCE, MOST_WAVES = 256, 3, 40
 SAME, SAME_DEGENERATE = 1e-5, 0.05  # rad (and m): points nearer than this are one
-SAMPLE = 64  # points of a continuum that are kept
+SAMPLE = 256  # points of a continuum that are kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,8 @@ class RestPoints:
         target: (4, 4) wanted tool pose; a task takes its rows of it.
         locked: Locked joints, from 0.
         at: (k,) where they stand, rad (or m).
-        q: (P, n) rad and m, from -pi to pi: solutions first, then sinks, saddles, sources and degenerate points.
+        q: (P, n) rad and m, from -pi to pi: solutions first, then sinks, saddles, sources and degenerate points;
+            joints that the task does not notice stand at 0.
         kind: (P,) :class:`holdfast.converge.Kind`.
         eigenvalues: (P, n - k) of the linearised motion of the healthy joints, complex, by falling real part, in units of the
             gain Ke.
@@ -94,6 +95,9 @@ class RestPoints:
         arm = self.law.arm
         where = ", ".join(f"{arm.joint_names[k]} at {_shown(arm, k, x)}" for k, x in zip(self.locked, self.at, strict=True))
         lines = [f"'{arm.name}' under {self.law.describe()}, locked: {where}; {self.starts} starts"]
+        idle = [arm.joint_names[k] for k in idle_joints(self.law) if k not in self.locked]
+        if idle:
+            lines.append(f"the task does not notice {', '.join(idle)}, shown at 0")
         for kind in Kind:
             here = self.kind == kind
             if (here & ~self.continuum).any():
@@ -220,7 +224,7 @@ def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoi
         within_limits=((q >= arm.lower) & (q <= arm.upper)).all(axis=1),
         starts=starts,
     )
-    return points._subset(np.lexsort((np.round(error, 9), kind)))
+    return points._subset(np.lexsort((np.round(error, 9), ~points.attracting, kind)))
 
 
 def _shown(arm: Arm, k: int, value: float) -> str:
