@@ -33,6 +33,7 @@ _FAR = 50.0  # m: a sliding joint beyond it has left
 _ON_CURVE = 0.15  # of the spacing: a seed nearer than this to a traced curve lies on it
 _SURFACE = 1e-6  # of the largest singular value: points with a smaller one than that are not on one curve
 _MOST_LOOSE = 512
+_NEW = 0.2  # of a curve's points must lie on no other curve
 _CONSTANT = 1e-6  # rad (and m): a locked value that changes less along a whole curve is one value
 
 
@@ -68,7 +69,9 @@ class Tracer:
                 curve = self._curve(left[0])
                 left = left[1:]
                 if curve is not None:
-                    found.append(curve)
+                    # A seed where the equations are flat can lie beside a curve that is known.
+                    if len(self._off(curve.q, found)) > _NEW * len(curve.q):
+                        found.append(curve)
                     left = self._off(left, [curve])
             idle = 0 if len(found) > known else idle + 1
             if idle == PATIENCE:
