@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -155,7 +155,7 @@ def _starts(
     if np.ndim(starts) == 0:
         count = int(np.asarray(starts))
         if count < 1:
-            raise InputError(f"starts is {starts}; it must be 1 or more")
+            raise InputError(f"starts is {count}; it must be 1 or more")
         return np.asarray(generator.uniform(low, high, (count, arm.n)))
     return np.atleast_2d(arm.check_configurations(np.asarray(starts, dtype=np.float64))).copy()
 
@@ -208,5 +208,5 @@ def _boundaries(system: RestSystem, points: RestPoints) -> Iterator[Array]:
         into[system.healthy] = vectors[:, np.argmin(values.real)].real
         for side in (1.0, -1.0):
             start = q + side * _OFFSET * into / np.linalg.norm(into)
-            run = solve_ivp(back, (0, _LENGTH), start, rtol=1e-8, atol=1e-10, max_step=0.1, events=slow, dense_output=True)
+            run: Any = solve_ivp(back, (0, _LENGTH), start, rtol=1e-8, atol=1e-10, max_step=0.1, events=slow, dense_output=True)
             yield run.sol(np.arange(0, run.t[-1], _SPACING)).T

@@ -36,7 +36,7 @@ _FIRST, _EASIER, _HARDER, _HOPELESS = 1e-2, 0.2, 5.0, 1e6
 def metric(law: Law) -> tuple[Array, float] | None:
     """``A`` and ``d`` of a law ``A J' (J A J' + d I)^-1 v``; None for any other."""
     if isinstance(law, Weighted):
-        return np.linalg.inv(law.weights), 0.0
+        return np.asarray(np.linalg.inv(law.weights), dtype=np.float64), 0.0
     if isinstance(law, Damped):
         return np.eye(law.arm.n), law.fixed_damping**2
     return (np.eye(law.arm.n), 0.0) if isinstance(law, Pseudoinverse) else None

@@ -51,7 +51,7 @@ def attracts(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
     return np.asarray((eigenvalues.real < band).all(axis=1))
 
 
-def kinds(eigenvalues: Array, error: Array) -> Kinds:
+def kinds(eigenvalues: NDArray[np.complex128], error: Array) -> Kinds:
     """(N,) :class:`Kind` from eigenvalues (N, h), complex, and errors (N,); NaN is degenerate."""
     real = np.real(eigenvalues)
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
@@ -106,7 +106,7 @@ class Linearisation:
             slopes[row] = self.law.velocity(q[row], -j[row].T).T
         return np.asarray(slopes[:, healthy][:, :, healthy])
 
-    def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
+    def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:
         """Eigenvalues (N, h) by falling real part; NaN where the law has no answer."""
         matrices = self.matrices(q, pose, healthy)
         good = np.isfinite(matrices).all(axis=(1, 2))

@@ -99,14 +99,14 @@ class _Shooting:
         from scipy.integrate import solve_ivp
 
         for length in (window / 16, window / 4, window):
-            run = solve_ivp(lambda _, x: self._field(x), (0, length), q, dense_output=True, **_ACCURACY)
+            run: Any = solve_ivp(lambda _, x: self._field(x), (0, length), q, dense_output=True, **_ACCURACY)
             time = np.linspace(0, length, _SAMPLES)
             path = run.sol(time).T
             for guess in self._returns(path, time):
                 found = self._closed(q, guess)
                 if found is not None:
                     state, period, matrix, windings = found
-                    once = solve_ivp(lambda _, x: self._field(x), (0, period), state, dense_output=True, **_ACCURACY)
+                    once: Any = solve_ivp(lambda _, x: self._field(x), (0, period), state, dense_output=True, **_ACCURACY)
                     return self._made(once.sol(np.linspace(0, period, _SAMPLES)).T, period, windings, matrix)
         return self._made(path, float("nan"), np.zeros(len(q), dtype=np.int64), np.empty((0, 0)), window)
 

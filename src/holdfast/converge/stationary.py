@@ -88,7 +88,8 @@ class RestPoints:
         tells of points that were missed.
         """
         alone = ~self.continuum & np.isfinite(self.eigenvalues).all(axis=1)
-        return int(np.sign(np.prod(self.eigenvalues[alone], axis=1).real).sum()) * (-1) ** self.eigenvalues.shape[1]
+        signs = int(np.sign(np.prod(self.eigenvalues[alone], axis=1).real).sum())
+        return -signs if self.eigenvalues.shape[1] % 2 else signs
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -108,7 +109,7 @@ class RestPoints:
                 lines.append(f"{int(loose.sum())} x {kind.word}, sampled from points that are not isolated{attracting}")
         return lines
 
-    def _subset(self, rows: Flags) -> RestPoints:
+    def _subset(self, rows: Flags | NDArray[np.intp]) -> RestPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
@@ -170,7 +171,7 @@ def read_target(law: Law, target: ArrayLike) -> Array:
     poses, _ = target_poses(law, target)
     if len(poses) != 1 or not np.isfinite(poses).all():
         raise InputError("the target must be one, of finite numbers")
-    return poses[0]
+    return np.asarray(poses[0])
 
 
 def search(system: RestSystem, at: Array, generator: np.random.Generator) -> RestPoints:
@@ -221,7 +222,7 @@ def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoi
         error=error,
         residual=np.linalg.norm(rates[:, healthy], axis=1),
         continuum=~system.isolated(q),
-        within_limits=((q >= arm.lower) & (q <= arm.upper)).all(axis=1),
+        within_limits=np.asarray(((q >= arm.lower) & (q <= arm.upper)).all(axis=1)),
         starts=starts,
     )
     return points._subset(np.lexsort((np.round(error, 9), ~points.attracting, kind)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,7 +21,7 @@ Array = NDArray[np.float64]
 
 GREEN, PURPLE = "#007a5e", "#a8497f"
 # Colour, line width, line style and marker of each kind; sinks stand out.
-KINDS: dict[str, tuple[str, float, str, str]] = {
+KINDS: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
     "solution": (GREEN, 1.6, "-", "o"),
     "sink": (ORANGE, 3.0, "-", "v"),
     "saddle": (BLUE, 1.3, "-", "X"),
@@ -124,8 +125,8 @@ def basin_map(
         axes = figure.add_subplot()
         image = np.array([to_rgb(c) for c in colors])[cells.T]
         axes.imshow(image, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
-        for x, y in lines:
-            axes.plot(*_broken(x, y, extent[1] - extent[0]), color=INK, linewidth=0.9)
+        for line in lines:
+            axes.plot(*_broken(*line, extent[1] - extent[0]), color=INK, linewidth=0.9)
         for kind, x, y, name in points:
             color, _, _, marker = KINDS[kind]
             axes.plot([x], [y], marker, color=color, markersize=8, markeredgecolor="white", markeredgewidth=1.0)
