@@ -31,7 +31,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Callable|Figure|Axes|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|Store|optional|default.*)"),
     (r"py:.*", r"holdfast\.study\..*"),
     (r"py:class", r"holdfast\.interval\.Sums"),
-    (r"py:class", r"Motion|Setting"),  # what a run keeps so that it can be run again
+    (r"py:class", r"Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]

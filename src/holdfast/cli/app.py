@@ -19,6 +19,7 @@ from holdfast.cli import (
     recover_commands,
     self_motion_commands,
     simulate_commands,
+    stationary_commands,
     susceptibility_commands,
     swing_commands,
     workspace_commands,
@@ -66,6 +67,7 @@ recover_commands.add(app)
 compare_commands.add(app)
 self_motion_commands.add(app)
 workspace_commands.add(app)
+stationary_commands.add(app)
 export_commands.add(app)
 
 

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.law_options import (
+    DampingOption,
+    LawOption,
+    PreFailureOption,
+    TargetOption,
+    WeightsOption,
+    read_law,
+)
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -40,14 +47,7 @@ def simulate(
     start: Annotated[
         str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
     ],
-    target: Annotated[
-        str,
-        typer.Option(
-            "--target",
-            help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
-            show_default=False,
-        ),
-    ],
+    target: TargetOption,
     lock: Annotated[
         list[str] | None,
         typer.Option(

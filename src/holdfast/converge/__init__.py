@@ -1,11 +1,13 @@
 """Where it ends: what stays within reach, where a failed arm comes to rest and from where, and the way home afterwards."""
 
+from holdfast.converge.basins import Basins, basins
 from holdfast.converge.best_law import Difference, LawChoice, best_law
 from holdfast.converge.bounds import joint_bounds
 from holdfast.converge.convergence_map import ConvergenceMap, convergence_map
 from holdfast.converge.curves import Curve, Curves, Segment
 from holdfast.converge.linearisation import Kind, Linearisation, linearisation
 from holdfast.converge.measures import Measures
+from holdfast.converge.orbits import Orbit, orbit
 from holdfast.converge.reachable import reachable_when_locked
 from holdfast.converge.recover import recover
 from holdfast.converge.recover_goal import RowsGivenUp
@@ -20,6 +22,7 @@ from holdfast.converge.tolerant_workspace import TolerantWorkspace, tolerant_wor
 from holdfast.converge.workspace import Workspace, workspace
 
 __all__ = [
+    "Basins",
     "ConvergenceMap",
     "Curve",
     "Curves",
@@ -30,6 +33,7 @@ __all__ = [
     "Leg",
     "Linearisation",
     "Measures",
+    "Orbit",
     "Places",
     "Recovery",
     "Replay",
@@ -40,6 +44,7 @@ __all__ = [
     "TolerantWorkspace",
     "WhatIsLeft",
     "Workspace",
+    "basins",
     "best_law",
     "check_waypoints",
     "column_residual",
@@ -48,6 +53,7 @@ __all__ = [
     "joint_bounds",
     "linearisation",
     "null_components",
+    "orbit",
     "reachable_when_locked",
     "read_waypoints",
     "recover",

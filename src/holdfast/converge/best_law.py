@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.assess.interval import Interval, check_confidence
 from holdfast.control.law import Law
 from holdfast.converge.convergence_map import ConvergenceMap, convergence_map, shared
 from holdfast.converge.starts import Places
 from holdfast.errors import InputError
+from holdfast.interval import Interval, check_confidence
 
 Array = NDArray[np.float64]
 

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations as as_configurations
-from holdfast.assess.interval import Interval, check_confidence
 from holdfast.control.law import Law
 from holdfast.converge.starts import Places, configurations_at, read_places, without_idle_limits
 from holdfast.errors import InputError
+from holdfast.interval import Interval, check_confidence
 from holdfast.simulate import Outcome, simulate
 from holdfast.solve.inverse import solver
 

@@ -14,6 +14,7 @@ from holdfast.converge.linearisation import Kind, Kinds
 
 if TYPE_CHECKING:
     from holdfast.converge.rest_system import RestSystem
+    from holdfast.converge.stationary import RestPoints
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -21,6 +22,7 @@ Arc = tuple[float, float]
 
 TURN = 2 * np.pi
 TOUCH = 3e-5  # rad (and m): arcs this far apart are one; where curves cross, ends are known to about 1e-5
+NEARBY = 0.1  # rad (and m): sampled values this near are told as one range
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,8 @@ class Curves:
         target: (4, 4) wanted tool pose; a task takes its rows of it.
         joint: The locked one, from 0.
         curves: The curves.
+        loose: Points of rest that lie on surfaces rather than curves, a sample, each with its own locked value; as of arms with
+            a spherical shoulder, which can turn without moving what is locked.
         starts: Random starts that were used; curves on which none arrives are missed.
     """
 
@@ -105,6 +109,7 @@ class Curves:
     target: Array
     joint: int
     curves: tuple[Curve, ...]
+    loose: RestPoints
     starts: int
     _system: RestSystem = field(repr=False)
 
@@ -163,7 +168,14 @@ class Curves:
         arcs = ", ".join(f"{factor * a:.3f} to {factor * b:.3f}" for a, b in self.sink_arcs)
         lines.append(f"it gets stuck with {name} at {arcs} {unit}" if arcs else "no sinks were found")
         values = ", ".join(f"{factor * x:.4f}" for x in self.degenerate_angles)
-        return [*lines, f"whole curves of rest points with {name} at {values} {unit}"] if values else lines
+        lines += [f"whole curves of rest points with {name} at {values} {unit}"] if values else []
+        if len(self.loose):
+            stuck = self.loose.attracting
+            near = merged([(float(x) - NEARBY, float(x) + NEARBY) for x in self.loose.q[stuck, self.joint]], turning)
+            arcs = ", ".join(f"{factor * (a + NEARBY):.0f} to {factor * (b - NEARBY):.0f}" for a, b in near)
+            where = f", about {arcs} {unit}" if near else ""
+            lines.append(f"{len(self.loose)} points sampled of surfaces of rest points, {int(stuck.sum())} attracting{where}")
+        return lines
 
 
 def merged(arcs: Sequence[Arc], turning: bool) -> list[Arc]:

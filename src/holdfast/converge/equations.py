@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
+from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel, Loop
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
@@ -35,7 +36,7 @@ _FIRST, _EASIER, _HARDER, _HOPELESS = 1e-2, 0.2, 5.0, 1e6
 def metric(law: Law) -> tuple[Array, float] | None:
     """``A`` and ``d`` of a law ``A J' (J A J' + d I)^-1 v``; None for any other."""
     if isinstance(law, Weighted):
-        return np.linalg.inv(law.weights), 0.0
+        return np.asarray(np.linalg.inv(law.weights), dtype=np.float64), 0.0
     if isinstance(law, Damped):
         return np.eye(law.arm.n), law.fixed_damping**2
     return (np.eye(law.arm.n), 0.0) if isinstance(law, Pseudoinverse) else None
@@ -72,7 +73,8 @@ class RestEquations:
 
     @cached_property
     def _kernel(self) -> Kernel:
-        return Kernel("rest", [self._z, *self.system.parameters], [self._equations, self._slopes])
+        inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
+        return Kernel("rest", inputs, outputs, suitable(inputs, outputs))
 
     @cached_property
     def _pulls(self) -> Kernel:
@@ -89,14 +91,15 @@ class RestEquations:
         better = ca.sumsqr(ca.substitute(self._equations, self._z, trial)) < size
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
-        return Loop("rest points", state, [*self.system.parameters, free], after, residual)
+        parameters = [*self.system.parameters, free]
+        backend = suitable([state, *parameters], [after])
+        return Loop("rest points", state, parameters, after, residual, backend)
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""
-        rows = len(z)
         used = np.flatnonzero(np.concatenate([mask, np.ones(2 + self.law.task.m)]))
         values, slopes = self._kernel(z, pose[:3, 3], pose[:3, :3], mask)
-        return values.reshape(rows, -1)[:, used], slopes.reshape(rows, -1, self.size)[:, used]
+        return values[:, used], slopes[:, used]
 
     def pulls(self, z: Array, pose: Array, mask: Array) -> Array:
         """(N,) what is left of ``A J' u`` on the locked joints: 0 where J loses rank."""

@@ -6,6 +6,7 @@ complex pairs cross too, and eigenvalues are looked at everywhere.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
 from functools import cached_property, lru_cache
 
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
+from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel
 from holdfast.simulate.motion import System
 
@@ -43,7 +45,13 @@ class Kind(IntEnum):
         return self.name.lower()
 
 
-def kinds(eigenvalues: Array, error: Array) -> Kinds:
+def attracts(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
+    """(N,) True where no real part is above 0, zeros allowed; NaN does not attract."""
+    band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
+    return np.asarray((eigenvalues.real < band).all(axis=1))
+
+
+def kinds(eigenvalues: NDArray[np.complex128], error: Array) -> Kinds:
     """(N,) :class:`Kind` from eigenvalues (N, h), complex, and errors (N,); NaN is degenerate."""
     real = np.real(eigenvalues)
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
@@ -68,24 +76,37 @@ class Linearisation:
     def _slopes(self) -> Kernel:
         s = self._system
         e, j = s.error(s.q)
-        rates = self.law.rates(s.q, e)
-        # Where the target is reached the rates of a linear law change by those for -J; the derivative of the rotation
-        # vector is 0/0 there.
-        arrived = ca.horzcat(*[self.law.rates(s.q, -j[:, k]) for k in range(self.law.arm.n)])
-        return Kernel("linearisation", [s.q, s.target, s.rotation], [ca.jacobian(rates, s.q), arrived, ca.norm_2(e)])
+        inputs = [s.q, s.target, s.rotation]
+        outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(e)]
+        return Kernel("linearisation", inputs, outputs, suitable(inputs, outputs))
 
     def rates(self, q: Array, pose: Array) -> tuple[Array, Array]:
         """Commanded rates (N, n) of all joints at q (N, n), and errors (N,)."""
         out = self._rates.rows(q, pose[:3, 3], pose[:3, :3])
         return out[:, :-1], out[:, -1]
 
+    def field(self, pose: Array, healthy: NDArray[np.bool_]) -> Callable[[Array], Array]:
+        """The motion itself, rates (n,) of q (n,) with other joints still, as quick as it can be; not for several threads."""
+        n, call = self.law.arm.n, self._rates.single()
+        row = np.concatenate([np.zeros(n), pose[:3, 3], pose[:3, :3].ravel()])
+        mask = healthy.astype(np.float64)
+
+        def rates(q: Array) -> Array:
+            row[:n] = q
+            return np.asarray(call(row)[:n] * mask)
+
+        return rates
+
     def matrices(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
         """Linearisation (N, h, h) of the healthy joints at q (N, n)."""
-        slopes, arrived, error = self._slopes(q, pose[:3, 3], pose[:3, :3])
-        out = np.where((np.atleast_1d(error) < REACHED)[:, None, None], arrived, slopes)
-        return np.asarray(out[:, healthy][:, :, healthy])
+        slopes, j, error = self._slopes(q, pose[:3, 3], pose[:3, :3])
+        # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
+        # of the rotation vector is 0/0 there.
+        for row in np.flatnonzero(error < REACHED):
+            slopes[row] = self.law.velocity(q[row], -j[row].T).T
+        return np.asarray(slopes[:, healthy][:, :, healthy])
 
-    def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
+    def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:
         """Eigenvalues (N, h) by falling real part; NaN where the law has no answer."""
         matrices = self.matrices(q, pose, healthy)
         good = np.isfinite(matrices).all(axis=(1, 2))

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 HEALTHY_SHARE = 1e-7  # of all rates: healthy joints that move less stand
+VANISHED = 1e-5  # of c: b is that short, in m per m of error
 IDLE = 1e-12  # of the Jacobian: a joint with a smaller column does not move the task
 
 
@@ -67,7 +68,8 @@ class RestSystem:
         free = self._free.copy()
         free[list(self.joints)] = 0.0
         out, held = self.equations.search(z, self.pose, self.mask, free)
-        q = out[held, : self.law.arm.n]
+        # Where b vanishes the equations hold with c = 0, but J has lost rank and the law no answer.
+        q = out[held & (np.abs(out[:, -2]) > VANISHED), : self.law.arm.n]
         _, error = self.linear.rates(q, self.pose)
         return q[self.still(q) & (error > REACHED)]
 
@@ -75,6 +77,12 @@ class RestSystem:
         """Configurations (N, n) that reach the target from starts z, with locked joints where they stand."""
         q, arrived = _solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
         return q[arrived]
+
+    def reaches(self, values: Array, generator: np.random.Generator) -> Flags:
+        """(N,) whether the target is reached from one random start with the locked joint at values (N,)."""
+        q = self.starts(len(values), generator)[:, : self.law.arm.n]
+        q[:, self.joints[0]] = values
+        return _solutions(self.law).search(q, self.pose, self.mask)[1]
 
     def still(self, q: Array) -> Flags:
         """(N,) whether only locked joints are commanded at q (N, n)."""

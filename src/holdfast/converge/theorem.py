@@ -136,4 +136,4 @@ def _read(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> tup
         raise InputError(f"locked names joint {wrong[0]}; the Jacobian has joints 0 to {n - 1}")
     healthy = np.ones(n, dtype=bool)
     healthy[list(locked)] = False
-    return jacobian, np.linalg.inv(w), healthy
+    return jacobian, np.asarray(np.linalg.inv(w), dtype=np.float64), healthy

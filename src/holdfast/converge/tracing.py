@@ -17,6 +17,7 @@ from holdfast.converge.curves import Curve, Curves
 from holdfast.converge.equations import TOLERANCE
 from holdfast.converge.events import marked
 from holdfast.converge.rest_system import RestSystem, without_limits, wrapped
+from holdfast.converge.stationary import rest_points
 from holdfast.solve.self_motion import Component, distance_to_curve
 
 Array = NDArray[np.float64]
@@ -30,6 +31,9 @@ _STRAIGHT = 0.97  # least cosine between tangents at the two ends of a step
 _LONGEST = 200.0  # rad: longer curves are cut
 _FAR = 50.0  # m: a sliding joint beyond it has left
 _ON_CURVE = 0.15  # of the spacing: a seed nearer than this to a traced curve lies on it
+_SURFACE = 1e-6  # of the largest singular value: points with a smaller one than that are not on one curve
+_MOST_LOOSE = 512
+_NEW = 0.2  # of a curve's points must lie on no other curve
 _CONSTANT = 1e-6  # rad (and m): a locked value that changes less along a whole curve is one value
 
 
@@ -37,8 +41,8 @@ def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPA
     """All curves of erroneous rest that a random start arrives on; see :func:`holdfast.converge.stationary`."""
     system = RestSystem(law, pose, (joint,))
     tracer = Tracer(system, joint, spacing)
-    found, starts = tracer.all(np.random.default_rng(seed))
-    return Curves(law, pose, joint, tuple(found), starts, system)
+    found, loose, starts = tracer.all(np.random.default_rng(seed))
+    return Curves(law, pose, joint, tuple(found), rest_points(system, np.array([np.nan]), loose, starts), starts, system)
 
 
 class Tracer:
@@ -49,27 +53,41 @@ class Tracer:
         self._arm = without_limits(system.law.arm)
         self._n = system.law.arm.n
 
-    def all(self, generator: np.random.Generator) -> tuple[list[Curve], int]:
-        """Every curve on which a start arrives, until some waves bring no new one; and how many starts there were."""
+    def all(self, generator: np.random.Generator) -> tuple[list[Curve], Array, int]:
+        """Every curve on which a start arrives, until some waves bring no new one; points that lie on none; how many starts."""
         found: list[Curve] = []
+        loose = np.empty((0, self._n))
         starts = idle = 0
         for _ in range(MOST_WAVES):
             z = self.system.seeds(WAVE, generator)
             starts += WAVE
             known = len(found)
-            left = self._off(z, found)
+            curved = self._curved(z)
+            loose = np.concatenate([loose, z[~curved, : self._n]])[:_MOST_LOOSE]
+            left = self._off(z[curved], found)
             while len(left):
                 curve = self._curve(left[0])
-                rest = left[1:]
-                if curve is None:
-                    left = rest
-                    continue
-                found.append(curve)
-                left = self._off(rest, [curve])
+                left = left[1:]
+                if curve is not None:
+                    # A seed where the equations are flat can lie beside a curve that is known.
+                    if len(self._off(curve.q, found)) > _NEW * len(curve.q):
+                        found.append(curve)
+                    left = self._off(left, [curve])
             idle = 0 if len(found) > known else idle + 1
             if idle == PATIENCE:
                 break
-        return found, starts
+        return found, wrapped(self.system.law.arm, loose), starts
+
+    def _curved(self, z: Array) -> Flags:
+        """(N,) whether the points near z (N, size) make one curve, and not a surface or one with several u for one q."""
+        if not len(z):
+            return np.zeros(0, dtype=bool)
+        _, slopes = self.system.values(z)
+        _, size, right = np.linalg.svd(slopes)
+        return np.asarray(
+            (size[:, -1] > _SURFACE * size[:, 0])
+            & (np.linalg.norm(right[:, -1, : -2 - self.system.law.task.m], axis=1) > _SURFACE)
+        )
 
     def _off(self, z: Array, curves: Sequence[Curve]) -> Array:
         """Those of z (N, size) that lie on none of the curves."""
@@ -153,7 +171,7 @@ class Tracer:
         """Whether the step from z to new passes the start, modulo whole turns, in its direction."""
         n = self._n
         step, gap = (new - z)[:n], self._difference(start[:n], z[:n])
-        size = float(step @ step)
+        size = max(float(step @ step), 1e-30)
         share = float(gap @ step) / size
         across = float(np.linalg.norm(gap - share * step))
         return 0 < share <= 1 and across < 0.1 * np.sqrt(size) and float(first[:n] @ step) > 0
