@@ -46,6 +46,8 @@ def tables(
         return {"power": _whole(DataFrame(out))}
     curve = []
     n = anova.subjects
+    counts = sorted({*_CURVE, n})
+    shares = {m: of.resampled(cells.values, m, limit, seed=seed) for m in counts if m <= n}
     for k, e in enumerate(anova.effects):
         each = e.F * e.df / n
         least = of.least_noncentrality(e.F, e.df, e.df_error, confidence) / n
@@ -62,17 +64,14 @@ def tables(
                 "sufficient_for_least": of.subjects_for_f(least, e.df, power, limit, e.gg),
             }
         )
-        for count in sorted({*_CURVE, n}):
-            share = float("nan")
-            if count <= n:
-                share = float(of.resampled(cells.values, count, limit, seed=seed)[k])
+        for count in counts:
             curve.append(
                 {
                     "effect": e.name,
                     "subjects": count,
                     "power": of.f_power(each, e.df, count, limit, e.gg),
                     "power_for_least": of.f_power(least, e.df, count, limit, e.gg),
-                    "share_of_subsets": share,
+                    "share_of_subsets": float(shares[count][k]) if count <= n else float("nan"),
                 }
             )
     return {"power": _whole(DataFrame(out)), "power_curve": DataFrame(curve)}
