@@ -80,7 +80,7 @@ def analyse(
     additions.
     """
     if find_spec("statsmodels") is None:
-        raise InputError(
+        raise HoldfastError(
             "statsmodels is needed here and is not installed; install holdfast[stats] (pip install 'holdfast[stats]')"
         )
     for name, value, known in (
