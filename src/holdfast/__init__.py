@@ -9,7 +9,7 @@ from holdfast.control import Trajectory, follow
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
-from holdfast.simulate import BrakedDrop, FreeSwing, Runs, free_swing, simulate
+from holdfast.simulate import BrakedDrop, FreeSwing, PhysicalRun, Runs, Servos, free_swing, simulate, simulate_physics
 from holdfast.solve import Optimum, Reach, optimise, solve_ik
 from holdfast.status import Status
 
@@ -31,9 +31,11 @@ __all__ = [
     "KernelError",
     "Link",
     "Optimum",
+    "PhysicalRun",
     "Reach",
     "Region",
     "Runs",
+    "Servos",
     "Status",
     "StoreError",
     "Task",
@@ -52,6 +54,7 @@ __all__ = [
     "paths",
     "set_threads",
     "simulate",
+    "simulate_physics",
     "solve_ik",
     "susceptibility",
 ]
