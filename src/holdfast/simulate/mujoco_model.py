@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from types import ModuleType
 from typing import Any
 
@@ -77,7 +78,7 @@ def _require_mass(arm: Arm, free: Sequence[int]) -> None:
     """What moves with a free joint up to the next one must weigh something."""
     mass = [0.0 if link is None else link.mass for link in arm.links]
     mass[-1] += 0.0 if arm.payload is None else arm.payload.mass
-    for k, after in zip(free, [*free[1:], arm.n], strict=True):
+    for k, after in pairwise([*free, arm.n]):
         if sum(mass[k:after]) <= 0:
             raise ArmError(
                 f"arm '{arm.name}', joint '{arm.joint_names[k]}': nothing that it carries has mass, so gravity has nothing to "

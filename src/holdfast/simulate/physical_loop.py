@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 REST = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
 STILL_FOR = 0.1  # 1/Ke: for so long, without a break
 TIME_LIMIT = 200.0  # 1/Ke
+EVERY = 10  # control cycles: how often a run is looked at for its end
 EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
 
 
@@ -117,7 +118,7 @@ def _drive(
     reference, lock_time = plant.start.copy(), runs.lock_time
     healthy, next_lock = np.ones(n, dtype=bool), float(lock_time.min())
     plant.tune(stiffness, damping)
-    patience, still = int(np.ceil(STILL_FOR / law.gain / period)), 0
+    patience, still = int(np.ceil(STILL_FOR / law.gain / period / EVERY)), 0
     cycles: list[Array] = []
     end: tuple[Ending, Why] | None = None
     for k in range(int(np.ceil(limit / period - 1e-9)) + 1):
@@ -128,21 +129,24 @@ def _drive(
             next_lock = float(lock_time[healthy].min(initial=np.inf))
         row[:n] = q = plant.q
         out = asked(row)
-        if not np.isfinite(out).all():
-            end = ("undecided", "singular")
+        rates, square = out[:n], out[n + 1]
+        if not np.isfinite(square + rates.sum()):
+            end = ("undecided", "singular" if np.isfinite(q).all() else "unstable")
             break
-        rates, share, square = out[:n], out[n], out[n + 1]
-        reference = np.clip(reference + period * rates, q - lead, q + lead)
-        speed = float(np.linalg.norm(rates[healthy])) / share
-        cycles.append(np.concatenate([q, reference, plant.torque, [speed, square]]))
+        reference = np.minimum(np.maximum(reference + period * rates, q - lead), q + lead)
+        obeyed = rates[healthy]
+        speed = float(np.sqrt(obeyed @ obeyed)) / out[n]
+        plant.follow(reference + feed * rates)
+        cycles.append(np.concatenate((q, reference, plant.torque, (speed, square))))
+        if k % EVERY:
+            continue
+        if plant.burst:
+            end = ("undecided", "unstable")
+            break
         moving = max(speed, float(np.linalg.norm(plant.data.qvel)))
         still = still + 1 if moving < REST * law.gain else 0
         if still > patience:
             end = ("converged" if square < ARRIVES**2 else "stuck", "none")
-            break
-        plant.follow(reference + feed * rates)
-        if plant.burst:
-            end = ("undecided", "unstable")
             break
     table = np.array(cycles).reshape(-1, 3 * n + 2)
     parts = (np.ascontiguousarray(table[:, i * n : (i + 1) * n]) for i in range(3))
