@@ -5,98 +5,23 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-import holdfast as hf
 from holdfast.assess.interval import Interval
 from holdfast.report.figures import Curve, Mark, compare_cdf_figure, save_png
-from holdfast.simulate import PhysicalRun
-
-Array = NDArray[np.float64]
+from papers.physics_check.motions import LIMIT, MOTIONS, RATE, SEED, SPREAD, Row, Setting, runs
 
 HERE = Path(__file__).parent
-SEED = 1
-MOTIONS = 4  # for each arm, task and locked joint
-SPREAD = 0.5  # rad: starts about home, and configurations of the targets about the starts
-RATE = 250.0  # Hz
-LIMIT, SWEEP_LIMIT = 60.0, 25.0  # s
+SWEEP_LIMIT = 25.0  # s
 NEAR = 5e-3  # m: ends of the same run
-
-
-@dataclass(frozen=True)
-class Setting:
-    """One group of runs: every joint locked once for every motion."""
-
-    arm: str
-    task: str
-    bandwidth: float = 10.0  # Hz
-    speed: float | None = 0.25  # m/s
-    limit: float = LIMIT  # s
-
-    @property
-    def label(self) -> str:
-        """Servos and speed, for people."""
-        return f"{self.bandwidth:g} Hz, " + ("no speed limit" if self.speed is None else f"{self.speed:g} m/s")
-
-
-@dataclass(frozen=True)
-class Row:
-    """What is kept of one run: metres, and the share of the time at which some motor was at its effort."""
-
-    joint: int
-    kinematic: str
-    physical: str
-    reason: str
-    path: float
-    end: float
-    turn: float
-    tracking: float
-    saturated: float
-    moved: float
-    time: float
 
 
 MAIN = tuple(Setting(arm, task) for task in ("pose", "position") for arm in ("xarm7", "panda"))
 SOFT = tuple(Setting("panda", "position", bandwidth=b, limit=SWEEP_LIMIT) for b in (1.0, 3.0, 10.0, 30.0))
 FAST = tuple(Setting("panda", "position", speed=s, limit=SWEEP_LIMIT) for s in (0.05, 0.25, 1.0, None))
-
-
-def runs(setting: Setting) -> list[Row]:
-    """All runs of one setting; motions are the same for all settings of an arm."""
-    hf.set_threads(1)
-    arm, home = hf.arms.load(setting.arm), np.array(hf.arms.about(setting.arm).home)
-    law = hf.control.pseudoinverse(arm, setting.task, speed_limit=setting.speed)
-    rng = np.random.default_rng(SEED)
-    servos = hf.Servos(bandwidth=setting.bandwidth, rate=RATE)
-    rows = []
-    for _ in range(MOTIONS):
-        start = np.clip(home + rng.uniform(-SPREAD, SPREAD, arm.n), arm.lower, arm.upper)
-        pose = arm.forward_kinematics(np.clip(start + rng.uniform(-SPREAD, SPREAD, arm.n), arm.lower, arm.upper))
-        for joint in range(arm.n):
-            rows.append(row(hf.simulate_physics(law, start, pose, [joint], servos, setting.limit), joint))
-    return rows
-
-
-def row(run: PhysicalRun, joint: int) -> Row:
-    """What is kept of a run."""
-    return Row(
-        joint,
-        str(run.kinematic.outcome),
-        run.outcome,
-        run.reason,
-        run.path_distance,
-        run.terminal_distance,
-        run.terminal_turn,
-        float(run.tracking_error.max()),
-        float(run.saturated.max()),
-        float(np.linalg.norm(np.diff(run.x, axis=0), axis=1).sum()),
-        float(run.time[-1]),
-    )
 
 
 def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
@@ -111,7 +36,7 @@ def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
         both = [r for r in rows if "undecided" not in (r.kinematic, r.physical)]
         same = sum(r.kinematic == r.physical for r in both)
         kinds = Counter(r.kinematic for r in both)
-        share = Interval.from_counts(same, len(both)) if both else "none"
+        share = Interval.of(same, len(both)) if both else "none"
         late = Counter(f"{r.kinematic} ({r.reason})" for r in rows if r.physical == "undecided")
         cells = [
             f"{setting.arm}, {setting.task}",

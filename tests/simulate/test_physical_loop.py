@@ -188,7 +188,7 @@ def test_what_is_not_decided_says_why(two, law, home, goal):
     assert short.time[-1] == pytest.approx(3.0)
     singular = hf.simulate_physics(two, [0.0, 0.0], [1.0, 1.0])
     assert (singular.outcome, singular.reason) == ("undecided", "singular")
-    wild = hf.Servos(bandwidth=2000.0, rate=100.0, step=0.01)
+    wild = hf.Servos(bandwidth=2000.0, ratio=1e-4, rate=100.0, step=0.01)
     with np.errstate(all="ignore"):
         burst = hf.simulate_physics(two, [0.3, 0.8], [1.0, 1.0], [], wild, time_limit=3.0)
     assert (burst.outcome, burst.reason) == ("undecided", "unstable")

@@ -18,6 +18,7 @@ from holdfast.cli import (
     simulate_commands,
     susceptibility_commands,
     swing_commands,
+    trade_off_commands,
 )
 from holdfast.errors import HoldfastError
 
@@ -58,6 +59,7 @@ assess_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)
+trade_off_commands.add(app)
 export_commands.add(app)
 
 

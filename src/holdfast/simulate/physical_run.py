@@ -132,7 +132,9 @@ class PhysicalRun:
             path.plot(told.x[:, a], told.x[:, b], color=figures.SKY, linewidth=4.5, label="kinematic")
             path.plot(self.x[:, a], self.x[:, b], color=figures.BLUE, linewidth=1.4, label="in MuJoCo")
             path.plot(*self.x[0, [a, b]], "o", color=figures.INK, markersize=4, label="start")
-            path.plot(*told.x[-1, [a, b]], "s", color=figures.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end")
+            path.plot(
+                *told.x[-1, [a, b]], "s", color=figures.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end"
+            )
             path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the hand")
             path.set_aspect("equal", adjustable="datalim")
             size = "m and rad" if self.law.task.angular else "m"

@@ -83,7 +83,9 @@ class Servos:
         least = 0.0 if what == "damping" else np.finfo(np.float64).tiny
         if numbers.shape != (arm.n,) or not np.isfinite(numbers).all() or (numbers < least).any():
             wanted = "of 0 or more" if what == "damping" else "above 0"
-            raise InputError(f"{what} of the servos must be {arm.n} finite numbers {wanted}, one for each joint of '{arm.name}'")
+            raise InputError(
+                f"{what} of the servos must be {arm.n} finite numbers {wanted}, one for each joint of '{arm.name}'"
+            )
         return numbers
 
     def describe(self) -> str:
