@@ -24,13 +24,14 @@ from holdfast.cli.options import (
     read_numbers,
     read_task,
 )
+from holdfast.cli.physics_output import physics_data, print_physics, run_physics
 from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.control import Law
     from holdfast.simulate import Path as MotionPath
-    from holdfast.simulate import Runs
+    from holdfast.simulate import PhysicalRun, Runs
 
 SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn and written so far only
 SAMPLES = 1000
@@ -78,6 +79,10 @@ def simulate(
         float | None,
         typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles"),
     ] = None,
+    physics: Annotated[
+        bool, typer.Option("--physics", help="Also in MuJoCo, with bodies and joint servos (needs the extra 'physics').")
+    ] = False,
+    servo_bandwidth: Annotated[float, typer.Option("--servo-bandwidth", help="physics: of the joint servos, Hz.")] = 10.0,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -94,25 +99,22 @@ def simulate(
     model = read_arm(arm, base, tip)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
-    runs = run(
-        made,
-        read_configuration(model, start, degrees, "--start"),
-        _target(made, target),
-        [_lock(model, text) for text in lock or []],
-        cycles,
-        time_limit=time_limit,
-    )
+    goal, locks = _target(made, target), [_lock(model, text) for text in lock or []]
+    runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
+    physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None
     if csv is not None or plot is not None:
         longest = float(runs.time) if cycles else min(float(runs.time), SHOWN / gain)
         path = runs.path(0, SAMPLES + 1, until=longest or None)
         if csv is not None:
             _write(runs, path, csv)
         if plot is not None:
-            _draw(runs, path, plot)
+            _draw(runs, path, plot, physical)
     if json_:
-        print_json(_data(runs))
+        print_json(_data(runs) | ({} if physical is None else {"physics": physics_data(physical)}))
     else:
         _print(runs, [file for file in (csv, plot) if file is not None])
+        if physical is not None:
+            print_physics(physical)
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:
@@ -224,10 +226,13 @@ def _write(runs: Runs, path: MotionPath, file: Path) -> None:
         raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error
 
 
-def _draw(runs: Runs, path: MotionPath, file: Path) -> None:
+def _draw(runs: Runs, path: MotionPath, file: Path, physical: PhysicalRun | None) -> None:
     from holdfast.report.figures import save_png
     from holdfast.report.motion import Panel, motion_figure
 
+    if physical is not None:
+        save_png(physical.figure(), file)
+        return
     arm = runs.law.arm
     size = "m and rad" if runs.law.task.angular else "m"
     travelled = np.linalg.norm(path.x - path.x[0], axis=1)

@@ -80,11 +80,12 @@ class TradeOff:
 
         with figures.style():
             figure = Figure(figsize=(figures.WIDTH, 3.9))
+            named = figures.plain(f"{self.arm.name}, {self.task.name}", 30)
             panels = zip(
                 figure.subplots(1, 2),
                 ("gain", "healthy_error"),
                 ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
-                ("What the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
+                (f"{named}: what the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
                 strict=True,
             )
             for axes, of, ylabel, title in panels:
