@@ -27,8 +27,8 @@ FAST = tuple(Setting("panda", "position", speed=s, limit=SWEEP_LIMIT) for s in (
 def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
     """Do both end in the same way?"""
     lines = [
-        "| arm, task | runs | decided in both | of these, the same outcome | undecided in MuJoCo at the time limit, kinematically |"
-        " hand moved, median |",
+        "| arm, task | runs | decided in both | of these, the same outcome "
+        "| undecided in MuJoCo at the time limit, kinematically | hand moved, median |",
         "|---|---|---|---|---|---|",
     ]
     for setting in sorted(MAIN, key=lambda s: (s.arm, s.task)):
@@ -83,15 +83,15 @@ def worst(found: dict[Setting, list[Row]]) -> list[str]:
     far = sorted(every, key=lambda x: -x[1].path)[:8]
     other = [x for x in every if "undecided" not in (x[1].kinematic, x[1].physical) and x[1].kinematic != x[1].physical]
     lines = [
-        "| arm, task, servos | locked joint | paths apart, mm | ends apart, mm | kinematic / in MuJoCo | largest servo error, rad "
-        "| motor at its effort |",
+        "| arm, task, servos | locked joint | paths apart, mm | ends apart, mm | kinematic / in MuJoCo "
+        "| largest servo error, rad | motor at its effort |",
         "|---|---|---|---|---|---|---|",
     ]
     for setting, r in [*far, *(x for x in other if x not in far)]:
         ends = f"{r.kinematic} / {r.physical}" + ("" if r.reason == "none" else f" ({r.reason})")
         lines.append(
-            f"| {setting.arm}, {setting.task}, {setting.label} | {r.joint + 1} | {1000 * r.path:.3g} | {1000 * r.end:.3g} | {ends} "
-            f"| {r.tracking:.3g} | {r.saturated:.1%} of the time |"
+            f"| {setting.arm}, {setting.task}, {setting.label} | {r.joint + 1} | {1000 * r.path:.3g} | {1000 * r.end:.3g} "
+            f"| {ends} | {r.tracking:.3g} | {r.saturated:.1%} of the time |"
         )
     return lines
 
@@ -125,11 +125,11 @@ def main() -> None:
         "",
         f"Written by `python -m papers.physics_check`, seed {SEED}. Everything is measured.",
         "",
-        "A joint stands from the start and the controller does not know. `hf.simulate` lets the healthy joints do what they are",
-        "told; `hf.simulate_physics` gives the arm its bodies, motors with PD servos and torque limits, and welds the joint.",
-        f"Law: pseudoinverse, gain 1/s. {MOTIONS} motions for each arm (start within {SPREAD:g} rad of home in every joint, the",
-        f"target's configuration within {SPREAD:g} rad of that), each joint locked once. Control at {RATE:g} Hz, physics at 1 kHz,",
-        "gravity compensated, efforts and friction of the URDF files, damping ratio 1 at the largest inertia.",
+        "A joint stands from the start and the controller does not know. `hf.simulate` lets the healthy joints do what they",
+        "are told; `hf.simulate_physics` gives the arm its bodies, motors with PD servos and torque limits, and welds the",
+        f"joint. Law: pseudoinverse, gain 1/s. {MOTIONS} motions for each arm (start within {SPREAD:g} rad of home in every",
+        f"joint, the target's configuration within {SPREAD:g} rad of that), each joint locked once. Control at {RATE:g} Hz,",
+        "physics at 1 kHz, gravity compensated, efforts and friction of the URDF files, damping ratio 1.",
         "",
         f"## Outcomes: servos of 10 Hz, at most 0.25 m/s, {LIMIT:g} s",
         "",

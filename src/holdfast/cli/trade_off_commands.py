@@ -87,10 +87,11 @@ def _print(curve: TradeOff, plot: Path | None) -> None:
         soft_wrap=True,
     )
     out.print(
-        "Peak velocity error after a lock that nobody notices, by that of the pseudoinverse; and what it costs the healthy arm.",
+        "Peak velocity error after an unnoticed lock, by that of the pseudoinverse; and what it costs the healthy arm.",
         soft_wrap=True,
     )
-    table = Table("allowed", "peak: median (95%)", "5 to 95 % of samples", "healthy: median", box=None, pad_edge=False)
+    columns = ("allowed", "peak: median (95%)", "5 to 95 % of samples", "healthy: median")
+    table = Table(*columns, box=None, pad_edge=False)
     (low, high), (q05, middle, q95) = curve.median_interval(), curve.quantiles(levels=(0.05, 0.5, 0.95))
     paid = np.median(curve.healthy_error, axis=0)
     for k, e in enumerate(curve.allowed):

@@ -42,9 +42,10 @@ def simulate_physics(
 
     :func:`holdfast.simulate.simulate` lets healthy joints do what they are told. Here they have bodies and motors: at every
     control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor works),
-    and its joint rates go to the :class:`Servos`. A locked joint is welded where it is, whatever its motor does; one that
-    locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm starts at rest.
-    Nothing is in the way, joint limits do not stop it, and there is no sensor noise, dry friction, backlash or flexibility.
+    and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded where it is, whatever its motor does; one
+    that locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm starts at
+    rest. Nothing is in the way, joint limits do not stop it, and there is no sensor noise, dry friction, backlash or
+    flexibility.
 
     How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
     both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5, *stuck* if not. At the time limit *moving* or
@@ -57,7 +58,7 @@ def simulate_physics(
         target: (m,) or (4, 4), as for :func:`holdfast.simulate.simulate`.
         locked: Joints, by name or index from 0, that stand from the start; ``(joint, time)`` locks at that time, s, at the
             next control cycle.
-        servos: Of the joints; :class:`Servos` as they come if not given.
+        servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
         time_limit: s; 200/Ke if not given.
 
     Returns:
@@ -99,7 +100,7 @@ def simulate_physics(
 
 @dataclass(frozen=True)
 class _Notes:
-    """What was noted at each of T control cycles, as in :class:`PhysicalRun`; the speed is the one that is commanded."""
+    """Noted at each of T control cycles, as in :class:`holdfast.PhysicalRun`; the speed is that commanded."""
 
     q: Array
     reference: Array
