@@ -14,7 +14,7 @@ from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
-from holdfast.simulate.closed_loop import ARRIVES, DECAYS, MOVES, Locked, simulate
+from holdfast.simulate.closed_loop import ARRIVES, DECAYS, Locked, simulate
 from holdfast.simulate.motion import HALF, WINDOW, System
 from holdfast.simulate.mujoco_model import compiled, mujoco_spec
 from holdfast.simulate.physical_run import Ending, PhysicalRun, Why
@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 REST = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
 STILL_FOR = 0.1  # 1/Ke: for so long, without a break
 TIME_LIMIT = 200.0  # 1/Ke
+MOVES = 10.0  # rad (and m) per time limit: slower at the end may be creeping to rest
 BURST = 1e4  # rad/s or m/s: no arm is so fast; MuJoCo itself goes on to 1e10 and then writes a log
 EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
 
@@ -48,9 +49,10 @@ def simulate_physics(
     flexibility.
 
     How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
-    both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5, *stuck* if not. At the time limit *moving* or
-    *undecided* (slow) by the rule of the kinematic loop, on the command. *undecided* too where the law has no answer
-    (singular), and where the physics left all bounds (unstable), as servos that are too stiff for their rate make it.
+    both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5, *stuck* if not. *moving*, if at the time limit
+    that command was never below 10 rad per time limit during the last 20 % of the time, and did not decay (as in the
+    kinematic loop, which has more time and so a lower threshold). Else *undecided*: slow; or singular, where the law has no
+    answer; or unstable, where the physics left all bounds, as servos that are too stiff for their rate may make it.
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit. The arm needs inertial data.
@@ -80,7 +82,7 @@ def simulate_physics(
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
     notes, end = _drive(plant, law, runs, stiffness, damping, limit)
-    outcome, reason = end or _verdict(notes.speed / law.gain)
+    outcome, reason = end or _verdict(notes.speed * limit)
     return PhysicalRun(
         law=law,
         servos=chosen,
@@ -149,8 +151,8 @@ def _drive(
             end = ("converged" if square < ARRIVES**2 else "stuck", "none")
             break
     table = np.array(cycles).reshape(-1, 3 * n + 2)
-    parts = (np.ascontiguousarray(table[:, i * n : (i + 1) * n]) for i in range(3))
-    return _Notes(*parts, table[:, -2].copy(), np.sqrt(table[:, -1])), end
+    q, references, torque = (table[:, i * n : (i + 1) * n].copy() for i in range(3))
+    return _Notes(q, references, torque, table[:, -2].copy(), np.sqrt(table[:, -1])), end
 
 
 class _Plant:
@@ -241,7 +243,7 @@ def _goal(law: Law, runs: Runs) -> tuple[Array, Array]:
 
 
 def _verdict(speed: Array) -> tuple[Ending, Why]:
-    """How a run stands at the time limit, by the speeds commanded to the healthy joints, in units of Ke."""
+    """How a run stands at the time limit, by the speeds commanded to the healthy joints, per time limit."""
     first, half = (int(share * len(speed)) for share in (WINDOW, HALF))
     early, late = speed[first:half].max(initial=0.0), speed[half:].max(initial=0.0)
     moving = speed[first:].min(initial=np.inf) > MOVES and early > 0 and late >= DECAYS * early

@@ -31,17 +31,18 @@ class Servos:
     effort): a motor at its limit winds up no further. There is no integral action besides, and no friction compensation.
 
     Attributes:
-        bandwidth: Hz. K is (2 pi bandwidth)^2 times the largest inertia that the joint alone sees at the start and at 64
-            random configurations; coupling between the joints makes some motions slower, some faster than that.
-        ratio: Damping ratio of a joint alone with that inertia; it gives D, from which the joint's own friction is not taken.
+        bandwidth: Hz. With w = 2 pi bandwidth, a joint's friction B and the largest inertia M that it alone sees at the start
+            and at 64 random configurations, K = w^2 M + w B and D = 2 ratio w M: with a ratio of 1 the joint alone follows with
+            a pole at -w, friction or not. Coupling between the joints makes some motions slower, some faster than that.
+        ratio: Damping ratio of a joint without friction.
         rate: Hz, of the control cycle: measured configuration, law, reference. Torques follow at every step of the physics.
         compensation: Share of the gravity torque that the motors are given beforehand.
-        stiffness: K for each joint, N m/rad or N/m, in place of ``bandwidth``.
-        damping: D for each joint, N m s/rad or N s/m, in place of ``ratio``.
+        stiffness: K for each joint, N m/rad or N/m, in place of ``bandwidth`` and ``ratio``; then ``damping`` too.
+        damping: D for each joint, N m s/rad or N s/m.
         step: s, the longest step of the physics.
 
     Raises:
-        InputError: A value that is not above 0 (``compensation``, ``damping``: below 0).
+        InputError: A value that is not above 0 (``compensation``, ``damping``: below 0), or only one of K and D.
     """
 
     bandwidth: float = 10.0
@@ -60,6 +61,9 @@ class Servos:
         if not (np.isfinite(self.compensation) and self.compensation >= 0):
             raise InputError(f"compensation of the servos is {self.compensation:g}; it must be a finite number of 0 or more")
 
+        if (self.stiffness is None) != (self.damping is None):
+            raise InputError("the servos have only one of stiffness and damping; give both, or a bandwidth")
+
     @property
     def substeps(self) -> int:
         """Steps of the physics in one control cycle."""
@@ -67,19 +71,14 @@ class Servos:
 
     def gains(self, arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> tuple[Array, Array]:
         """K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
-        stiffness, damping = (self._given(what, arm) for what in ("stiffness", "damping"))
-        if stiffness is None or damping is None:
-            inertia = _largest_inertia(arm, mujoco, model, start)
-            natural = 2 * np.pi * self.bandwidth
-            stiffness = natural**2 * inertia if stiffness is None else stiffness
-            damping = 2 * self.ratio * np.sqrt(stiffness * inertia) if damping is None else damping
-        return stiffness, damping
+        if self.stiffness is not None:
+            return self._given("stiffness", arm), self._given("damping", arm)
+        inertia, natural = _largest_inertia(arm, mujoco, model, start), 2 * np.pi * self.bandwidth
+        friction = np.array([joint.friction for joint in arm.joints])
+        return natural**2 * inertia + natural * friction, 2 * self.ratio * natural * inertia
 
-    def _given(self, what: str, arm: Arm) -> Array | None:
-        value = getattr(self, what)
-        if value is None:
-            return None
-        numbers = np.asarray(value, dtype=np.float64)
+    def _given(self, what: str, arm: Arm) -> Array:
+        numbers = np.asarray(getattr(self, what), dtype=np.float64)
         least = 0.0 if what == "damping" else np.finfo(np.float64).tiny
         if numbers.shape != (arm.n,) or not np.isfinite(numbers).all() or (numbers < least).any():
             wanted = "of 0 or more" if what == "damping" else "above 0"
