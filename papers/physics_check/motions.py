@@ -13,7 +13,8 @@ SEED = 1
 MOTIONS = 4  # for each arm, task and locked joint
 SPREAD = 0.5  # rad: starts about home, and configurations of the targets about the starts
 RATE = 250.0  # Hz
-LIMIT = 60.0  # s
+LIMIT = 50.0  # s
+ARRIVED = 1e-3  # m (and rad): close enough to the target to say that the hand is there
 
 
 @dataclass(frozen=True)
@@ -24,12 +25,14 @@ class Setting:
     task: str
     bandwidth: float = 10.0  # Hz
     speed: float | None = 0.25  # m/s
+    gain: float = 1.0  # 1/s
     limit: float = LIMIT  # s
 
     @property
     def label(self) -> str:
         """Servos and speed, for people."""
-        return f"{self.bandwidth:g} Hz, " + ("no speed limit" if self.speed is None else f"{self.speed:g} m/s")
+        speed = "no speed limit" if self.speed is None else f"{self.speed:g} m/s"
+        return f"{self.bandwidth:g} Hz, gain {self.gain:g}/s, {speed}"
 
 
 @dataclass(frozen=True)
@@ -40,6 +43,7 @@ class Row:
     kinematic: str
     physical: str
     reason: str
+    there: tuple[bool, bool]  # at the end of the physical run: is the hand at the target, kinematically and in MuJoCo
     path: float
     end: float
     turn: float
@@ -53,7 +57,7 @@ def runs(setting: Setting) -> list[Row]:
     """All runs of one setting; motions are the same for all settings of an arm."""
     hf.set_threads(1)
     arm, home = hf.arms.load(setting.arm), np.array(hf.arms.about(setting.arm).home)
-    law = hf.control.pseudoinverse(arm, setting.task, speed_limit=setting.speed)
+    law = hf.control.pseudoinverse(arm, setting.task, setting.gain, setting.speed)
     rng = np.random.default_rng(SEED)
     servos = hf.Servos(bandwidth=setting.bandwidth, rate=RATE)
     rows = []
@@ -72,6 +76,7 @@ def row(run: PhysicalRun, joint: int) -> Row:
         str(run.kinematic.outcome),
         run.outcome,
         run.reason,
+        (bool(run.kinematic_path.error[-1] < ARRIVED), bool(run.error[-1] < ARRIVED)),
         run.path_distance,
         run.terminal_distance,
         run.terminal_turn,
