@@ -22,6 +22,7 @@ from holdfast.cli import (
     stationary_commands,
     susceptibility_commands,
     swing_commands,
+    trade_off_commands,
     workspace_commands,
 )
 from holdfast.errors import HoldfastError
@@ -68,6 +69,7 @@ compare_commands.add(app)
 self_motion_commands.add(app)
 workspace_commands.add(app)
 stationary_commands.add(app)
+trade_off_commands.add(app)
 export_commands.add(app)
 
 

@@ -34,12 +34,13 @@ from holdfast.cli.options import (
     read_target,
     read_task,
 )
+from holdfast.cli.physics_output import physics_data, print_physics, run_physics
 from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.simulate import Path as MotionPath
-    from holdfast.simulate import Runs
+    from holdfast.simulate import PhysicalRun, Runs
 
 
 def simulate(
@@ -71,6 +72,10 @@ def simulate(
         float | None,
         typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles"),
     ] = None,
+    physics: Annotated[
+        bool, typer.Option("--physics", help="Also in MuJoCo, with bodies and joint servos (needs the extra 'physics').")
+    ] = False,
+    servo_bandwidth: Annotated[float, typer.Option("--servo-bandwidth", help="physics: of the joint servos, Hz.")] = 10.0,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -91,21 +96,18 @@ def simulate(
     model = read_arm(arm, base, tip)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
-    runs = run(
-        made,
-        read_configuration(model, start, degrees, "--start"),
-        read_target(made.task, target),
-        [_lock(model, text) for text in lock or []],
-        cycles,
-        time_limit=time_limit,
-    )
+    goal, locks = read_target(made.task, target), [_lock(model, text) for text in lock or []]
+    runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
+    physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None
     files: list[Path] = []
     if csv is not None or plot is not None or out is not None:
-        files = _files(runs, csv, plot, out)
+        files = _files(runs, csv, plot, out, physical)
     if json_:
-        print_json(_data(runs))
+        print_json(_data(runs) | ({} if physical is None else {"physics": physics_data(physical)}))
     else:
         _print(runs, files)
+        if physical is not None:
+            print_physics(physical)
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:
@@ -186,13 +188,13 @@ def _print(runs: Runs, files: list[Path]) -> None:
         out.print(f"written: {escape(str(file))}", soft_wrap=True)
 
 
-def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) -> list[Path]:
+def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None, physical: PhysicalRun | None) -> list[Path]:
     from holdfast.report.figures import save_png
     from holdfast.simulate.run_report import RunReport
 
     report = RunReport(runs)
     files = []
-    tables, pictures = [csv], [plot]
+    tables, pictures, overlays = [csv], [plot] if physical is None else [], [plot]
     if out is not None:
         try:
             out.mkdir(parents=True, exist_ok=True)
@@ -200,6 +202,7 @@ def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) ->
             raise StoreError(f"--out: folder '{out}' cannot be made: {error.strerror or error}; choose another") from error
         tables.append(out / "run.csv")
         pictures.append(out / "run.png")
+        overlays.append(out / "physics.png")
     for file in tables:
         if file is not None:
             _write(runs, report.path, file)
@@ -207,6 +210,8 @@ def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) ->
     for file in pictures:
         if file is not None:
             files.append(save_png(report.figure(), file))
+    if physical is not None:
+        files += [save_png(physical.figure(), file) for file in overlays if file is not None]
     if out is not None:
         files.append(report.write(out / "report.html", f"holdfast {shlex.join(sys.argv[1:])}"))
     return files
