@@ -10,10 +10,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
+from holdfast.arm.configurations import without_idle_limits
 from holdfast.control import damped, pseudoinverse
 from holdfast.converge.arriving import arriving
 from holdfast.converge.healthy_paths import HealthyPaths
-from holdfast.converge.starts import configurations_at, lattice, read_places, without_idle_limits
+from holdfast.converge.starts import configurations_at, lattice, read_places
 from holdfast.converge.workspace_output import save, summary
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.
@@ -170,7 +171,7 @@ def test_limits_of_a_whole_turn_are_none(arm):
 def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
     module = sys.modules[hf.workspace.__module__]  # the name of the module is that of the function in the package
     monkeypatch.setattr(module, "_CHUNK", 3)
-    options = {"starts": "grid:5", "configurations": 2, "points": 1, "cells": 8}
+    options = {"starts": "grid:4", "configurations": 2, "points": 1, "cells": 8}
     seen = []
 
     def stop(done, total):
