@@ -11,6 +11,8 @@ import numpy as np
 from holdfast.converge.places_file import axis_label, save_places
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from holdfast.converge.convergence_map import ConvergenceMap
 
 _WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
@@ -54,15 +56,10 @@ def save(m: ConvergenceMap, folder: str | Path) -> list[Path]:
     return files
 
 
-def figures(m: ConvergenceMap) -> dict[str, Any]:
-    """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
+def outcomes_figure(m: ConvergenceMap) -> Figure:
+    """A bar for each locked joint: how the motions ended."""
     from holdfast.report.outcomes import Stack, stack_figure
-    from holdfast.report.place_maps import Plane, binned, place_maps
 
-    arm, task = m.law.arm, m.law.task
-    told = (
-        f"{arm.name}, {m.law.name}, task {task.name}: {int(m.known.sum())} motions over {len(m.places)} {m.over}, seed {m.seed}"
-    )
     arrived = m.shares("converged")
     values = {word: np.array([s.value for s in m.shares(word).values()]) for word in _WORDS}
     trapped = values["trapped"]
@@ -78,8 +75,15 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
     low, high = (np.array([getattr(s, end) for s in arrived.values()]) for end in ("low", "high"))
     names = [f"{name} locked" for name in m.columns[:-1]] + ["no joint locked"]
     bars = Stack("", names, np.column_stack(list(parts.values())), low, high)
-    found = {"outcomes": stack_figure([bars], list(parts), "share of the motions", caption=told)}
+    return stack_figure([bars], list(parts), "share of the motions", caption=_told(m))
 
+
+def figures(m: ConvergenceMap) -> dict[str, Figure]:
+    """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
+    from holdfast.report.place_maps import Plane, binned, place_maps
+
+    task, told = m.law.task, _told(m)
+    found = {"outcomes": outcomes_figure(m)}
     rows = {"arrives": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
     rows = {name: v[:, :-1] for name, v in rows.items()}
     target = m.target[m.known]
@@ -104,6 +108,11 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
             plane, shown, m.columns[:-1], "of the motions, percent", f"{told}\nwhere the {m.over} are{depth}"
         )
     return found
+
+
+def _told(m: ConvergenceMap) -> str:
+    motions, places = int(m.known.sum()), len(m.places)
+    return f"{m.law.arm.name}, {m.law.name}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
 
 
 def _means(m: ConvergenceMap, word: str) -> list[Any]:
