@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import read_numbers
+from holdfast.cli.options import TARGET_HELP, read_numbers
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ TargetOption = Annotated[
     str,
     typer.Option(
         "--target",
-        help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
+        help=TARGET_HELP,
         show_default=False,
     ),
 ]

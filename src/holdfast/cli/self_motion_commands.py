@@ -10,6 +10,7 @@ import typer
 from numpy.typing import NDArray
 
 from holdfast.cli.options import (
+    TARGET_HELP,
     ArmArgument,
     BaseOption,
     JsonOption,
@@ -43,11 +44,7 @@ PoseOption = Annotated[
 ]
 TargetOption = Annotated[
     str | None,
-    typer.Option(
-        "--target",
-        help="The target, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
-        show_default=False,
-    ),
+    typer.Option("--target", help=TARGET_HELP, show_default=False),
 ]
 
 

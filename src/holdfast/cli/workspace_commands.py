@@ -9,6 +9,7 @@ import typer
 
 from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_labelled_law, read_law
 from holdfast.cli.options import (
+    TARGET_HELP,
     ArmArgument,
     BaseOption,
     JsonOption,
@@ -36,8 +37,7 @@ def workspace(
         str,
         typer.Option(
             "--target",
-            help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w. "
-            "With --map also a number of random places (random:200) or a lattice (grid:30).",
+            help=f"{TARGET_HELP} With --map also a number of random places (random:200) or a lattice (grid:30).",
             show_default=False,
         ),
     ],
