@@ -1,0 +1,79 @@
+"""How alike two lists are: Pearson's r with its interval, and Spearman's by ranks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.errors import InputError
+
+
+@dataclass(frozen=True)
+class Correlation:
+    """A correlation over tasks; NaN where there is nothing to compute it from.
+
+    Attributes:
+        first, second: What was correlated.
+        n: Pairs in which both are finite.
+        r: Pearson's.
+        low, high: Its confidence interval, by Fisher's z; none for fewer than 4 pairs.
+        p: Of r, two-sided.
+        spearman: Spearman's rank correlation.
+        p_spearman: Its p, two-sided.
+        left_out: Pairs left out, by the names given.
+    """
+
+    first: str
+    second: str
+    n: int
+    r: float
+    low: float
+    high: float
+    p: float
+    spearman: float
+    p_spearman: float
+    left_out: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.first} and {self.second}: r = {self.r:.3f} ({self.low:.3f} to {self.high:.3f}), {self.n} tasks"
+
+
+def correlation(
+    first: ArrayLike,
+    second: ArrayLike,
+    names: tuple[str, str] = ("first", "second"),
+    labels: list[str] | None = None,
+    confidence: float = 0.95,
+) -> Correlation:
+    """Correlate two lists.
+
+    Args:
+        first: (n,) values.
+        second: (n,) values. Pairs that are not finite are left out and listed.
+        names: Of the two.
+        labels: (n,) names of the pairs; their numbers from 1 if not given.
+        confidence: Of the interval.
+
+    Raises:
+        InputError: Not two lists of the same length.
+
+    Source: Goel et al. 2003, section 7 and fig. 3.
+    """
+    from scipy import stats
+
+    x, y = np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64)
+    if x.ndim != 1 or x.shape != y.shape:
+        raise InputError(f"the values have shapes {x.shape} and {y.shape}; a correlation needs two lists of the same length")
+    there = np.isfinite(x) & np.isfinite(y)
+    who = [str(k + 1) for k in range(len(x))] if labels is None else labels
+    left_out = tuple(who[k] for k in np.flatnonzero(~there))
+    x, y = x[there], y[there]
+    nan = float("nan")
+    if len(x) < 3 or np.ptp(x) == 0 or np.ptp(y) == 0:
+        return Correlation(*names, len(x), nan, nan, nan, nan, nan, nan, left_out)
+    pearson, spearman = stats.pearsonr(x, y), stats.spearmanr(x, y)
+    low, high = pearson.confidence_interval(confidence) if len(x) > 3 else (nan, nan)
+    numbers = (pearson.statistic, low, high, pearson.pvalue, spearman.statistic, spearman.pvalue)
+    return Correlation(*names, len(x), *(float(v) for v in numbers), left_out)
