@@ -20,6 +20,7 @@ from holdfast.cli import (
     simulate_commands,
     susceptibility_commands,
     swing_commands,
+    teleop_commands,
 )
 from holdfast.errors import HoldfastError
 
@@ -62,6 +63,7 @@ swing_commands.add(app)
 simulate_commands.add(app)
 recover_commands.add(app)
 compare_commands.add(app)
+teleop_commands.add(app)
 export_commands.add(app)
 
 
