@@ -54,7 +54,7 @@ def analyse(
 
     Args:
         table: One row for each trial. Columns ``subject``, ``task``, ``scenario``, ``law``, ``failed``, ``end`` (``arrived``,
-            ``still``, ``time``, ``aborted`` or ``broken_off``) and ``M1`` to ``M11`` as :func:`holdfast.teleop.measures.measures`
+            ``still``, ``time``, ``aborted``, ``broken_off``) and ``M1`` to ``M11`` as :func:`holdfast.teleop.measures`
             (NaN unless arrived); if there are, ``M12`` (the rating, NaN for none), ``kind`` (``person`` or ``simulated``) and
             ``number`` (the order of subjects).
         computer: The same of the computer operator, one row for each task and scenario.
@@ -105,10 +105,12 @@ def analyse(
                 f"the ANOVA needs every subject in every cell, and {empty_cells(lacking)}; missing='complete' leaves these "
                 "subjects out, missing='mixed' fits a mixed model"
             )
-        full = (cells.tasks > 0).all(axis=(1, 2))
+        full = np.asarray((cells.tasks > 0).all(axis=(1, 2)))
         left_out += tuple(s for s, ok in zip(observed.subjects, full, strict=True) if not ok)
         if full.sum() < 2:
-            raise InputError(f"only {int(full.sum())} of the subjects have trials in every cell; missing='mixed' needs none complete")
+            raise InputError(
+                f"only {int(full.sum())} of the subjects have trials in every cell; missing='mixed' needs none complete"
+            )
         # Without them the medians change, and with these the groups: look again.
         observed = observed.keep(np.flatnonzero(full).tolist())
     if len(who.subjects) < 2:
@@ -201,7 +203,9 @@ def _matched(machine: Observed, observed: Observed) -> Observed:
     lacking = [t for t in observed.tasks if t not in machine.tasks]
     if lacking:
         raise InputError(f"the computer's table has no task {lacking[0]}; give its trials with the same tasks")
-    return machine.pick([machine.tasks.index(t) for t in observed.tasks], [machine.index(c.scenario) for c in observed.conditions])
+    return machine.pick(
+        [machine.tasks.index(t) for t in observed.tasks], [machine.index(c.scenario) for c in observed.conditions]
+    )
 
 
 def _together(observed: Observed, machine: Observed | None) -> tuple[Observed, Observed | None]:
@@ -218,9 +222,7 @@ def _grouped(observed: Observed, machine: Observed | None, reference: int, count
     return in_groups(np.asarray(known), count, by)
 
 
-def _other_groups(
-    observed: Observed, machine: Observed | None, conditions: list[int], grouped: Groups
-) -> DataFrame | None:
+def _other_groups(observed: Observed, machine: Observed | None, conditions: list[int], grouped: Groups) -> DataFrame | None:
     """The ANOVA with tasks sorted by the other's difficulty, if there is one and no cell is empty then."""
     if machine is None:
         return None
@@ -244,7 +246,7 @@ def _correlations(
         of = observed.conditions
         for k in conditions[1:]:
             with np.errstate(divide="ignore", invalid="ignore"):
-                pair = [np.asarray(x[:, k] / x[:, reference]) for x in (middle, machine.cpm[0])]
+                ours, its = (np.asarray(x[:, k] / x[:, reference]) for x in (middle, machine.cpm[0]))
             ratio = f"CPM{of[k].scenario}/CPM{of[reference].scenario}"
-            found.append(correlation(*pair, (f"operators' {ratio}", f"computer's {ratio}"), labels, confidence))
+            found.append(correlation(ours, its, (f"operators' {ratio}", f"computer's {ratio}"), labels, confidence))
     return tuple(found)

@@ -80,9 +80,7 @@ def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Pai
     favour = float(np.sum(ranks * np.sign(d[d != 0])) / ranks.sum())
     p = float(2 * stats.t.sf(abs(t), n - 1))
     by_rank = float(stats.wilcoxon(d).pvalue)
-    return Paired(
-        n, mean, mean - half, mean + half, t, n - 1, p, mean / spread, limits[0], limits[1], median, by_rank, favour
-    )
+    return Paired(n, mean, mean - half, mean + half, t, n - 1, p, mean / spread, limits[0], limits[1], median, by_rank, favour)
 
 
 def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float, float]:
@@ -105,7 +103,7 @@ def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float,
 
 
 def holm(p: ArrayLike) -> Array:
-    """p corrected for their number by Holm's step-down; NaN stay, and are not counted.
+    """P corrected for their number by Holm's step-down; NaN stay, and are not counted.
 
     Source: Holm 1979, through statsmodels.
     """

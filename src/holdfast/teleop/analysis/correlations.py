@@ -75,5 +75,15 @@ def correlation(
         return Correlation(*names, len(x), nan, nan, nan, nan, nan, nan, left_out)
     pearson, spearman = stats.pearsonr(x, y), stats.spearmanr(x, y)
     low, high = pearson.confidence_interval(confidence) if len(x) > 3 else (nan, nan)
-    numbers = (pearson.statistic, low, high, pearson.pvalue, spearman.statistic, spearman.pvalue)
-    return Correlation(*names, len(x), *(float(v) for v in numbers), left_out)
+    return Correlation(
+        names[0],
+        names[1],
+        len(x),
+        float(pearson.statistic),
+        float(low),
+        float(high),
+        float(pearson.pvalue),
+        float(spearman.statistic),
+        float(spearman.pvalue),
+        left_out,
+    )

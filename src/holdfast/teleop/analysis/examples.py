@@ -73,7 +73,8 @@ def _motions(a: Analysis, t: int, protocol: Protocol, paths: Paths, who: str) ->
     joint = "" if tasks.joint[k] < 0 else f"; {protocol.arm.joint_names[int(tasks.joint[k])]} fails"
     operator = "" if middle is None else f" of the median operator, {o.subjects[middle]},"
     caption = (
-        f"{who}Motions{operator} and of the computer in task {task}{joint}: from light to dark, from the dot to the target circle, with "
+        f"{who}Motions{operator} and of the computer in task {task}{joint}: from light to dark, from the dot to "
+        f"the target circle, with "
         "the straight way dashed."
     )
     if whole is not None:

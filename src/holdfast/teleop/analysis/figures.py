@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 COLORS = (BLUE, ORANGE, "#007a5e", "#a8497f", "#c58a00", "#4aa3d6")
 _MARKS = ("o", "^", "s", "D", "v", "P")
 _GREY = "#c3c9cf"
+_ROUNDING = 1e-9
 _WIDE_RANGE = 30  # largest over smallest: beyond, the axis is logarithmic
 
 
@@ -79,7 +80,9 @@ def tasks_figure(a: Analysis, titles: tuple[str, str]) -> Figure:
             for x in np.flatnonzero(np.isnan(values[:, 0])):
                 axes.annotate("not completed", (float(x), 0.03 * top), ha="center", rotation=90, fontsize=8, color=SOFT)
             axes.set_xticks(place, [str(t) for t in task])
-            axes.set(xlabel="task, sorted by its CPM under the reference law", ylabel="CPM", title=title, ylim=(0, 1.08 * (top or 1)))
+            axes.set(
+                xlabel="task, sorted by its CPM under the reference law", ylabel="CPM", title=title, ylim=(0, 1.08 * (top or 1))
+            )
             axes.grid(axis="x", visible=False)
         legend_below(figure, figure.axes[0], len(numbers))
         return finished(figure)
@@ -98,9 +101,7 @@ def cells_figure(a: Analysis) -> Figure:
             shift = 0.16 * (k - (len(a.cells.laws) - 1) / 2)
             y = values[:, k]
             spread = np.linspace(-0.035, 0.035, len(y))[:, None]
-            axes.plot(
-                np.ravel(place + shift + spread), y.ravel(), ".", color=COLORS[k % 6], alpha=0.3, markersize=4, zorder=1
-            )
+            axes.plot(np.ravel(place + shift + spread), y.ravel(), ".", color=COLORS[k % 6], alpha=0.3, markersize=4, zorder=1)
             count = np.isfinite(y).sum(axis=0)
             half = stats.t.ppf(0.5 + a.confidence / 2, count - 1) * np.nanstd(y, axis=0, ddof=1) / np.sqrt(count)
             axes.errorbar(
@@ -132,27 +133,39 @@ def measures_figure(values: Sequence[Sequence[Array]], computer: Sequence[Array]
     with style():
         columns = 5
         lines = -(-len(values) // columns)
-        figure = Figure(figsize=(WIDTH, 2.15 * lines + 0.35))
-        every = figure.subplots(lines, columns, squeeze=False).ravel()
+        tall = 2.05 * lines + 0.75
+        # Many panels: placed by hand, the automatic layout would take most of the time.
+        figure = Figure(figsize=(WIDTH, tall))
+        figure.set_layout_engine("none")
+        place = {"left": 0.05, "right": 0.995, "top": 1 - 0.3 / tall, "bottom": 0.8 / tall, "wspace": 0.3, "hspace": 0.33}
+        every = figure.subplots(lines, columns, squeeze=False, gridspec_kw=place).ravel()
         for k, axes in enumerate(every):
             if k >= len(values):
                 axes.set_visible(False)
                 continue
-            its = None if computer is None or k >= len(computer) else computer[k]
-            title = "CPM" if k == 0 else f"{MEASURES[k - 1].name} {MEASURES[k - 1].about}"
-            unit = "" if k == 0 or MEASURES[k - 1].unit == "1" else MEASURES[k - 1].unit
-            _distributions(axes, values[k], its, scenarios)
-            axes.set_title(title.replace("subjective operator assessment", "rating"), fontsize=8.2, pad=4)
-            axes.set_ylabel(unit, labelpad=2)
+            factor = 1.0 if k == 0 else shown(k - 1)[1]
+            its = None if computer is None or k >= len(computer) else factor * computer[k]
+            _distributions(axes, [factor * v for v in values[k]], its, scenarios)
+            axes.set_title("CPM" if k == 0 else shown(k - 1)[0], fontsize=8, pad=4)
         for axes in every[max(0, len(values) - columns) : len(values)]:
             axes.set_xlabel("scenario")
-        figure.legend(handles=_key(computer is not None), loc="outside lower center", ncols=5, columnspacing=2.0)
+        figure.legend(handles=_key(computer is not None), loc="lower center", ncols=5, columnspacing=2.0)
         return finished(figure)
 
 
+def shown(measure: int) -> tuple[str, float]:
+    """Of a measure, from 0: its name with the unit that people read, and what its values are multiplied by for that."""
+    m = MEASURES[measure]
+    if m.name == "M12":
+        return "M12 rating", 1.0
+    if "direction" in m.about:
+        return f"{m.name} {m.about}, °", float(np.degrees(1.0))
+    return f"{m.name} {m.about}{'' if m.unit == '1' else f', {m.unit}'}", 1.0
+
+
 def _distributions(axes: Axes, values: Sequence[Array], computer: Array | None, scenarios: Sequence[int]) -> None:
-    there = [v[np.isfinite(v)] for v in values]
-    its = np.full(len(there), np.nan) if computer is None else computer
+    there = [np.where(np.abs(v) < _ROUNDING, 0.0, v)[np.isfinite(v)] for v in values]
+    its = np.full(len(there), np.nan) if computer is None else np.where(np.abs(computer) < _ROUNDING, 0.0, computer)
     everything = np.concatenate([*there, its[np.isfinite(its)]])
     if not everything.size:
         axes.annotate("none arrived", (0.5, 0.5), xycoords="axes fraction", ha="center", color=SOFT)
@@ -166,18 +179,22 @@ def _distributions(axes: Axes, values: Sequence[Array], computer: Array | None, 
         if v.size:
             count, _ = np.histogram(np.clip(v, low, high), edges)
             width = 0.42 * count / count.max()
-            axes.fill_betweenx(np.repeat(edges, 2)[1:-1], place, place + np.repeat(width, 2), color=_GREY, linewidth=0, zorder=1)
+            axes.fill_betweenx(
+                np.repeat(edges, 2)[1:-1], place, place + np.repeat(width, 2), color=_GREY, linewidth=0, zorder=1
+            )
             axes.vlines(place, v.min(), v.max(), color=SOFT, linewidth=1.3, zorder=2)
             axes.hlines(np.median(v), place - 0.17, place + 0.42, color=BLUE, linewidth=1.7, zorder=3)
             axes.plot([place], [v.mean()], "x", color=INK, markersize=5, markeredgewidth=1.2, zorder=4)
-    axes.plot(np.arange(1, len(there) + 1), its, "o", color=ORANGE, markersize=5.2, fillstyle="none", markeredgewidth=1.4, zorder=5)
+    axes.plot(
+        np.arange(1, len(there) + 1), its, "o", color=ORANGE, markersize=5.2, fillstyle="none", markeredgewidth=1.4, zorder=5
+    )
     axes.set_xticks(range(1, len(there) + 1), [str(s) for s in scenarios])
     axes.set_xlim(0.6, len(there) + 0.6)
     if log:
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 3), numticks=6))
         axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axes.yaxis.set_minor_formatter(NullFormatter())
+        axes.minorticks_off()
     else:
         axes.yaxis.set_major_locator(MaxNLocator(4))
     axes.tick_params(labelsize=8)
@@ -192,7 +209,9 @@ def _key(computer: bool) -> list[Line2D | Patch]:
         Line2D([], [], color=INK, marker="x", linestyle="", label="mean"),
     ]
     if computer:
-        found.append(Line2D([], [], color=ORANGE, marker="o", fillstyle="none", linestyle="", markeredgewidth=1.4, label="computer"))
+        found.append(
+            Line2D([], [], color=ORANGE, marker="o", fillstyle="none", linestyle="", markeredgewidth=1.4, label="computer")
+        )
     return found
 
 

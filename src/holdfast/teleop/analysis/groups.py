@@ -56,7 +56,9 @@ def in_groups(difficulty: Array, count: int, by: str) -> Groups:
         InputError: Fewer than two groups, or fewer tasks than groups.
     """
     if count < 2 or len(difficulty) < count:
-        raise InputError(f"{len(difficulty)} tasks cannot be put in {count} groups of difficulty; give 2 groups or more, no more than tasks")
+        raise InputError(
+            f"{len(difficulty)} tasks cannot be put in {count} groups of difficulty; give 2 groups or more, no more than tasks"
+        )
     order = np.argsort(np.where(np.isnan(difficulty), np.inf, difficulty), kind="stable")
     of_task = np.empty(len(difficulty), dtype=np.int64)
     for k, part in enumerate(np.array_split(order, count)):
@@ -98,9 +100,7 @@ class Cells:
 
     def empty(self) -> list[str]:
         """Cells without a task, as people read them."""
-        return [
-            f"{self.subjects[p]} / {self.laws[a]} / {self.groups[b]}" for p, a, b in np.argwhere(self.tasks == 0)
-        ]
+        return [f"{self.subjects[p]} / {self.laws[a]} / {self.groups[b]}" for p, a, b in np.argwhere(self.tasks == 0)]
 
     def long(self) -> DataFrame:
         """A row for each cell: subject, law, difficulty, cpm, tasks."""

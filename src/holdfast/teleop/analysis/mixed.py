@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -130,7 +131,7 @@ def _coded(cells: NDArray[np.int64], levels: tuple[int, int]) -> tuple[Array, li
     both = np.einsum("ki,kj->kij", *parts).reshape(len(cells), -1)
     ends = np.cumsum([1, *(x.shape[1] for x in (*parts, both))])
     columns = np.hstack([np.ones((len(cells), 1)), *parts, both])
-    return columns, [slice(int(s), int(e)) for s, e in zip(ends[:-1], ends[1:], strict=True)]
+    return columns, [slice(int(s), int(e)) for s, e in pairwise(ends)]
 
 
 def _fit(y: Array, x: Array, subject: NDArray[np.int64], task: NDArray[np.int64]) -> tuple[Any, str, tuple[str, ...]]:

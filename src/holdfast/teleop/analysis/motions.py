@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -80,8 +81,11 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
     with style():
         columns = min(4, len(motions))
         lines = -(-len(motions) // columns)
-        figure = Figure(figsize=(WIDTH, 0.5 + lines * (WIDTH / columns + 0.2)))
-        every = figure.subplots(lines, columns, squeeze=False, sharex=True, sharey=True).ravel()
+        tall = 0.25 + lines * (WIDTH / columns + 0.15)
+        figure = Figure(figsize=(WIDTH, tall))
+        figure.set_layout_engine("none")
+        place = {"left": 0.055, "right": 0.995, "top": 1 - 0.25 / tall, "bottom": 0.5 / tall, "wspace": 0.06, "hspace": 0.12}
+        every = figure.subplots(lines, columns, squeeze=False, sharex=True, sharey=True, gridspec_kw=place).ravel()
         for axes, m in zip(every, motions, strict=False):
             if m.whole is not None:
                 face = "white" if m.left is None else _LOST
@@ -89,22 +93,29 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
             if m.whole is not None and m.left is not None:
                 axes.add_patch(_patch(m.left, facecolor="white", edgecolor=FAINT, linewidth=0.8, zorder=0.6))
             start = m.path[0]
-            axes.plot([start[0], m.target[0]], [start[1], m.target[1]], color=SOFT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1)
+            axes.plot(
+                [start[0], m.target[0]], [start[1], m.target[1]], color=SOFT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1
+            )
             pieces = np.stack([m.path[:-1], m.path[1:]], axis=1)
             lines_ = LineCollection(list(pieces), cmap=_TIME, linewidths=1.5, zorder=3, capstyle="round")
             lines_.set_array(np.linspace(0, 1, max(len(pieces), 1)))
             axes.add_collection(lines_)
             axes.plot([start[0]], [start[1]], "o", color=INK, markersize=4, zorder=4)
-            axes.add_patch(Circle((float(m.target[0]), float(m.target[1])), m.radius, fill=False, edgecolor=ORANGE, linewidth=1.6, zorder=4))
+            axes.add_patch(
+                Circle(
+                    (float(m.target[0]), float(m.target[1])), m.radius, fill=False, edgecolor=ORANGE, linewidth=1.6, zorder=4
+                )
+            )
             axes.set_title(plain(m.title, 48), fontsize=8.6, pad=4)
             axes.set_aspect("equal")
             axes.grid(visible=False)
-            axes.set_xlabel("x, m")
             axes.tick_params(labelsize=8)
         for axes in every[len(motions) :]:
             axes.set_visible(False)
         for axes in every[::columns]:
             axes.set_ylabel("y, m")
+        for axes in every[max(0, len(motions) - columns) : len(motions)]:
+            axes.set_xlabel("x, m")
         low, high = _extent(motions)
         middle, half = (low + high) / 2, 0.53 * float((high - low).max())
         every[0].set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
@@ -121,8 +132,8 @@ def _extent(motions: Sequence[Motion]) -> tuple[Array, Array]:
     return everything.min(axis=0), everything.max(axis=0)
 
 
-def _patch(r: Ring, **look: object) -> Circle | Annulus:
+def _patch(r: Ring, **look: Any) -> Circle | Annulus:
     if r.inner <= 1e-9:
-        return Circle(r.centre, r.outer, **look)  # type: ignore[arg-type]
+        return Circle(r.centre, r.outer, **look)
     width = min(r.outer - r.inner, r.outer * (1 - 1e-9))
-    return Annulus(r.centre, r.outer, max(width, 1e-3 * r.outer), **look)  # type: ignore[arg-type]
+    return Annulus(r.centre, r.outer, max(width, 1e-3 * r.outer), **look)

@@ -33,7 +33,8 @@ def notes(
             if lost[:, :, k].any()
         )
         yield (
-            f"{counted(int(lost.sum()), 'trial')} of {lost.size:,} {'has' if lost.sum() == 1 else 'have'} no CPM ({where}). Means are over the "
+            f"{counted(int(lost.sum()), 'trial')} of {lost.size:,} {'has' if lost.sum() == 1 else 'have'} no CPM "
+            f"({where}). Means are over the "
             "trials that arrived, which flatters a law under which the hardest ones do not."
         )
     short = cells.tasks < grouped.sizes
@@ -51,7 +52,8 @@ def notes(
         )
     if grouped.by == "operators":
         yield (
-            "Tasks are grouped by the operators' own CPM of the reference scenario. The effect of difficulty is therefore built "
+            "Tasks are grouped by the operators' own CPM of the reference scenario. The effect of difficulty is "
+            "therefore built "
             "in, and so is a part of the interaction: a task that went badly there by chance looks as if another law helped. "
             "Grouping by the computer's CPM does not have this."
         )
@@ -67,5 +69,6 @@ def notes(
         yield (
             "CPM of operators and of the computer are divided by common largest measures."
             if normalise == "together"
-            else "CPM of operators and of the computer are each divided by their own largest measures, and are on different scales."
+            else "CPM of operators and of the computer are each divided by their own largest measures, and are "
+            "on different scales."
         )

@@ -113,9 +113,7 @@ class Observed:
             cause[(cause == "") & np.isnan(ratings)] = UNRATED
         measured[cause != ""] = np.nan
         combined = cpm(measured if rated else measured[..., :RECORDED])
-        return cls(
-            kind, subjects, tasks, conditions, measured, ratings, cause, rated, combined.values, combined.normalisers
-        )
+        return cls(kind, subjects, tasks, conditions, measured, ratings, cause, rated, combined.values, combined.normalisers)
 
     def normalised(self, normalisers: Array) -> Observed:
         """The same trials with other normalisers of the CPM, as many as they have."""
@@ -234,7 +232,9 @@ def _check(table: DataFrame, what: str) -> None:
     twice = table.duplicated(["subject", "task", "scenario"])
     if twice.any():
         s, t, c = table.loc[twice, ["subject", "task", "scenario"]].iloc[0]
-        raise InputError(f"the {what} has subject {s}, task {t}, scenario {c} twice; give each trial once, and no training trials")
+        raise InputError(
+            f"the {what} has subject {s}, task {t}, scenario {c} twice; give each trial once, and no training trials"
+        )
     arrived = (table["end"] == "arrived").to_numpy()
     for name in NAMES:
         if name not in table:

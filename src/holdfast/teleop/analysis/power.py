@@ -99,7 +99,9 @@ def resampled(values: Array, subjects: int, limit: float = 0.05, draws: int = 20
 
 def _check(power: float, limit: float) -> None:
     if not (0 < limit < power < 1):
-        raise InputError(f"power is {power:g} and the limit of p {limit:g}; give 0 < limit < power < 1, for example 0.05 and 0.8")
+        raise InputError(
+            f"power is {power:g} and the limit of p {limit:g}; give 0 < limit < power < 1, for example 0.05 and 0.8"
+        )
 
 
 def _smallest(power_of: Callable[[int], float], power: float) -> int | None:

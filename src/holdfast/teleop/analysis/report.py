@@ -161,7 +161,8 @@ def _laws(a: Analysis) -> list[Block]:
     if "anova_other_groups" in a.tables:
         by = "computer's" if a.groups.by == "operators" else "median operator's"
         said = "; ".join(
-            f"{r['effect']} F({r['df']}, {r['df_error']}) = {number(r['F'])}" for _, r in a.table("anova_other_groups").iterrows()
+            f"{r['effect']} F({r['df']}, {r['df_error']}) = {number(r['F'])}"
+            for _, r in a.table("anova_other_groups").iterrows()
         )
         blocks.append(Text(f"With the tasks grouped by the {by} CPM instead: {said}.", quiet=True))
     blocks.append(_measures(a, "failed", "The laws with the failed arm, measure by measure"))
@@ -198,8 +199,10 @@ def _mixed(a: Analysis, found: Mixed) -> list[Block]:
     spread = ", ".join(f"{name} {number(float(np.sqrt(x)))}" for name, x in v.items())
     text = (
         f"Linear mixed model of {found.trials:,} single trials, restricted maximum likelihood ({found.optimiser}, "
-        f"{'converged' if found.converged else 'NOT converged'}); standard deviations of the random intercepts: {spread}. The tests "
-        "are asymptotic. Tasks are random here: the model speaks of other tasks too, so difficulty is tested more strictly than "
+        f"{'converged' if found.converged else 'NOT converged'}); standard deviations of the random intercepts: "
+        f"{spread}. The tests "
+        "are asymptotic. Tasks are random here: the model speaks of other tasks too, so difficulty is tested "
+        "more strictly than "
         "in an ANOVA."
     )
     if found.messages:
@@ -231,24 +234,31 @@ def _comparisons(a: Analysis) -> Table:
 
 def _measures(a: Analysis, name: str, title: str) -> Table:
     table = a.table(name)
-    rows: list[list[Cell]] = [
-        [
-            r["measure"] if r["measure"] == "CPM" else f"{r['measure']} {r['about']}",
-            *([f"{r['first']} − {r['second']}"] if len(a.conditions) > 2 else []),
-            "" if r["unit"] == "1" else r["unit"],
-            number(r["first_mean"]),
-            number(r["second_mean"]),
-            f"{number(r['difference'])} ({number(r['low'])} to {number(r['high'])})",
-            p_value(r["p_holm"]),
-            fixed(r["dz"], 2) if np.isfinite(r["dz"]) else "–",
-            p_value(r["wilcoxon"]),
-        ]
-        for _, r in table.iterrows()
-    ]
+    rows: list[list[Cell]] = []
+    for _, r in table.iterrows():
+        label, factor = ("CPM", 1.0) if r["measure"] == "CPM" else figures.shown(NAMES.index(r["measure"]))
+        first, second, mean, low, high = (
+            number(factor * r[x]) for x in ("first_mean", "second_mean", "difference", "low", "high")
+        )
+        dz = fixed(r["dz"], 2) if np.isfinite(r["dz"]) else "–"
+        laws: list[Cell] = [f"{r['first']} − {r['second']}"] if len(a.conditions) > 2 else []
+        rows.append(
+            [label, *laws, first, second, f"{mean} ({low} to {high})", p_value(r["p_holm"]), dz, p_value(r["wilcoxon"])]
+        )
     first, second = (str(table[x].iloc[0]) if len(a.conditions) == 2 else x for x in ("first", "second"))
-    head = ["measure", *(["laws"] if len(a.conditions) > 2 else []), "unit", first, second, "first − second", "p Holm", "dz", "p Wilcoxon"]
+    head = [
+        "measure",
+        *(["laws"] if len(a.conditions) > 2 else []),
+        first,
+        second,
+        "first − second",
+        "p Holm",
+        "dz",
+        "p Wilcoxon",
+    ]
     caption = (
-        f"{title}: subjects' means over the tasks they completed under both, {int(table['trials'].iloc[0]):,} pairs of trials; smaller "
+        f"{title}: subjects' means over the tasks they completed under both, {int(table['trials'].iloc[0]):,} "
+        f"pairs of trials; smaller "
         "is better"
     )
     return Table(rows, head, frozenset(range(len(head) - 6, len(head))), caption=_said(a, caption), wide=True)
@@ -268,9 +278,8 @@ def _difficulty(a: Analysis) -> list[Block]:
             panels.append(figures.Scatter(x, y, scales[c.first], scales[c.second], c, a.groups.of_task))
     blocks: list[Block] = []
     if panels:
-        caption = (
-            f"Each dot is a task in scenario {a.conditions[0].label}. "
-            + " ".join(f"{c}; Spearman {c.spearman:.3f}." for c in a.correlations if c.first in scales)
+        caption = f"Each dot is a task in scenario {a.conditions[0].label}. " + " ".join(
+            f"{c}; Spearman {c.spearman:.3f}." for c in a.correlations if c.first in scales
         )
         lost = sorted({x for c in a.correlations for x in c.left_out})
         if lost:
@@ -283,7 +292,8 @@ def _tasks(a: Analysis) -> list[Block]:
     prefix = "Simulated operators: " if a.simulated else "Operators: "
     titles = (f"{prefix}the median operator of each task", "Computer")
     caption = (
-        f"CPM of each task with the failed arm ({len(a.observed.tasks)} tasks). The median operator of a task is the one whose CPM under "
+        f"CPM of each task with the failed arm ({len(a.observed.tasks)} tasks). The median operator of a task is "
+        f"the one whose CPM under "
         "the reference law is nearest to the median of all. Coloured stems: another law than the reference is better."
     )
     blocks: list[Block] = [picture(a, figures.tasks_figure(a, titles), "tasks", caption)]
@@ -298,7 +308,15 @@ def _tasks(a: Analysis) -> list[Block]:
             ]
             for _, r in a.table("gains").iterrows()
         ]
-        head = ("tasks", "law", "operators gain", "computer gains", "same direction", "median ratio, operators", "median ratio, computer")
+        head = (
+            "tasks",
+            "law",
+            "operators gain",
+            "computer gains",
+            "same direction",
+            "median ratio, operators",
+            "median ratio, computer",
+        )
         caption = f"Gain and loss against {a.conditions[0].law}: a CPM ratio below 1 is a gain. Tasks that both completed"
         blocks.append(Table(rows, head, frozenset(range(2, 7)), caption=_said(a, caption), wide=True))
         for c in a.correlations:
@@ -319,7 +337,8 @@ def _distributions(a: Analysis) -> list[Block]:
     figure = figures.measures_figure(values, its, [c.scenario for c in o.conditions])
     key = "; ".join(c.label for c in o.conditions)
     caption = (
-        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, less those that did not arrive. Scenarios: {key}. "
+        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, less those that did not "
+        f"arrive. Scenarios: {key}. "
         "Circles: the computer's median over tasks. CPM of operators and computer have different normalisers unless the notes "
         "say otherwise."
     )
@@ -331,13 +350,14 @@ def _healthy(a: Analysis) -> list[Block]:
         return []
     table = a.table("healthy")
     blocks: list[Block] = []
-    for _, r in table[table["measure"].isin(["CPM", "M1"])].iterrows():
+    for _, r in table[table["measure"] == "M1"].iterrows():
         change = r["second_mean"] / r["first_mean"] - 1 if r["first_mean"] > 0 else float("nan")
-        if r["measure"] == "M1" and np.isfinite(change):
+        if np.isfinite(change):
             more = "longer" if change > 0 else "shorter"
             blocks.append(
                 Text(
-                    f"With the healthy arm, tasks take {percent(abs(change))} {more} under {r['second']} than under {r['first']} "
+                    f"With the healthy arm, tasks take {percent(abs(change))} {more} under {r['second']} than "
+                    f"under {r['first']} "
                     f"({number(r['second_mean'])} against {number(r['first_mean'])} cycles)."
                 )
             )
@@ -350,7 +370,9 @@ def _power(a: Analysis) -> list[Block]:
         enough: list[Cell] = []
         for name in ("sufficient", "sufficient_for_least"):
             enough.append(str(int(r[name])) if np.isfinite(r[name]) else "> 10,000")
-        rows.append([r["test"], r["kind"], p_value(r["p_below"]), f"{r['effect']} {number(r['observed'])}", number(r["least"]), *enough])
+        rows.append(
+            [r["test"], r["kind"], p_value(r["p_below"]), f"{r['effect']} {number(r['observed'])}", number(r["least"]), *enough]
+        )
     head = ("test", "kind", "p below", "observed effect", "lower end", "subjects", "subjects for the lower end")
     caption = (
         f"Smallest number of subjects with a power of {a.power:g}. Observed here: {a.who}. t-tests by the noncentral t "
@@ -373,7 +395,12 @@ def _missing(a: Analysis) -> list[Block]:
     causes = [c for c in ends.columns if c in {"still", "time", "aborted", "broken_off", "no_rating", "not_recorded"}]
     used = [c for c in causes if ends[c].sum() > 0]
     rows: list[list[Cell]] = [
-        [f"{r['scenario']}: {'failed' if r['failed'] else 'healthy'}, {r['law']}", str(r["trials"]), str(r["with_cpm"]), *(str(r[c]) for c in used)]
+        [
+            f"{r['scenario']}: {'failed' if r['failed'] else 'healthy'}, {r['law']}",
+            str(r["trials"]),
+            str(r["with_cpm"]),
+            *(str(r[c]) for c in used),
+        ]
         for _, r in ends.iterrows()
     ]
     head = ["scenario", "trials", "with a CPM", *(c.replace("_", " ") for c in used)]
@@ -391,21 +418,28 @@ def _missing(a: Analysis) -> list[Block]:
 
 def _method(a: Analysis) -> list[Block]:
     o = a.observed
-    blocks: list[Block] = [Callout(Markup("<br>").join(a.notes), title="To know before using these numbers")]
+    blocks: list[Block] = [Callout(Markup("<br>").join(f"• {n}" for n in a.notes), title="To know before using these numbers")]
     count = len(o.normalisers)
     blocks.append(
         Text(
-            f"CPM is the sum of {count} measures, each divided by its largest value over all trials compared (eq. 11). The measures are "
-            "a reconstruction: the table of the paper is lost. F and p of the ANOVA are those of statsmodels; sphericity corrections "
+            f"CPM is the sum of {count} measures, each divided by its largest value over all trials compared "
+            f"(eq. 11). The measures are "
+            "a reconstruction: the table of the paper is lost. F and p of the ANOVA are those of statsmodels; "
+            "sphericity corrections "
             "and effect sizes are computed here. Training trials are not analysed."
         )
     )
     table: DataFrame = a.table("normalisers")
     who = [x for x in ("operators", "computer") if x in table]
     rows: list[list[Cell]] = [
-        [f"{r['measure']}", *(number(float(r[x])) for x in who), "" if r["unit"] == "1" else str(r["unit"])] for _, r in table.iterrows()
+        [f"{r['measure']}", *(number(float(r[x])) for x in who), "" if r["unit"] == "1" else str(r["unit"])]
+        for _, r in table.iterrows()
     ]
-    blocks.append(Table(rows, ("largest value", *who, "unit"), frozenset(range(1, 1 + len(who))), caption=_said(a, "Normalisers of CPM")))
+    blocks.append(
+        Table(rows, ("largest value", *who, "unit"), frozenset(range(1, 1 + len(who))), caption=_said(a, "Normalisers of CPM"))
+    )
     files: list[list[Cell]] = [[f"{name}.csv", ABOUT[name]] for name in (*a.tables, "data_dictionary")]
-    blocks.append(Table(files, ("file", "what is in it"), caption=f"{counted(len(files), 'table')} written next to this report"))
+    blocks.append(
+        Table(files, ("file", "what is in it"), caption=f"{counted(len(files), 'table')} written next to this report")
+    )
     return blocks

@@ -34,8 +34,8 @@ class Analysis:
     Attributes:
         observed: The operators' trials that were analysed, with their CPM and normalisers.
         computer: The computer's; None if not given.
-        conditions: The scenarios with the failed arm. The first is the reference: the others are compared with it, and its CPM is
-            the difficulty of a task.
+        conditions: The scenarios with the failed arm. The first is the reference: the others are compared with it, and its
+            CPM is the difficulty of a task.
         groups: The tasks in groups of difficulty.
         cells: The means that the ANOVA is made of.
         anova: Law x difficulty, with the failed arm; None if ``mixed`` was asked for.
@@ -119,7 +119,8 @@ class Analysis:
         lines.append(f"mean CPM with the failed arm: {means}")
         if self.anova is not None:
             lines += [
-                f"{e}, Greenhouse-Geisser p = {e.p_gg:.2g}, partial eta squared {e.partial_eta2:.3f}" for e in self.anova.effects
+                f"{e}, Greenhouse-Geisser p = {e.p_gg:.2g}, partial eta squared {e.partial_eta2:.3f}"
+                for e in self.anova.effects
             ]
         if self.mixed is not None:
             state = "converged" if self.mixed.converged else "did NOT converge: do not use it"
