@@ -212,10 +212,10 @@ def protocol_(
     from holdfast.teleop.protocol import read
 
     chosen = read(protocol)
+    if write is not None and write.exists():
+        raise StoreError(f"--write: '{write}' exists already; choose another name")
     _print_protocol(chosen)
     if write is not None:
-        if write.exists():
-            raise StoreError(f"--write: '{write}' exists already; choose another name")
         typer.echo(f"written: {chosen.write(write)}")
 
 
@@ -304,7 +304,7 @@ def _print_protocol(p: Protocol) -> None:
         table.add_row(str(s.number), escape(s.label + (f" ({options})" if options else "")))
     out.print(table)
     tasks = _table("task", "joint that fails", "from start to target, m", "note")
-    start = p.plants[0].position(p.tasks.q0)
+    start = p.arm.forward_kinematics(p.tasks.q0)[:, :3, 3] @ p.rows.rows[:, :3].T
     for k, note in enumerate(p.notes):
         joint = p.arm.joint_names[p.tasks.joint[k]] if p.tasks.joint[k] >= 0 else "none"
         away = float(((p.tasks.target[k] - start[k]) ** 2).sum() ** 0.5)
