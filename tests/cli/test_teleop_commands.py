@@ -80,7 +80,7 @@ def test_tasks_writes_a_bank_and_a_protocol_that_runs(cli, tmp_path):
 
 def test_tasks_of_an_arm_from_a_file(cli, tmp_path):
     links = "".join(f"  - {{name: axis{k}, a: 1.0, alpha: 0, d: 0}}\n" for k in (1, 2, 3))
-    (tmp_path / "arm.yaml").write_text("name: three\nconvention: standard\njoints:\n" + links)
+    (tmp_path / "arm.yaml").write_text("name: three\nconvention: standard\nrows:\n" + links)
     out = tmp_path / "bank"
     call = ["teleop", "tasks", tmp_path / "arm.yaml", "--per-joint", "2", "--distance", "0.5", "--select", "3"]
     code, text, err = cli(*call, "--no-special", "--out", out)
@@ -124,9 +124,9 @@ def test_figure_names_what_has_no_place(rng):
 
 def test_from_run_to_report(cli, tiny, tmp_path):
     out = tmp_path / "study"
-    code, text, err = cli("teleop", "run", "--simulated", "--operators", "3", "--seed", "2", "--protocol", tiny, "--out", out)
+    code, text, err = cli("teleop", "run", "--simulated", "--operators", "6", "--seed", "1", "--protocol", tiny, "--out", out)
     assert (code, err) == (0, "")
-    assert "3 simulated operators" in text
+    assert "6 simulated operators" in text
     code, text, err = cli("teleop", "analyse", out)
     assert (code, err) == (0, "")
     assert "law x difficulty" in text
@@ -138,7 +138,7 @@ def test_from_run_to_report(cli, tiny, tmp_path):
     code, text, err = cli("teleop", "export", out)
     assert (code, err) == (0, "")
     assert {f.stem for f in (out / "export").iterdir()} == {"trials", "cycles", "subjects", "events", "dictionary", "protocol"}
-    assert len([r for r in table(out / "export" / "trials.csv") if r["task"] != "0"]) == 3 * 12
+    assert len([r for r in table(out / "export" / "trials.csv") if r["task"] != "0"]) == 6 * 12
 
 
 def test_replay_ends_with_3_where_a_record_was_changed(cli, copy):
