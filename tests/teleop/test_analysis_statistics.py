@@ -83,7 +83,7 @@ def test_first_factor_of_two_levels_is_a_t_test(rng):
     means = y.mean(axis=2)
     effect = anova(y).effects[0]
     t = stats.ttest_rel(means[:, 0], means[:, 1])
-    assert effect.F == pytest.approx(t.statistic**2, rel=1e-9)
+    assert pytest.approx(t.statistic**2, rel=1e-9) == effect.F
     assert effect.p == pytest.approx(t.pvalue, rel=1e-9)
     assert effect.gg == effect.hf == 1.0
 
@@ -92,7 +92,7 @@ def test_what_is_the_same_in_all_conditions_of_a_subject_does_not_count(rng):
     y = correlated(rng, 8, 2, 3)
     shifted = y + rng.normal(0, 50, (8, 1, 1))
     for one, other in zip(anova(y).effects, anova(shifted).effects, strict=True):
-        assert one.F == pytest.approx(other.F, rel=1e-7)
+        assert pytest.approx(other.F, rel=1e-7) == one.F
         assert one.gg == pytest.approx(other.gg, rel=1e-7)
         assert one.generalised_eta2 > other.generalised_eta2
 

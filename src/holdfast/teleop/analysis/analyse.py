@@ -54,7 +54,7 @@ def analyse(
 
     Args:
         table: One row for each trial. Columns ``subject``, ``task``, ``scenario``, ``law``, ``failed``, ``end`` (``arrived``,
-            ``still``, ``time``, ``aborted``, ``broken_off``) and ``M1`` to ``M11`` as :func:`holdfast.teleop.measures`
+            ``still``, ``time``, ``aborted``, ``broken_off``) and ``M1`` to ``M11`` as ``measures`` gives them
             (NaN unless arrived); if there are, ``M12`` (the rating, NaN for none), ``kind`` (``person`` or ``simulated``) and
             ``number`` (the order of subjects).
         computer: The same of the computer operator, one row for each task and scenario.

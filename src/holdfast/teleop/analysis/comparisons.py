@@ -103,15 +103,13 @@ def noncentrality_interval(t: float, df: int, confidence: float) -> tuple[float,
 
 
 def holm(p: ArrayLike) -> Array:
-    """P corrected for their number by Holm's step-down; NaN stay, and are not counted.
+    """Correct several p for their number by Holm's step-down; NaN stay, and are not counted.
 
-    Source: Holm 1979, through statsmodels.
+    Source: Holm 1979.
     """
-    from statsmodels.stats.multitest import multipletests
-
     values = np.asarray(p, dtype=np.float64)
     out = np.full(values.shape, np.nan)
-    there = np.isfinite(values)
-    if there.any():
-        out[there] = multipletests(values[there], method="holm")[1]
+    there = np.flatnonzero(np.isfinite(values))
+    order = there[np.argsort(values[there])]
+    out[order] = np.minimum(1.0, np.maximum.accumulate(values[order] * np.arange(len(order), 0, -1)))
     return out

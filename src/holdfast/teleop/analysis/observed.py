@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 Array = NDArray[np.float64]
-Words = NDArray[np.str_]
+Words = NDArray[Any]
 
 NAMES = tuple(m.name for m in MEASURES)
 NEEDED = ("subject", "task", "scenario", "law", "failed", "end", *NAMES[:RECORDED])
