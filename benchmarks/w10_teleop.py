@@ -10,10 +10,12 @@ os.environ.setdefault("MKL_NUM_THREADS", "1")
 import argparse
 import statistics
 import tempfile
+import time
 from pathlib import Path
 
-import harness
 import numpy as np
+
+import harness
 from harness import Spread
 from w6_control_step import clock_time, percentiles, timed
 from w9_failure_tolerant import by_golden_section, planar_jacobian
@@ -168,11 +170,10 @@ def experiment(chosen: argparse.Namespace) -> str:
     for seed in range(min(chosen.rounds, 3)):
         harness.progress(f"W10: experiment {seed + 1}")
         with tempfile.TemporaryDirectory() as folder:
-            made = []
-            times.append(
-                harness.seconds(lambda f=folder, s=seed: made.append(simulate_experiment(Path(f) / "study", protocol, people, s)))
-            )
-            with made[0] as records:
+            start = time.perf_counter()
+            records = simulate_experiment(Path(folder) / "study", protocol, people, seed)
+            times.append(time.perf_counter() - start)
+            with records:
                 again.append(harness.seconds(lambda r=records: replay(r)))
                 counts = tuple(len(records.entries(kind=k)) for k in (Kind.TRIAL, Kind.TRAINING))
     asked = f"{counts[0]} trials and {counts[1]} of training; asked for: below {EXPERIMENT_ASKED:g} s for 24 people"
@@ -219,7 +220,8 @@ def one_cycle(chosen: argparse.Namespace) -> str:
     text = harness.table("W10: one control cycle, planar 3R", [*head, "largest difference of a joint, rad"], lines)
     return (
         f"{text}\nA cycle is {SUBSTEPS} sub-steps, each with the law evaluated anew; {calls} calls in a round, 500 random "
-        f"configurations, {chosen.rounds} rounds; the clock's own time, {clock_time():.2g} us, is inside. Asked for: below {CYCLE_ASKED:g} us. "
+        f"configurations, {chosen.rounds} rounds; the clock's own time, {clock_time():.2g} us, is inside. Asked for: "
+        f"below {CYCLE_ASKED:g} us. "
         "Joints differ most near singularities, where Euler steps of the pseudoinverse are large."
     )
 

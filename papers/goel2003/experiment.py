@@ -161,13 +161,15 @@ class Study:
 def study() -> Study:
     """Run it, replay it, analyse it."""
     protocol = read()
-    with tempfile.TemporaryDirectory() as folder:
-        with simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, SEED) as records:
-            again = replay(records)
-            table, machine = trial_table(records), computer_table(protocol)
-            found = analyse(table, machine)
-            counts = [len(records.entries(s.code, Kind.TRAINING)) for s in records.subjects()]
-            paths = _kept(records, found)
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, SEED) as records,
+    ):
+        again = replay(records)
+        table, machine = trial_table(records), computer_table(protocol)
+        found = analyse(table, machine)
+        counts = [len(records.entries(s.code, Kind.TRAINING)) for s in records.subjects()]
+        paths = _kept(records, found)
     return Study(
         protocol,
         table,
@@ -262,7 +264,8 @@ def _settings(s: Study) -> list[Claim]:
             "7.5 cycles",
             f"impossible in cycles: the computer needs {least} at least, (2 - 0.1) m / 0.05 m",
             f"read as seconds, with 1.2 x the best time, it gives about 6 cycles/s and 0.3 m/s, which we use ({p.rate:g} "
-            f"cycles/s, marked inferred) with a limit of {p.training.limit:g} cycles; simulated operators then need {trained} tasks",
+            f"cycles/s, marked inferred) with a limit of {p.training.limit:g} cycles; simulated operators then need "
+            f"{trained} tasks",
             Verdict.FALSE,
         ),
         Claim(
@@ -302,7 +305,8 @@ def _bank_claims() -> list[Claim]:
             f"from bank to bank the largest M7 goes from {seven[0][0]:.2g} to {seven[1][0]:.2g}, the largest M8 from "
             f"{eight[0][0]:.2g} to {eight[1][0]:.2g}, and with them the median CPM3 from {cpm[0][2]:.2f} to {cpm[1][2]:.2f}; "
             f"the median of CPM4/CPM3 from {ratio[0][0]:.3f} to {ratio[1][0]:.3f}",
-            "one extreme trial sets a maximum, so levels of CPM hold within one set of trials only; ratios and raw measures can "
+            "one extreme trial sets a maximum, so levels of CPM hold within one set of trials only; ratios and raw "
+            "measures can "
             "be compared between sets",
             Verdict.PARTLY,
         ),
@@ -339,8 +343,10 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             "results: mean CPM of people with the failed arm",
             "pseudoinverse 2.661, failure-tolerant 2.313, F(1, 23) = 105.08",
             f"{who}: {laws['pseudoinverse']:.3f} and {laws['failure-tolerant']:.3f}, F(1, 23) = {law.F:.1f}",
-            f"same direction and rough size: {1 - _ratio(a):.0%} less, the paper {1 - LAWS['failure-tolerant'] / LAWS['pseudoinverse']:.0%}. "
-            "Simulated operators say nothing about people; levels depend on the most extreme trials and on which 24 tasks were chosen",
+            f"same direction and rough size: {1 - _ratio(a):.0%} less, the paper "
+            f"{1 - LAWS['failure-tolerant'] / LAWS['pseudoinverse']:.0%}. "
+            "Simulated operators say nothing about people; levels depend on the most extreme trials and on which 24 "
+            "tasks were chosen",
             Verdict.HOLDS if better else Verdict.PARTLY,
         ),
         Claim(
@@ -349,8 +355,8 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             f"{who}: {told(apart)}; interaction F(2, 46) = {crossed.F:.1f}. Grouped by the computer's CPM3: {told(other)}",
             ("the same signs" if signs else "not the same signs")
             + ("" if same else "; with the groups made by the computer the difference on medium tasks is not significant")
-            + ". Grouping by the operators' own CPM3 builds a part of the interaction in: a task that went badly under one law by "
-            "chance looks as if the other helped",
+            + ". Grouping by the operators' own CPM3 builds a part of the interaction in: a task that went badly under one law "
+            "by chance looks as if the other helped",
             Verdict.HOLDS if signs and same else Verdict.PARTLY,
         ),
         Claim(
@@ -364,14 +370,16 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             "Fig. 3: anticipated, actual and perceived difficulty",
             "r = 0.956 (anticipated and actual), 0.969 (actual and perceived)",
             f"{who}: {anticipated.r:.3f} ({anticipated.n} tasks) and {perceived.r:.3f} ({perceived.n})",
-            "what the computer does predicts what simulated operators do as it did people. The second only tells about our model "
+            "what the computer does predicts what simulated operators do as it did people. The second only tells about "
+            "our model "
             "of the rating, which goes by the time alone; people saw more",
             Verdict.PARTLY,
         ),
         Claim(
             "Fig. 4: operators against the computer, CPM4 below CPM3",
             "operators gain where the computer does",
-            f"{who}: median operator CPM4 below CPM3 in {gains.loc['all', 'operators_gain']} of {gains.loc['all', 'tasks']} tasks, the "
+            f"{who}: median operator CPM4 below CPM3 in {gains.loc['all', 'operators_gain']} of "
+            f"{gains.loc['all', 'tasks']} tasks, the "
             f"computer in {gains.loc['all', 'computer_gains']}; same side in {gains.loc['all', 'same_direction']}",
             "most that differ have a ratio near 1; simulated operators pay more for the slower response",
             Verdict.PARTLY,
@@ -379,7 +387,8 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
         Claim(
             "task 24, drawn into a stationary configuration",
             "the computer does not complete scenario 3; operators can",
-            f"computer: stands still in scenario 3 and completes scenario 4; {who}: {s.end(24, 3)} complete scenario 3, {s.end(24, 4)} "
+            f"computer: stands still in scenario 3 and completes scenario 4; {who}: {s.end(24, 3)} complete scenario "
+            f"3, {s.end(24, 4)} "
             "scenario 4, by turning aside where the hand does not follow",
             "our task 24 is constructed so (joint 1 locked at the folded angle of the target); the paper's is not printed",
             Verdict.HOLDS,
@@ -405,18 +414,23 @@ def result(folder: Path) -> Part:
     sections = [
         f"## Task banks: 1200 tasks each, seeds {SEEDS[0]} to {SEEDS[-1]}",
         "",
-        "Each task is run by the computer in four scenarios: healthy and failed arm, pseudoinverse and failure-tolerant inverse. Ours "
+        "Each task is run by the computer in four scenarios: healthy and failed arm, pseudoinverse and "
+        "failure-tolerant inverse. Ours "
         "and the specification's are made by two programs with different random numbers.",
         "",
         *bank_table(),
         "",
         "## The experiment, with simulated operators",
         "",
-        f"**No person took part.** {SUBJECTS} simulated operators (seed {SEED}) did what the shipped protocol `{read().name}` says: "
-        f"{len(s.table)} trials, {int(missing.sum())} of them without a CPM because they were given up, and {int(s.training.sum())} training "
-        f"tasks. All {s.recorded} recorded trials were replayed through the arm; {s.differs} came out differently. The parameters of "
-        "the operators (delay, lag, noise, misjudged direction) were set beforehand and fitted to nothing. The twelve measures are a "
-        "reconstruction, so that the level of CPM is not comparable; the 24 tasks are ours. What can be compared is direction, ratio and "
+        f"**No person took part.** {SUBJECTS} simulated operators (seed {SEED}) did what the shipped protocol `goel2003` says: "
+        f"{len(s.table)} trials, {int(missing.sum())} of them without a CPM because they were given up, and "
+        f"{int(s.training.sum())} training "
+        f"tasks. All {s.recorded} recorded trials were replayed through the arm; {s.differs} came out differently. The "
+        "parameters of "
+        "the operators (delay, lag, noise, misjudged direction) were set beforehand and fitted to nothing. The twelve "
+        "measures are a "
+        "reconstruction, so that the level of CPM is not comparable; the 24 tasks are ours. What can be compared is "
+        "direction, ratio and "
         "rough size.",
         "",
         *statistics_table(s),
