@@ -32,6 +32,7 @@ nitpick_ignore_regex = [
         r"py:.*",
         r"(Callable|DataFrame|Figure|Axes|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store|optional|default.*)",
     ),
+    (r"py:.*", r"(Indices|Arm|Missing|Paths|pd\.DataFrame|sqlite3\.Connection|Mapping\[str)"),
     (r"py:.*", r"holdfast\.study\..*"),
     (r"py:class", r"holdfast\.interval\.Sums"),
     (r"py:class", r"Motion|Setting"),  # what a run keeps so that it can be run again

@@ -333,7 +333,10 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
     anticipated, perceived = (a.correlation(*pair) for pair in CORRELATIONS)
     healthy = a.table("healthy").set_index("measure")
     time, rated = healthy.loc["M1"], healthy.loc["M12"]
-    gains = a.table("gains").set_index("difficulty")
+    gains = a.table("gains").set_index("difficulty").loc["all"]
+    tasks, people, machine, same_side = (
+        int(gains[x]) for x in ("tasks", "operators_gain", "computer_gains", "same_direction")
+    )
 
     def told(d: dict[str, tuple[float, float]]) -> str:
         return ", ".join(f"{g} {x:+.3f} (t = {t:.1f})" for g, (x, t) in d.items())
@@ -345,9 +348,9 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             f"{who}: {laws['pseudoinverse']:.3f} and {laws['failure-tolerant']:.3f}, F(1, 23) = {law.F:.1f}",
             f"same direction and rough size: {1 - _ratio(a):.0%} less, the paper "
             f"{1 - LAWS['failure-tolerant'] / LAWS['pseudoinverse']:.0%}. "
-            "Simulated operators say nothing about people; levels depend on the most extreme trials and on which 24 "
-            "tasks were chosen",
-            Verdict.HOLDS if better else Verdict.PARTLY,
+            "True of simulated operators; they say nothing about people. Levels depend on the most extreme trials and on which "
+            "24 tasks were chosen",
+            Verdict.PARTLY if better else Verdict.OPEN,
         ),
         Claim(
             "results: by difficulty, pseudoinverse - failure-tolerant",
@@ -357,14 +360,14 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             + ("" if same else "; with the groups made by the computer the difference on medium tasks is not significant")
             + ". Grouping by the operators' own CPM3 builds a part of the interaction in: a task that went badly under one law "
             "by chance looks as if the other helped",
-            Verdict.HOLDS if signs and same else Verdict.PARTLY,
+            Verdict.PARTLY if signs else Verdict.OPEN,
         ),
         Claim(
             "results: effect of difficulty",
             "1.096, 2.586, 3.778, F(2, 46) = 1093",
             f"{who}: {', '.join(f'{x:.3f}' for x in a.group_means().values())}, F(2, 46) = {grouped.F:.0f}",
             "large by construction: the tasks were sorted into the groups by the quantity that is compared",
-            Verdict.HOLDS,
+            Verdict.PARTLY,
         ),
         Claim(
             "Fig. 3: anticipated, actual and perceived difficulty",
@@ -378,9 +381,8 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
         Claim(
             "Fig. 4: operators against the computer, CPM4 below CPM3",
             "operators gain where the computer does",
-            f"{who}: median operator CPM4 below CPM3 in {gains.loc['all', 'operators_gain']} of "
-            f"{gains.loc['all', 'tasks']} tasks, the "
-            f"computer in {gains.loc['all', 'computer_gains']}; same side in {gains.loc['all', 'same_direction']}",
+            f"{who}: median operator CPM4 below CPM3 in {people} of {tasks} tasks, the computer in {machine}; same side in "
+            f"{same_side}",
             "most that differ have a ratio near 1; simulated operators pay more for the slower response",
             Verdict.PARTLY,
         ),
@@ -419,6 +421,9 @@ def result(folder: Path) -> Part:
         "and the specification's are made by two programs with different random numbers.",
         "",
         *bank_table(),
+        "",
+        "Medians agree. Where a range is wider than the specification's (the difficult tercile, the largest M8, scenario 4 not "
+        "completed) it is that of a few extreme tasks in each bank: the least and the largest of eight banks are random, too.",
         "",
         "## The experiment, with simulated operators",
         "",

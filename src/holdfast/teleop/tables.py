@@ -172,11 +172,11 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
 
 def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
-    """Where the hand was in a trial: a function of subject, task and scenario as :meth:`Analysis.write` takes it.
+    """Where the hand was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
 
     Returns:
-        A function of a subject's code (None: the computer), a task's and a scenario's number, from 1, to (K, m) tool points,
-        m; None where no such trial was recorded.
+        From a subject's code (None means the computer), a task's and a scenario's number (from 1) it makes (K, m) tool points,
+        m, or None where no such trial was recorded.
     """
     protocol = records.protocol
     by_computer = computer_trials(protocol)
