@@ -211,9 +211,11 @@ def test_poses_out_of_reach_and_nan(unit3):
         ({"task": "planar", "spacing": 0}, InputError, "spacing is 0; it must be above 0 and at most 0.5 rad"),
         ({"task": "planar", "spacing": np.nan}, InputError, "spacing is nan"),
         ({"task": "planar", "starts": 0}, InputError, "starts is 0; it must be 1 or more"),
-        ({"task": "planar", "pose": np.eye(4)[None]}, InputError, r"self_motion takes one \(4, 4\) pose"),
+        ({"task": "planar", "target": np.eye(4)[None]}, InputError, r"give one target, \(2,\) or \(4, 4\)"),
+        ({"task": "planar", "target": [1.0, np.nan]}, InputError, "the target holds NaN or infinity"),
+        ({"task": "planar", "target": [1.0, 0, 0]}, InputError, r"task 'planar' takes \(2,\) or \(N, 2\)"),
     ],
 )
 def test_errors(unit3, options, error, message):
     with pytest.raises(error, match=message):
-        self_motion(unit3, **{"pose": at(1.5), **options})
+        self_motion(unit3, **{"target": at(1.5), **options})

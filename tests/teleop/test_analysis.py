@@ -1,6 +1,7 @@
 """The analysis from a table of trials to a report."""
 
 import re
+import sys
 from xml.etree import ElementTree
 
 import numpy as np
@@ -8,7 +9,7 @@ import pandas as pd
 import pytest
 
 import holdfast as hf
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.teleop.analysis import analyse
 from holdfast.teleop.analysis.groups import in_groups
 from holdfast.teleop.analysis.motions import ring
@@ -437,3 +438,9 @@ def test_ring_is_what_random_configurations_reach(rng, locked):
 
 def test_only_planar_arms_have_a_ring():
     assert ring(hf.arms.load("pa10-7dof"), np.zeros(7)) is None
+
+
+def test_without_statsmodels_it_is_said_what_to_install(table, monkeypatch):
+    monkeypatch.setattr(sys.modules["holdfast.teleop.analysis.analyse"], "find_spec", lambda name: None)
+    with pytest.raises(HoldfastError, match=r"pip install 'holdfast\[stats\]'"):
+        analyse(table)

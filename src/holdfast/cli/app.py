@@ -17,10 +17,14 @@ from holdfast.cli import (
     follow_commands,
     index_commands,
     recover_commands,
+    self_motion_commands,
     simulate_commands,
+    stationary_commands,
     susceptibility_commands,
     swing_commands,
     teleop_commands,
+    trade_off_commands,
+    workspace_commands,
 )
 from holdfast.errors import HoldfastError
 
@@ -63,6 +67,10 @@ swing_commands.add(app)
 simulate_commands.add(app)
 recover_commands.add(app)
 compare_commands.add(app)
+self_motion_commands.add(app)
+workspace_commands.add(app)
+stationary_commands.add(app)
+trade_off_commands.add(app)
 teleop_commands.add(app)
 export_commands.add(app)
 

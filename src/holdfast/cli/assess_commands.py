@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -32,6 +31,7 @@ from holdfast.cli.options import (
     read_failures,
     read_task,
 )
+from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ def assess(
             found = structure(c.arm, measure.task)
             if not found.survives:
                 typer.echo(explain(c.arm, found, structures(c.arm)), err=True)
-        with _progress(json_, c.name if several else "poses") as progress:
+        with progress_bar(json_, c.name if several else "poses") as progress:
             result = run(
                 c.arm,
                 chosen,
@@ -261,32 +261,6 @@ def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
     if known is not None:
         return known
     return Region.around(arm, arms.about(spec).home if spec in arms.names() else None)
-
-
-class _progress:
-    """A bar on stderr while a person looks, nothing otherwise."""
-
-    def __init__(self, quiet: bool, label: str) -> None:
-        self._label = label
-        self._quiet = quiet or not sys.stderr.isatty()
-        self._bar: Any = None
-
-    def __enter__(self) -> Any:
-        if self._quiet:
-            return None
-        from rich.console import Console
-        from rich.progress import Progress, TimeRemainingColumn
-
-        self._bar = Progress(
-            *Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True
-        )
-        self._bar.start()
-        job = self._bar.add_task(self._label, total=None)
-        return lambda done, total: self._bar.update(job, completed=done, total=total)
-
-    def __exit__(self, *_: object) -> None:
-        if self._bar is not None:
-            self._bar.stop()
 
 
 def add(app: typer.Typer) -> None:

@@ -23,9 +23,9 @@ from holdfast.cli.options import (
     read_configuration,
     read_joint,
     read_numbers,
+    read_target,
     read_task,
 )
-from holdfast.cli.simulate_commands import read_target
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def compare(
     elif motions is not None or distance is not None or reachable_after:
         raise InputError("--motions, --distance and --reachable-after are about random motions; leave out --start and --target")
     else:
-        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0], target)
+        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0].task, target)
         about = f"one motion of '{model.name}'"
     result = compare_laws(laws, q0, goal, locked, cycles, time_limit=time_limit, seed=seed)
     files = []

@@ -14,6 +14,14 @@ if TYPE_CHECKING:
     from holdfast.arm.task import Task
     from holdfast.control import Law
 
+TargetOption = Annotated[
+    str,
+    typer.Option(
+        "--target",
+        help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
+        show_default=False,
+    ),
+]
 LawOption = Annotated[str, typer.Option("--law", help="pseudoinverse, weighted, damped or failure-tolerant.")]
 WeightsOption = Annotated[
     str | None, typer.Option("--weights", help="weighted: one number above 0 per joint, as 1,2,3.", show_default=False)

@@ -300,6 +300,27 @@ def read_pose(option: str, text: str) -> NDArray[np.float64]:
     return pose
 
 
+def read_target(task: Task, text: str) -> NDArray[np.float64]:
+    """--target as the library takes it: the task's rows of the tool point, or position and quaternion as a pose (4, 4)."""
+    values = read_numbers("--target", text, "numbers")
+    if values.size == 7:
+        from scipy.spatial.transform import Rotation
+
+        if not (np.isfinite(values).all() and np.linalg.norm(values[3:]) > 1e-9):
+            raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
+        pose = np.eye(4)
+        pose[:3, 3], pose[:3, :3] = values[:3], Rotation.from_quat(values[3:]).as_matrix()
+        return pose
+    if task.angular or task.frame != "base":
+        raise InputError(
+            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "
+            "x,y,z,w"
+        )
+    if values.size != task.m:
+        raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
+    return values
+
+
 def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:
     """Names of the joints of which q (n,) is beyond a limit."""
     return [j.name for j, x in zip(arm.joints, q, strict=True) if not j.lower <= x <= j.upper]

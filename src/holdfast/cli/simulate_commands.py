@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.law_options import (
+    DampingOption,
+    LawOption,
+    PreFailureOption,
+    TargetOption,
+    WeightsOption,
+    read_law,
+)
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -24,15 +31,16 @@ from holdfast.cli.options import (
     read_configuration,
     read_joint,
     read_numbers,
+    read_target,
     read_task,
 )
+from holdfast.cli.physics_output import physics_data, print_physics, run_physics
 from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
-    from holdfast.control import Law
     from holdfast.simulate import Path as MotionPath
-    from holdfast.simulate import Runs
+    from holdfast.simulate import PhysicalRun, Runs
 
 
 def simulate(
@@ -40,14 +48,7 @@ def simulate(
     start: Annotated[
         str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
     ],
-    target: Annotated[
-        str,
-        typer.Option(
-            "--target",
-            help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
-            show_default=False,
-        ),
-    ],
+    target: TargetOption,
     lock: Annotated[
         list[str] | None,
         typer.Option(
@@ -71,6 +72,10 @@ def simulate(
         float | None,
         typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles"),
     ] = None,
+    physics: Annotated[
+        bool, typer.Option("--physics", help="Also in MuJoCo, with bodies and joint servos (needs the extra 'physics').")
+    ] = False,
+    servo_bandwidth: Annotated[float, typer.Option("--servo-bandwidth", help="physics: of the joint servos, Hz.")] = 10.0,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -91,21 +96,18 @@ def simulate(
     model = read_arm(arm, base, tip)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
-    runs = run(
-        made,
-        read_configuration(model, start, degrees, "--start"),
-        read_target(made, target),
-        [_lock(model, text) for text in lock or []],
-        cycles,
-        time_limit=time_limit,
-    )
+    goal, locks = read_target(made.task, target), [_lock(model, text) for text in lock or []]
+    runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
+    physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None
     files: list[Path] = []
     if csv is not None or plot is not None or out is not None:
-        files = _files(runs, csv, plot, out)
+        files = _files(runs, csv, plot, out, physical)
     if json_:
-        print_json(_data(runs))
+        print_json(_data(runs) | ({} if physical is None else {"physics": physics_data(physical)}))
     else:
         _print(runs, files)
+        if physical is not None:
+            print_physics(physical)
 
 
 def _lock(arm: Arm, text: str) -> tuple[int, float]:
@@ -120,28 +122,6 @@ def _one(option: str, text: str) -> float:
     if values.size != 1:
         raise InputError(f"{option} has {values.size} numbers after @; give one time")
     return float(values[0])
-
-
-def read_target(law: Law, text: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """``--target`` as the library takes it: the task's rows (m,), or a pose (4, 4)."""
-    values = read_numbers("--target", text, "numbers")
-    task = law.task
-    if values.size == 7:
-        from scipy.spatial.transform import Rotation
-
-        if not (np.isfinite(values).all() and np.linalg.norm(values[3:]) > 1e-9):
-            raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
-        pose = np.eye(4)
-        pose[:3, 3], pose[:3, :3] = values[:3], Rotation.from_quat(values[3:]).as_matrix()
-        return pose
-    if task.angular or task.frame != "base":
-        raise InputError(
-            f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "
-            "x,y,z,w"
-        )
-    if values.size != task.m:
-        raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
-    return values
 
 
 def _data(runs: Runs) -> dict[str, Any]:
@@ -208,13 +188,13 @@ def _print(runs: Runs, files: list[Path]) -> None:
         out.print(f"written: {escape(str(file))}", soft_wrap=True)
 
 
-def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) -> list[Path]:
+def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None, physical: PhysicalRun | None) -> list[Path]:
     from holdfast.report.figures import save_png
     from holdfast.simulate.run_report import RunReport
 
     report = RunReport(runs)
     files = []
-    tables, pictures = [csv], [plot]
+    tables, pictures, overlays = [csv], [plot] if physical is None else [], [plot]
     if out is not None:
         try:
             out.mkdir(parents=True, exist_ok=True)
@@ -222,6 +202,7 @@ def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) ->
             raise StoreError(f"--out: folder '{out}' cannot be made: {error.strerror or error}; choose another") from error
         tables.append(out / "run.csv")
         pictures.append(out / "run.png")
+        overlays.append(out / "physics.png")
     for file in tables:
         if file is not None:
             _write(runs, report.path, file)
@@ -229,6 +210,8 @@ def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None) ->
     for file in pictures:
         if file is not None:
             files.append(save_png(report.figure(), file))
+    if physical is not None:
+        files += [save_png(physical.figure(), file) for file in overlays if file is not None]
     if out is not None:
         files.append(report.write(out / "report.html", f"holdfast {shlex.join(sys.argv[1:])}"))
     return files

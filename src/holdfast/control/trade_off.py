@@ -90,11 +90,12 @@ class TradeOff:
         """The two panels of :meth:`figure`, into axes that are there."""
         from holdfast.report import figures
 
+        named = figures.plain(f"{self.arm.name}, {self.task.name}", 30)
         panels = zip(
             (gain, price),
             ("gain", "healthy_error"),
             ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
-            ("What the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
+            (f"{named}: what the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
             strict=True,
         )
         for axes, of, ylabel, title in panels:

@@ -4,8 +4,11 @@ from holdfast.simulate.closed_loop import simulate
 from holdfast.simulate.compare_laws import Case, LawComparison, compare_laws
 from holdfast.simulate.free_swing import BrakedDrop, FreeSwing, free_swing
 from holdfast.simulate.healthy_cost import HealthyCost
+from holdfast.simulate.physical_loop import simulate_physics
+from holdfast.simulate.physical_run import PhysicalRun
 from holdfast.simulate.point_to_point import PointToPoint, point_to_point
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
+from holdfast.simulate.servos import Servos
 
 __all__ = [
     "BrakedDrop",
@@ -15,11 +18,14 @@ __all__ = [
     "LawComparison",
     "Outcome",
     "Path",
+    "PhysicalRun",
     "PointToPoint",
     "Reason",
     "Runs",
+    "Servos",
     "compare_laws",
     "free_swing",
     "point_to_point",
     "simulate",
+    "simulate_physics",
 ]

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations
 from holdfast.arm.poses import check_poses
+from holdfast.arm.targets import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
@@ -91,7 +92,7 @@ def simulate(
     Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
     """
     start, single = configurations(law.arm, q0)
-    poses, wanted = _target(law, target)
+    poses, wanted = target_poses(law.task, target)
     locks, shared = _locks(law, locked)
     counts = {"q0": len(start), "target": len(poses), "locked": len(locks)}
     rows = max(counts.values()) if min(counts.values()) else 0
@@ -128,24 +129,6 @@ def simulate(
 
 
 # ---- input -------------------------------------------------------------------------------------------------------
-
-
-def _target(law: Law, target: ArrayLike) -> tuple[Array, Array | None]:
-    """Targets as poses (M, 4, 4), and as the task's rows (M, m) where they were given so."""
-    task, given = law.task, np.asarray(target, dtype=np.float64)
-    if given.ndim in (2, 3) and given.shape[-2:] == (4, 4):
-        return check_poses(given), None
-    if task.angular or task.frame != "base":
-        raise InputError(f"the target has shape {given.shape}; task '{task.name}' needs tool poses, (4, 4) or (N, 4, 4) arrays")
-    if given.ndim not in (1, 2) or given.shape[-1] != task.m:
-        raise InputError(
-            f"the target has shape {given.shape}; task '{task.name}' takes ({task.m},) or (N, {task.m}), the wanted tool "
-            "point in m, or tool poses (4, 4)"
-        )
-    rows = np.atleast_2d(given)
-    poses = np.tile(np.eye(4), (len(rows), 1, 1))
-    poses[:, :3, 3] = rows @ task.rows[:, :3]
-    return poses, rows
 
 
 def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
@@ -345,7 +328,7 @@ class Motion:
 
     def _poses(self, runs: Runs) -> Array:
         target = runs.target
-        return check_poses(target) if target.shape[-2:] == (4, 4) else _target(self.law, target)[0]
+        return check_poses(target) if target.shape[-2:] == (4, 4) else target_poses(self.law.task, target)[0]
 
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path:
         """See :meth:`Runs.path`."""

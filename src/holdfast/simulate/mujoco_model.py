@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from types import ModuleType
 from typing import Any
 
@@ -22,11 +23,24 @@ LEAST_MOMENT = 1e-12  # kg m^2
 
 
 def mujoco_model(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
-    """The arm as an ``mujoco.MjModel`` in which the joints ``free`` move and all others are welded at ``q``.
+    """The arm as an ``mujoco.MjModel``; see :func:`mujoco_spec`, which has the same arguments and raises the same."""
+    return compiled(mujoco_spec(arm, q, free, stops, step), arm, free)
 
-    The model's ``qpos`` counts from ``q``: it is 0 there, in rad or m. Body k + 1 is the moving frame of joint k, the site
-    ``tool`` is the tool, the world is the arm's. The payload is part of the last body. MuJoCo wants principal moments above
-    0: those of rods and points are lifted to 1e-9 of the body's largest and at least 1e-12 kg m^2.
+
+def compiled(spec: Any, arm: Arm, free: Sequence[int]) -> Any:
+    """The model of a spec of :func:`mujoco_spec`, with the joints' friction."""
+    model = spec.compile()
+    # In the compiled model, because a spec takes it as one number or as three, by the version of MuJoCo.
+    model.dof_damping[:] = [arm.joints[k].friction for k in sorted(free)]
+    return model
+
+
+def mujoco_spec(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, step: float = 1e-3) -> Any:
+    """The arm as an ``mujoco.MjSpec`` in which the joints ``free`` move and all others are welded at ``q``.
+
+    The model's ``qpos`` counts from ``q``: it is 0 there, in rad or m. Body k + 1 is the moving frame of joint k, joints have
+    the arm's names, the site ``tool`` is the tool, the world is the arm's. The payload is part of the last body. MuJoCo wants
+    principal moments above 0: those of rods and points are lifted to 1e-9 of the body's largest and at least 1e-12 kg m^2.
 
     Args:
         arm: Every link known; a link may be massless as long as those behind it are not.
@@ -57,17 +71,14 @@ def mujoco_model(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, s
             _add_joint(mujoco, body, joint, float(q[k]), stops, step)
         frame = np.eye(4)
     body.add_site(name="tool", pos=arm.tool[:3, 3], quat=_quaternion(mujoco, arm.tool[:3, :3]))
-    model = spec.compile()
-    # In the compiled model, because a spec takes it as one number or as three, by the version of MuJoCo.
-    model.dof_damping[:] = [arm.joints[k].friction for k in sorted(free)]
-    return model
+    return spec
 
 
 def _require_mass(arm: Arm, free: Sequence[int]) -> None:
     """What moves with a free joint up to the next one must weigh something."""
     mass = [0.0 if link is None else link.mass for link in arm.links]
     mass[-1] += 0.0 if arm.payload is None else arm.payload.mass
-    for k, after in zip(free, [*free[1:], arm.n], strict=True):
+    for k, after in pairwise([*free, arm.n]):
         if sum(mass[k:after]) <= 0:
             raise ArmError(
                 f"arm '{arm.name}', joint '{arm.joint_names[k]}': nothing that it carries has mass, so gravity has nothing to "
@@ -104,7 +115,7 @@ def _fill(mujoco: ModuleType, body: Any, link: Link) -> None:
 
 def _add_joint(mujoco: ModuleType, body: Any, joint: Joint, at: float, stops: bool, step: float) -> None:
     kind = mujoco.mjtJoint.mjJNT_SLIDE if joint.prismatic else mujoco.mjtJoint.mjJNT_HINGE
-    made = body.add_joint(type=kind, axis=joint.axis, armature=joint.armature)
+    made = body.add_joint(name=joint.name, type=kind, axis=joint.axis, armature=joint.armature)
     made.limited = mujoco.mjtLimited.mjLIMITED_FALSE
     if stops and (np.isfinite(joint.lower) or np.isfinite(joint.upper)):
         lower, upper = max(joint.lower - at, -FAR), min(joint.upper - at, FAR)

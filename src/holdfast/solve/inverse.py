@@ -150,6 +150,34 @@ class InverseKinematics:
         step, residual = damped_step(self.arm, q, e, masked)
         return Loop("inverse kinematics with locked joints", q, [p, r, free], step, residual)
 
+    def solve_locked(
+        self,
+        poses: Array,
+        locked: NDArray[np.int64],
+        angles: Array,
+        seed: np.random.SeedSequence,
+        restarts: int,
+        tolerance: float,
+    ) -> Reach:
+        """As :meth:`solve` with joint ``locked[i]`` of row i standing at ``angles[i]``; joint values are not wrapped."""
+        rows = np.arange(len(poses))
+        free = np.ones((len(poses), self.arm.n))
+        free[rows, locked] = 0.0
+        parameters = np.concatenate([_parameters(poses), free], axis=1)
+        finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles)
+
+        def stand(start: Array, chosen: NDArray[np.int64]) -> Array:
+            start[np.arange(chosen.size), locked[chosen]] = angles[chosen]
+            return start
+
+        found = self._search(self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, stand)
+        stood = found.q[rows, locked] == angles
+        position_error, rotation_error = self.errors(found.q, poses)
+        reached = self.verdict(found.q, poses, tolerance) & stood
+        status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
+        status[~finite] = Status.BAD_INPUT
+        return Reach(found.q, status, position_error, rotation_error, found.restarts)
+
     def reaches_locked(
         self,
         poses: Array,
@@ -163,18 +191,7 @@ class InverseKinematics:
 
         False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
         """
-        rows = np.arange(len(poses))
-        free = np.ones((len(poses), self.arm.n))
-        free[rows, locked] = 0.0
-        parameters = np.concatenate([_parameters(poses), free], axis=1)
-
-        def stand(start: Array, chosen: NDArray[np.int64]) -> Array:
-            start[np.arange(chosen.size), locked[chosen]] = angles[chosen]
-            return start
-
-        found = self._search(self._loop_with_locks, parameters, rows, seed, restarts, tolerance, stand)
-        stood = found.q[rows, locked] == angles
-        return np.asarray(self.verdict(found.q, poses, tolerance) & stood)
+        return self.solve_locked(poses, locked, angles, seed, restarts, tolerance).success
 
     def _search(
         self,

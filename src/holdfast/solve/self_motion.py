@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
+from holdfast.arm.targets import target_pose
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel
@@ -93,21 +94,35 @@ class SelfMotion:
 
 def self_motion(
     arm: Arm,
-    pose: ArrayLike,
+    target: ArrayLike,
     task: str | Task | Sequence[str] = "pose",
     spacing: float = 0.05,
     seed: int = 0,
     starts: int = STARTS,
 ) -> SelfMotion:
-    """All configurations of a pose that were found, within the joint limits; see :func:`fibres`.
+    """All configurations of a target that were found, within the joint limits; :func:`fibres` takes many poses.
+
+    Args:
+        arm: The arm.
+        target: (m,) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task, (4, 4), a
+            tool pose in the world.
+        task: Rows of the pose that matter.
+        spacing: Distance of neighbouring points in joint space, rad (a sliding joint counts 1 m as 1 rad).
+        seed: Of the starts.
+        starts: Random starts of inverse kinematics: more find shorter curves.
+
+    Returns:
+        A :class:`holdfast.solve.SelfMotion`: with one degree of redundancy its curves, closed or ended by a joint limit,
+        with more a sample.
 
     Raises:
-        InputError: Not one 4x4 transform, or options out of range.
+        InputError: A target of another shape or with NaN, or options out of range.
         TaskError: The arm has no redundancy for the task.
+
+    Source: Goel et al. 2005.
     """
-    if np.ndim(pose) != 2:
-        raise InputError(f"pose has shape {np.shape(pose)}; self_motion takes one (4, 4) pose, fibres takes many")
-    return fibres(arm, pose, task, spacing, seed, starts)[0]
+    rows = as_task(arm, task)
+    return fibres(arm, target_pose(rows, target), rows, spacing, seed, starts)[0]
 
 
 def fibres(

@@ -5,13 +5,14 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 7.
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from itertools import combinations
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError
+from holdfast.errors import HoldfastError, InputError
 from holdfast.teleop.analysis import sufficient, tables
 from holdfast.teleop.analysis.anova import anova, empty_cells
 from holdfast.teleop.analysis.correlations import Correlation, correlation
@@ -73,10 +74,15 @@ def analyse(
 
     Raises:
         InputError: A table that cannot be analysed, an option that there is not, or empty cells; the message names them.
+        HoldfastError: statsmodels is not installed.
 
     Source: Goel et al. 2003, section 7. Holm's correction, sphericity corrections, effect sizes, power and the mixed model are
     additions.
     """
+    if find_spec("statsmodels") is None:
+        raise HoldfastError(
+            "statsmodels is needed here and is not installed; install holdfast[stats] (pip install 'holdfast[stats]')"
+        )
     for name, value, known in (
         ("missing", missing, ("refuse", "complete", "mixed")),
         ("difficulty", difficulty, ("operators", "computer")),

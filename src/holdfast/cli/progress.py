@@ -1,0 +1,32 @@
+"""A progress bar for commands that take long."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+
+class progress_bar:
+    """A bar on stderr while a person looks, nothing otherwise."""
+
+    def __init__(self, quiet: bool, label: str) -> None:
+        self._label = label
+        self._quiet = quiet or not sys.stderr.isatty()
+        self._bar: Any = None
+
+    def __enter__(self) -> Any:
+        if self._quiet:
+            return None
+        from rich.console import Console
+        from rich.progress import Progress, TimeRemainingColumn
+
+        self._bar = Progress(
+            *Progress.get_default_columns()[:-1], TimeRemainingColumn(), console=Console(stderr=True), transient=True
+        )
+        self._bar.start()
+        job = self._bar.add_task(self._label, total=None)
+        return lambda done, total: self._bar.update(job, completed=done, total=total)
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.stop()

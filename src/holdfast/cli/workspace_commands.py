@@ -1,0 +1,223 @@
+"""``holdfast workspace``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    JsonOption,
+    TaskOption,
+    TipOption,
+    console,
+    number,
+    print_json,
+    read_arm,
+    read_target,
+    read_task,
+)
+from holdfast.cli.progress import progress_bar
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.control import Law
+    from holdfast.converge import Workspace
+
+
+def workspace(
+    arm: ArmArgument,
+    target: Annotated[
+        str,
+        typer.Option(
+            "--target",
+            help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w. "
+            "With --map also a number of random places (random:200) or a lattice (grid:30).",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for figures, table and summary.", show_default=False)
+    ] = None,
+    starts: Annotated[
+        str | None,
+        typer.Option(
+            "--starts",
+            help="grid:52, a lattice over the workspace of a planar arm, or a number of random places.",
+            show_default="grid:52, or 1000",
+        ),
+    ] = None,
+    configurations: Annotated[
+        int | None,
+        typer.Option("--configurations", help="Of each start, on each curve of its self-motion.", show_default="36, or 20"),
+    ] = None,
+    points: Annotated[int, typer.Option("--points", help="Failures of each joint on each motion; 0: ranges only.")] = 10,
+    procedure: Annotated[
+        bool, typer.Option("--procedure/--brute", help="Simulate only failures where there is a sink, or all.")
+    ] = False,
+    whole: Annotated[
+        bool, typer.Option("--whole/--inside", help="F of the whole way, or of its part within the joints' ranges.")
+    ] = False,
+    map_: Annotated[
+        bool, typer.Option("--map", help="How motions end, by sampling; so it is for every arm that does not move in a plane.")
+    ] = False,
+    over: Annotated[str, typer.Option("--over", help="With --map: over the starts or over the targets.")] = "starts",
+    laws: Annotated[
+        str | None,
+        typer.Option(
+            "--laws",
+            help="With --map: several laws on the same failures, as 'pseudoinverse; damped:0.05; failure-tolerant:0.2'.",
+            show_default=False,
+        ),
+    ] = None,
+    law: LawOption = "pseudoinverse",
+    task: TaskOption = None,
+    weights: WeightsOption = None,
+    damping: DampingOption = None,
+    pre_failure_error: PreFailureOption = None,
+    time_limit: Annotated[
+        float | None, typer.Option("--time-limit", help="s.", show_default="2000 s; with --map 500 s")
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """From where does the hand still come to a target when a joint locks on the way and nobody knows?
+
+    For a planar arm the measures of Goel et al. 2005 over a lattice of starts; for other arms, and with --map, how motions
+    end, by sampling. A stopped analysis of a planar arm goes on where it was if --out is the same.
+
+    Example: holdfast workspace planar-3r --target 1.5,1.5 --procedure --out results
+
+    Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 1000 --out results
+    """
+    model = read_arm(arm, base, tip)
+    wanted = read_task(task, arm, model)
+    made = [
+        read_law(name, model, wanted, w, d, p)
+        for name, w, d, p in (_laws(laws) if laws is not None else [(law, weights, damping, pre_failure_error)])
+    ]
+    flat = made[0].task.m == 2 and not made[0].task.angular
+    if not map_ and flat and laws is None:
+        options: dict[str, Any] = {
+            "starts": _places(starts or "grid:52"),
+            "configurations": 36 if configurations is None else configurations,
+            "points": points,
+            "method": "procedure" if procedure else "brute",
+            "relative_to": "whole" if whole else "inside",
+            "time_limit": time_limit,
+            "seed": seed,
+        }
+        _measures(made[0], target, options, out, json_)
+        return
+    if procedure or whole or points != 10:
+        raise InputError("--procedure, --whole and --points belong to the measures of a planar arm; leave them out, or --map")
+    options = {
+        "targets": _places(target) if target.startswith(("grid", "random:")) else read_target(made[0].task, target),
+        "starts": _places(starts or "1000"),
+        "configurations": 20 if configurations is None else configurations,
+        "over": over,
+        "time_limit": time_limit,
+        "seed": seed,
+    }
+    _map(made, options, out, json_)
+
+
+def _places(text: str) -> str | int:
+    text = text.removeprefix("random:")
+    return int(text) if text.isdecimal() else text
+
+
+def _laws(text: str) -> list[tuple[str, str | None, float | None, float | None]]:
+    """Laws with their one number: name, weights, damping, pre-failure error."""
+    found: list[tuple[str, str | None, float | None, float | None]] = []
+    for part in (x.strip() for x in text.split(";") if x.strip()):
+        name, _, value = part.partition(":")
+        if value and name not in ("weighted", "damped", "failure-tolerant"):
+            raise InputError(f"--laws: '{part}': {name} takes no number; write it without")
+        try:
+            figure = float(value) if value and name != "weighted" else None
+        except ValueError as error:
+            raise InputError(f"--laws: '{value}' in '{part}' is not a number") from error
+        found.append(
+            (
+                name,
+                value if name == "weighted" and value else None,
+                figure if name == "damped" else None,
+                figure if name == "failure-tolerant" else None,
+            )
+        )
+    return found
+
+
+def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, json_: bool) -> None:
+    from holdfast.converge import workspace as run
+    from holdfast.converge.workspace_output import save, summary
+
+    goal = read_target(law.task, target)
+    with progress_bar(json_, "starts") as progress:
+        w = run(law, goal, store=None if out is None else out / "run", progress=progress, **options)
+    files = [] if out is None else save(w, out)
+    if json_:
+        print_json(summary(w))
+    else:
+        _print(w, files)
+
+
+def _print(w: Workspace, files: list[Path]) -> None:
+    import numpy as np
+    from rich.markup import escape
+    from rich.table import Table
+
+    show = console()
+    for line in w.describe():
+        show.print(escape(line), soft_wrap=True)
+    table = Table("joint", "target in reach with it at", box=None, pad_edge=False)
+    for joint, arcs in zip(w.law.arm.joints, w.bounds, strict=True):
+        factor, unit = (1.0, "m") if joint.prismatic else (180 / np.pi, "deg")
+        told = ", ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
+        table.add_row(escape(joint.name), told or "no value")
+    show.print(table)
+    means = Table("mean over the starts, percent", *w.columns, box=None, pad_edge=False)
+    for name, values in w.means().items():
+        means.add_row(name, *[number(x) for x in values])
+    show.print(means)
+    for file in files:
+        show.print(f"written: {escape(str(file))}", soft_wrap=True)
+
+
+def _map(laws: list[Law], options: dict[str, Any], out: Path | None, json_: bool) -> None:
+    from rich.markup import escape
+
+    from holdfast.converge import best_law, convergence_map
+    from holdfast.converge.map_output import save, summary
+
+    several = len(laws) > 1
+    with progress_bar(json_, "runs") as progress:
+        if several:
+            choice = best_law(laws, progress=progress, **options)
+            maps, told = list(choice.maps), choice.describe()
+        else:
+            maps = [convergence_map(laws[0], progress=progress, **options)]
+            told = maps[0].describe()
+    files: list[Path] = []
+    if out is not None:
+        for k, one in enumerate(maps):
+            files += save(one, out / f"{k + 1}-{one.law.slug}" if several else out)
+    if json_:
+        best = {"best": choice.best, "laws": list(choice.names)} if several else {}
+        print_json({**best, "maps": [summary(one) for one in maps]} if several else summary(maps[0]))
+        return
+    show = console()
+    for line in [*told, *(f"written: {file}" for file in files)]:
+        show.print(escape(line), soft_wrap=True)
+
+
+def add(app: typer.Typer) -> None:
+    """Register the command."""
+    app.command()(workspace)

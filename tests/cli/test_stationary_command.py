@@ -1,0 +1,59 @@
+"""``holdfast stationary`` and ``holdfast basins``."""
+
+from __future__ import annotations
+
+import matplotlib.image
+import numpy as np
+import pytest
+
+POINTS = ["stationary", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
+CURVES = ["stationary", "planar-3r", "--target", "1.5,1.5", "--lock", "2"]
+BASINS = ["basins", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
+
+
+def test_rest_points(cli, ask):
+    data = ask(*POINTS)
+    assert [p["kind"] for p in data["points"]] == ["sink", "saddle", "saddle", "source"]
+    assert data["points"][0]["error"] == pytest.approx(0.6456, abs=1e-4)
+    assert data["points"][0]["q"]["joint1"] == pytest.approx(np.deg2rad(-10.5639), abs=1e-5)
+    code, out, err = cli(*POINTS)
+    assert (code, err) == (0, "")
+    assert "sink" in out
+    assert "-10.5639" in out
+    assert "140.0000 deg" in out
+
+
+def test_curves_are_printed_and_drawn(cli, ask, tmp_path):
+    figure = tmp_path / "curves.png"
+    code, out, err = cli(*CURVES, "--plot", figure)
+    assert (code, err) == (0, "")
+    assert "gets stuck with joint2 at 111.797 to 248.203 deg" in out
+    assert matplotlib.image.imread(figure).shape[1] > 600
+    data = ask(*CURVES)
+    np.testing.assert_allclose(np.rad2deg(data["sink_arcs"]), [[111.797, 248.203]], atol=1e-3)
+
+
+def test_basins_are_printed_and_drawn(cli, ask, tmp_path):
+    for options in (["--starts", "50"], ["--grid", "12"]):
+        figure = tmp_path / f"{options[0]}.png"
+        code, out, err = cli(*BASINS, *options, "--plot", figure)
+        assert (code, err) == (0, "")
+        assert "sink 1" in out
+        assert matplotlib.image.imread(figure).shape[1] > 600
+    data = ask(*BASINS, "--starts", "50")
+    assert data["shares"][0]["share"] == 1
+    assert data["converged"]["high"] < 0.1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([*POINTS, "--plot", "x.png"], "--plot draws curves"),
+        ([*POINTS, "--lock", "1"], "--at has 1 numbers; give one for each of the 2"),
+        ([*CURVES, "--lock", "1"], "curves over the locked value are those of one"),
+        ([*BASINS, "--grid", "1"], "2 or more cells"),
+        (["stationary", "planar-3r", "--target", "1", "--lock", "2"], "--target has 1 numbers"),
+    ],
+)
+def test_wrong_input_is_one_sentence(refused, arguments, words):
+    assert words in refused(*arguments)

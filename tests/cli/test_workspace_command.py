@@ -1,0 +1,52 @@
+"""``holdfast workspace``: what it prints and writes."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+FEW = ["--starts", "grid:5", "--configurations", "4", "--points", "2"]
+
+
+def test_measures_of_a_planar_arm(cli, tmp_path):
+    code, out, err = cli("workspace", "planar-3r", "--target", "1.5,1.5", *FEW, "--out", tmp_path)
+    assert (code, err) == (0, "")
+    assert "-24.30 to 114.30 deg" in out
+    assert "Rsens" in out
+    assert "undecided at the time limit" in out
+    assert {"workspace.csv", "workspace.json", "reach.png", "finish.png", "run"} == {p.name for p in tmp_path.iterdir()}
+    data = json.loads((tmp_path / "workspace.json").read_text())
+    assert data["method"] == "brute"
+    assert data["starts"] == 13
+    assert np.rad2deg(data["bounds_rad"]["joint2"][0]) == pytest.approx([-111.797, 111.797], abs=1e-3)
+
+
+def test_maps_and_several_laws(cli, ask, tmp_path):
+    few = ["--starts", "4", "--configurations", "2", "--time-limit", "60"]
+    both = ask("workspace", "planar-3r", "--target", "1,1", *few, "--laws", "pseudoinverse; damped:0.1")
+    assert len(both["maps"]) == 2
+    assert both["best"] in both["laws"]
+    assert both["maps"][0]["places"] == 4
+    flat = ["workspace", "planar-3r", "--map", "--over", "targets", "--target", "grid:5", *few]
+    code, out, _ = cli(*flat, "--out", tmp_path)
+    assert code == 0
+    assert "13 targets" in out
+    assert {"map.csv", "map.json", "outcomes.png", "map.png"} == {p.name for p in tmp_path.iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (["--target", "1,2,3"], "needs 2, in m"),
+        (["--target", "1.5,1.5", "--map", "--procedure"], "--procedure"),
+        (["--target", "1.5,1.5", "--laws", "damped:x"], "not a number"),
+        (["--target", "1.5,1.5", "--laws", "pseudoinverse:2"], "takes no number"),
+        (["--target", "9,9"], "within its reach"),
+    ],
+)
+def test_bad_input(cli, more, message):
+    code, _, err = cli("workspace", "planar-3r", *more)
+    assert code == 2
+    assert message in err
