@@ -20,6 +20,7 @@ WORKLOADS = (
     "w6_control_step",
     "w8_closed_loop",
     "w9_failure_tolerant",
+    "w10_teleop",
     "spectral",
     "start_up",
     "memory",

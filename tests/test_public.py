@@ -30,6 +30,8 @@ MODULES = [
     "holdfast.simulate",
     "holdfast.solve",
     "holdfast.study",
+    "holdfast.teleop",
+    "holdfast.teleop.analysis",
 ]
 
 
@@ -95,9 +97,12 @@ def test_one_family_of_errors():
         assert issubclass(k, RuntimeError)
 
 
-def test_importing_is_light():
-    heavy = "{'matplotlib', 'xarray', 'zarr', 'jinja2', 'rich', 'typer', 'pinocchio', 'mujoco'}"
-    code = f"import sys, holdfast; print(sorted({heavy} & set(sys.modules)))"
+HEAVY = {"matplotlib", "xarray", "zarr", "jinja2", "rich", "typer", "pinocchio", "mujoco", "pandas", "statsmodels"}
+
+
+@pytest.mark.parametrize(("module", "heavy"), [("holdfast", HEAVY | {"pydantic"}), ("holdfast.teleop", HEAVY)])
+def test_importing_is_light(module, heavy):
+    code = f"import sys, {module}; print(sorted({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True)
     assert (done.stdout.strip(), done.stderr) == ("[]", "")
 

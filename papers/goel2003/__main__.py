@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from papers.goel2003 import laws
+from papers.goel2003 import experiment, laws
 from papers.part import write
 
 HERE = Path(__file__).parent
-PARTS = (laws,)
+PARTS = (laws, experiment)
 
 
 def main() -> None:

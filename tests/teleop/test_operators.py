@@ -40,7 +40,7 @@ def test_a_perfect_person_goes_straight(plant):
 
 def test_delay_is_in_seconds(plant):
     for cycles_per_second in (6.0, 60.0):
-        trials = run(plant, [Person(delay=0.5, lag=0, noise=0, bias=0)], cycles_per_second)
+        trials = run(plant, [Person(delay=0.5, lag=0, noise=0, bias=0, gives_up=5)], cycles_per_second)
         moves = np.flatnonzero(trials.velocity.any(axis=1))
         assert moves[0] == 0.5 * cycles_per_second
 

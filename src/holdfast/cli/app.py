@@ -22,6 +22,7 @@ from holdfast.cli import (
     stationary_commands,
     susceptibility_commands,
     swing_commands,
+    teleop_commands,
     trade_off_commands,
     workspace_commands,
 )
@@ -70,6 +71,7 @@ self_motion_commands.add(app)
 workspace_commands.add(app)
 stationary_commands.add(app)
 trade_off_commands.add(app)
+teleop_commands.add(app)
 export_commands.add(app)
 
 

@@ -86,10 +86,11 @@ Block = Text | Callout | Table | Picture | Code
 
 @dataclass(frozen=True)
 class Section:
-    """Blocks under a heading."""
+    """Blocks under a heading; a sheet begins a new page when it is printed."""
 
     title: str
     blocks: Sequence[Block]
+    sheet: bool = False
 
 
 @dataclass(frozen=True)

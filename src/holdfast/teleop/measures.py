@@ -70,7 +70,7 @@ def measures(trials: Trials) -> Array:
         trials: N recorded trials.
 
     Returns:
-        (N, 11); NaN in the rows of trials that did not arrive: their time, path and errors are cut off, not performed.
+        (N, 11). NaN in the rows of trials that did not arrive, as their time, path and errors are cut off, not performed.
 
     Source: reconstruction of the lost table of Goel et al. 2003.
     """

@@ -25,7 +25,7 @@ def williams(n: int) -> Indices:
         n: Number of tasks, 1 or more.
 
     Returns:
-        (n, n), or (2 n, n) for odd n above 1: task indices from 0, a row for each subject.
+        Task indices from 0, a row for each subject, (n, n), or (2 n, n) for odd n above 1.
 
     Raises:
         InputError: n below 1.

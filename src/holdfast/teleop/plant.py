@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.task import Task
 from holdfast.control.law import Law
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel
@@ -45,11 +46,7 @@ class Plant:
     """
 
     def __init__(self, law: Law, substeps: int = SUBSTEPS) -> None:
-        if law.task.angular or law.task.frame != "base":
-            raise TaskError(
-                f"a stick commands the tool point's velocity in the base frame; task '{law.task.name}' has other rows, "
-                "use planar or position"
-            )
+        check_rows(law.task)
         if substeps < 1:
             raise InputError(f"substeps is {substeps}; it must be 1 or more")
         self.law, self.substeps = law, substeps
@@ -91,6 +88,19 @@ class Plant:
         """(N, m) the task's rows of the tool point, m, of configurations (N, n)."""
         points = self.law.arm.forward_kinematics(np.atleast_2d(q))[:, :3, 3]
         return np.asarray(points @ self.law.task.rows[:, :3].T)
+
+
+def check_rows(task: Task) -> None:
+    """Refuse a task of which a stick cannot command the rows.
+
+    Raises:
+        TaskError: Angular rows, or rows in the tool's frame.
+    """
+    if task.angular or task.frame != "base":
+        raise TaskError(
+            f"a stick commands the tool point's velocity in the base frame; task '{task.name}' has other rows, "
+            "use planar or position"
+        )
 
 
 @lru_cache(maxsize=16)

@@ -172,7 +172,7 @@ class Protocol:
         return replace(self, tasks=tasks, notes=tuple(notes) if notes is not None else ("",) * len(tasks))
 
     def text(self) -> str:
-        """The protocol as the text of a YAML file that :func:`read` takes."""
+        """The protocol as the text of a YAML file that :func:`holdfast.teleop.protocol.read` takes."""
         data: dict[str, Any] = {
             "name": self.name,
             "arm": self.arm_spec,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,17 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, StoreError
+from holdfast.teleop.drive import Computer, Rules, drive
 from holdfast.teleop.measures import MEASURES, RECORDED, measures
 from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.records import Entry, Kind, Records, Subject, Who
 from holdfast.teleop.session import done
-from holdfast.teleop.tasks import run
+from holdfast.teleop.tasks import TaskBank
 from holdfast.teleop.trials import End, Trials
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from holdfast.arm.model import Arm
+    from holdfast.teleop.selection import Binning
+
 Array = NDArray[np.float64]
+
+_FARTHEST, _PATIENCE = 50.0, 2.5  # m
+_STILL = 2e-5  # of a cycle's way at full speed
 
 _COLUMNS = {
     "subject": ("", "code of the subject; no name"),
@@ -65,13 +72,37 @@ def trial_table(records: Records, kinds: Sequence[Kind] = (Kind.TRIAL,)) -> pd.D
 
 def computer_table(protocol: Protocol) -> pd.DataFrame:
     """The protocol's tasks under computer control, in every scenario: one row for each, as :func:`trial_table`."""
-    trials = run(protocol.arm, protocol.tasks, None, protocol.scenarios, protocol.stick, None, protocol.rows)
     facts = [
         {"subject": "computer", "kind": Who.COMPUTER.value, "number": -1, "row": -1, "position": 0, "task": t, "scenario": s}
         for s in range(len(protocol.scenarios))
         for t in range(len(protocol.tasks))
     ]
-    return _table(protocol, trials, facts)
+    return _table(protocol, computer_trials(protocol), facts)
+
+
+def computer_trials(protocol: Protocol) -> Trials:
+    """The protocol's tasks under computer control: scenario by scenario, in each all tasks.
+
+    A trial is over after a way of 50 m at full speed, or when the hand has stood still for 2.5 m of it: 1000 and 50 of the
+    paper's cycles.
+    """
+    tasks, scenarios, limit = protocol.tasks, protocol.scenarios, protocol.stick.limit
+    rules = Rules(
+        radius=protocol.radius,
+        cycle_limit=int(np.ceil(_FARTHEST / limit)),
+        still=_STILL * limit,
+        patience=int(np.ceil(_PATIENCE / limit)),
+    )
+    return drive(
+        protocol.plants,
+        np.repeat(np.arange(len(scenarios)), len(tasks)),
+        np.tile(tasks.q0, (len(scenarios), 1)),
+        np.tile(tasks.target, (len(scenarios), 1)),
+        np.concatenate([tasks.healthy(s.failed) for s in scenarios]),
+        Computer(),
+        protocol.stick,
+        rules,
+    )
 
 
 def _facts(subject: Subject, entry: Entry) -> dict[str, Any]:
@@ -108,6 +139,59 @@ def _table(protocol: Protocol, trials: Trials, facts: list[dict[str, Any]]) -> p
     return table[[c for c in _COLUMNS if c in table]]
 
 
+def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.DataFrame:
+    """One row for each task of a bank, with every measure and CPM in every scenario.
+
+    Args:
+        bank: N tasks as the computer did them.
+        arm: Whose tasks they are.
+        cells: Adds the cell of each task, from 0; -1 where a scenario was not completed.
+
+    Returns:
+        ``task`` (from 1), ``joint`` (that fails; empty for none), the start (joint names, rad and m), the target (``target_x``
+        and so on, m), then for each scenario its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where the hand
+        did not arrive.
+    """
+    import pandas as pd
+
+    tasks, names = bank.tasks, (*arm.joint_names, "")
+    columns: dict[str, Any] = {
+        "task": np.arange(len(bank)) + 1,
+        "joint": [names[j] for j in tasks.joint],
+        **dict(zip(arm.joint_names, tasks.q0.T, strict=True)),
+        **{f"target_{_axis(k, tasks.target.shape[1])}": column for k, column in enumerate(tasks.target.T)},
+    }
+    for s, scenario in enumerate(bank.scenarios):
+        columns[f"end_{scenario.number}"] = [End(e).name.lower() for e in bank.end[s]]
+        for measure, values in zip(MEASURES[:RECORDED], bank.measures[s].T, strict=True):
+            columns[f"{measure.name}_{scenario.number}"] = values
+        columns[f"cpm_{scenario.number}"] = bank.cpm[s]
+    if cells is not None:
+        columns["cell"] = cells.cell
+    return pd.DataFrame(columns)
+
+
+def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
+    """Where the hand was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
+
+    Returns:
+        From a subject's code (None means the computer), a task's and a scenario's number (from 1) it makes (K, m) tool points,
+        m, or None where no such trial was recorded.
+    """
+    protocol = records.protocol
+    by_computer = computer_trials(protocol)
+
+    def path(subject: str | None, task: int, scenario: int) -> Array | None:
+        if subject is None:
+            return by_computer.path((scenario - 1) * len(protocol.tasks) + task - 1)
+        for e in done(records.entries(subject, Kind.TRIAL)):
+            if (e.task, e.scenario) == (task - 1, scenario - 1):
+                return records.trials([e]).path(0)
+        return None
+
+    return path
+
+
 def cycle_table(records: Records) -> pd.DataFrame:
     """One row for each cycle of every trial, with one more for where the arm stood at the end."""
     import pandas as pd
@@ -139,14 +223,17 @@ def cycle_table(records: Records) -> pd.DataFrame:
 
 
 def _vectors(protocol: Protocol) -> dict[str, tuple[str, str]]:
-    axes = "xyz" if protocol.rows.m <= 3 else [str(k + 1) for k in range(protocol.rows.m)]
-    arm = protocol.arm
+    arm, m = protocol.arm, protocol.rows.m
     units = ["m" if p else "rad" for p in arm.prismatic]
     return {
-        **{f"v{axes[k]}": ("m/cycle", "commanded velocity") for k in range(protocol.rows.m)},
+        **{f"v{_axis(k, m)}": ("m/cycle", "commanded velocity") for k in range(m)},
         **{name: (unit, "joint when the cycle began") for name, unit in zip(arm.joint_names, units, strict=True)},
-        **{axes[k]: ("m", "tool point when the cycle began") for k in range(protocol.rows.m)},
+        **{_axis(k, m): ("m", "tool point when the cycle began") for k in range(m)},
     }
+
+
+def _axis(k: int, m: int) -> str:
+    return "xyz"[k] if m <= 3 else str(k + 1)
 
 
 def dictionary(protocol: Protocol) -> pd.DataFrame:

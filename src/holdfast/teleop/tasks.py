@@ -15,7 +15,7 @@ from holdfast.errors import InputError
 from holdfast.solve.inverse import InverseKinematics, solver
 from holdfast.teleop.drive import Computer, Operator, Rules, drive
 from holdfast.teleop.measures import RECORDED, cpm, measures
-from holdfast.teleop.plant import Plant
+from holdfast.teleop.plant import Plant, check_rows
 from holdfast.teleop.point_task import SCENARIOS, PointTasks, Scenario
 from holdfast.teleop.stick import Stick
 from holdfast.teleop.trials import End, Trials
@@ -55,10 +55,12 @@ def random_tasks(
 
     Raises:
         InputError: No tasks asked for, a distance that is not above 0, or one that the arm can hardly ever cover.
+        TaskError: Rows that a stick cannot command.
 
     Source: Goel et al. 2003, section 5: 1200 tasks, 2 m from start to target. The distribution is reconstructed.
     """
     rows = as_task(arm, task)
+    check_rows(rows)
     chosen = list(range(arm.n)) if joints is None else [arm.joint_index(j) for j in joints]
     if per_joint < 1 or not chosen:
         raise InputError(f"per_joint is {per_joint} for {len(chosen)} joints; it must be 1 or more, for at least one joint")
