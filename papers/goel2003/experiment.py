@@ -335,7 +335,7 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
     time, rated = healthy.loc["M1"], healthy.loc["M12"]
     gains = a.table("gains").set_index("difficulty").loc["all"]
     tasks, people, machine, same_side = (
-        int(gains[x]) for x in ("tasks", "operators_gain", "computer_gains", "same_direction")
+        int(str(gains[x])) for x in ("tasks", "operators_gain", "computer_gains", "same_direction")
     )
 
     def told(d: dict[str, tuple[float, float]]) -> str:
