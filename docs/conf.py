@@ -27,8 +27,9 @@ nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
     (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io)\..*"),
-    (r"py:.*", r"(Array|ArrayLike|Flags|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|MetricName|Formula|JointType|FailureSets)"),
+    (r"py:.*", r"(Array|ArrayLike|Flags|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
     (r"py:.*", r"(Callable|Figure|Axes|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|Store|optional|default.*)"),
+    (r"py:class", r"MetricName"),
     (r"py:.*", r"holdfast\.study\..*"),
     (r"py:class", r"holdfast\.interval\.Sums"),
     (r"py:class", r"Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -89,7 +90,10 @@ def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, 
         keys.append(Line2D([], [], color=INK, linewidth=1.4, label=f"95 % interval of {outcomes[0]}"))
         if level:
             keys.append(Line2D([], [], color=INK, linewidth=1.4, linestyle=(0, (2, 1)), label=level))
-        figure.legend(handles=keys, loc=f"outside {'upper' if caption else 'lower'} center", ncols=3, columnspacing=2.0)
+        place: Literal["outside upper center", "outside lower center"] = (
+            "outside upper center" if caption else "outside lower center"
+        )
+        figure.legend(handles=keys, loc=place, ncols=3, columnspacing=2.0)
         if caption:
             figure.supxlabel("\n".join(plain(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
         return finished(figure)
