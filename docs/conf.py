@@ -30,7 +30,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Array|ArrayLike|Flags|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
     (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),
     (r"py:.*", r"(optional|default.*)"),
-    (r"py:.*", r"(Indices|Arm|Missing|Paths|pd\.DataFrame|sqlite3\.Connection|Mapping\[str)"),
+    (r"py:.*", r"(Indices|Arm|Missing|Paths|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
     (r"py:.*", r"holdfast\.study\..*"),
     (r"py:class", r"holdfast\.interval\.Sums"),
     (r"py:class", r"Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again

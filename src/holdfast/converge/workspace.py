@@ -145,7 +145,7 @@ def workspace(
     where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in reach:
     R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens its
     greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
-    (:func:`holdfast.simulate`): F100, Favg and Fsens are the same of the share of that part from which the failed arm
+    (:func:`holdfast.simulate.simulate`): F100, Favg and Fsens are the same of the share of that part from which the failed arm
     arrives. *Any* joint: all joints must be inside, and the arm must arrive whichever fails.
 
     Near the very ends of a range the arm comes to the target ever more slowly. A failure that is undecided at the time limit
@@ -157,7 +157,7 @@ def workspace(
 
     Args:
         law: The control law.
-        target: (m,) position, or (4, 4) pose, as in :func:`holdfast.simulate`.
+        target: (m,) position, or (4, 4) pose, as in :func:`holdfast.simulate.simulate`.
         starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (planar arms; 2032
             places, as in the paper); a number of random places; or (P, m) positions or (P, 4, 4) poses.
         configurations: On each curve of the self-motion of a start; of each start, with more than one degree of redundancy.

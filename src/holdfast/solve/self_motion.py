@@ -100,7 +100,7 @@ def self_motion(
     seed: int = 0,
     starts: int = STARTS,
 ) -> SelfMotion:
-    """All configurations of a target that were found, within the joint limits; :func:`fibres` takes many poses.
+    """All configurations of a target that were found, within the joint limits; ``fibres`` takes many poses.
 
     Args:
         arm: The arm.
