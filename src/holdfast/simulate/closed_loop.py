@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.poses import check_poses
 from holdfast.control.law import Law
@@ -19,19 +20,20 @@ from holdfast.kernels import Kernel
 from holdfast.simulate.cycles import SUBSTEPS, Cycles
 from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System
 from holdfast.simulate.nearest import Nearest
-from holdfast.simulate.runge_kutta import CLASSIC, DORMAND_PRINCE, FIRST, LONGEST, REST_SPEED, Steps
+from holdfast.simulate.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
+from holdfast.simulate.tableaus import CLASSIC, DOP853
 
 Array = NDArray[np.float64]
 Method = Literal["adaptive", "rk4"]
-Locked = Sequence[str | int | tuple[str | int, float]] | NDArray[np.int64]
+Locked = Sequence[str | int | tuple[str | int, float]] | NDArray[np.int64] | Array
 
 ARRIVES = 1e-5  # m and rad: an error below it at rest is no error
 MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not coming to rest
 DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
 TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
 RADIUS = 0.1  # m
-TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-8, 1e-13
+TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
 MOST_STEPS = 100_000
 
 
@@ -74,7 +76,8 @@ def simulate(
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
         locked: Joints, by name or index from 0, that stand from the start in every run; ``(joint, time)`` locks at that time,
-            s or cycles. Or one joint for each run: (N,) indices, -1 for none.
+            s or cycles. Or for each run of its own, as an array: (N,) the index of one joint, -1 for none; or (N, n) the time
+            at which each joint locks, s or cycles, infinite for never.
         cycles: Discrete control cycles in place of continuous time.
         method: ``adaptive`` (Dormand-Prince 5(4)) or ``rk4`` (classic Runge-Kutta, fixed step).
         time_limit: s or cycles; 3000/Ke, or 1000 cycles, if not given.
@@ -111,8 +114,10 @@ def simulate(
             raise InputError(f"{what} is {value:g}; it must be a finite number above 0")
     if not TIGHTEST <= tolerance <= LOOSEST:
         raise InputError(f"tolerance is {tolerance:g}; it must be between {TIGHTEST:g} and {LOOSEST:g}, or rest cannot be told")
-    if first * law.gain > LONGEST:
-        raise InputError(f"step is {first:g} s; above {LONGEST:g}/Ke, {LONGEST / law.gain:g} s, the method is not stable")
+    if first * law.gain > CLASSIC.longest:
+        raise InputError(
+            f"step is {first:g} s; above {CLASSIC.longest:g}/Ke, {CLASSIC.longest / law.gain:g} s, the method is not stable"
+        )
     setting = Setting(float(limit), float(radius if cycles else tolerance), float(first))
     runs = _motion(law, "cycles" if cycles else method).run(
         np.broadcast_to(start, (rows, law.arm.n)),
@@ -152,8 +157,13 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
     """When each joint locks (M, n), infinite for never; and whether that is the same for all runs."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
+        if locked.ndim == 2:
+            return _lock_times(law, locked), False
         if locked.ndim != 1 or not np.issubdtype(locked.dtype, np.integer):
-            raise InputError(f"locked has shape {locked.shape}; an array holds one joint index for each run, (N,), -1 for none")
+            raise InputError(
+                f"locked has shape {locked.shape} and type {locked.dtype}; an array holds one joint index for each run, (N,) whole "
+                f"numbers, -1 for none, or lock times, (N, {arm.n})"
+            )
         wrong = np.flatnonzero((locked < -1) | (locked >= arm.n))
         if wrong.size:
             raise InputError(
@@ -175,6 +185,22 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
             raise InputError(f"locked names joint '{arm.joint_names[k]}' twice; a joint locks once")
         times[0, k] = time
     return times, True
+
+
+def _lock_times(law: Law, locked: NDArray[Any]) -> Array:
+    arm = law.arm
+    if locked.shape[1] != arm.n or not np.issubdtype(locked.dtype, np.number):
+        raise InputError(
+            f"locked has shape {locked.shape} and type {locked.dtype}; lock times are numbers (N, {arm.n}), one for each run and joint"
+        )
+    times = np.array(locked, dtype=np.float64)
+    wrong = np.argwhere(~(times >= 0))
+    if wrong.size:
+        k, joint = wrong[0]
+        raise InputError(
+            f"locked[{k}, {joint}] is {times[k, joint]:g}; a lock time is 0 or more, and infinite for a joint that never locks"
+        )
+    return times
 
 
 # ---- the motion --------------------------------------------------------------------------------------------------
@@ -205,16 +231,22 @@ class Motion:
         self.law, self.cycles, self.fixed = law, method == "cycles", method == "rk4"
         self._system = System(law)
         self._steps: Steps | Cycles = (
-            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DORMAND_PRINCE)
+            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DOP853)
         )
         s = self._system
         here = s.at(s.q)
         known = ca.vertcat(here.rates, here.hand, here.share, here.squared_error, here.slope)
-        self._at = Kernel("start of a motion", [s.q, *s.parameters], [known])
+        self._at = Kernel("start of a motion", [s.q, *s.given], [known])
 
     @cached_property
     def _nearest(self) -> Nearest:
         return Nearest(self._system)
+
+    @cached_property
+    def _hand(self) -> Kernel:
+        """What the task prescribes of the tool point."""
+        place = kinematics.chain(self.law.arm, self._system.q).position
+        return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ place])
 
     @cached_property
     def _single(self) -> Kernel:
@@ -224,24 +256,26 @@ class Motion:
 
     def run(self, q0: Array, poses: Array, lock_time: Array, setting: Setting, wanted: Array | None) -> Runs:
         """Runs from q0 (N, n) to poses (N, 4, 4) with joints that lock at (N, n), s or cycles."""
-        good = np.isfinite(q0).all(axis=1) & np.isfinite(poses).all(axis=(1, 2)) & ~np.isnan(lock_time).any(axis=1)
-        chosen = np.flatnonzero(good)
+        good = np.isfinite(q0).all(axis=1) & np.isfinite(poses).all(axis=(1, 2))
+        chosen = slice(None) if good.all() else np.flatnonzero(good)
         ended = np.full((len(q0), self._steps.state.size), np.nan)
-        codes = np.full(len(q0), COLLAPSE)
 
         def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
             result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.unrolled))
             return result.state, result.done
 
-        if chosen.size:
-            ended[chosen], codes[chosen] = self._phases(q0[chosen], poses[chosen], lock_time[chosen], setting, advance)
+        if good.any():
+            ended[chosen] = self._phases(q0[chosen], poses[chosen], lock_time[chosen], setting, advance)
         parts = self._steps.state.values(ended)
-        q = parts["q"]
+        q = parts["q"].copy()
         error = np.sqrt(parts["error"][:, 0])
-        code, reason = self._verdict(codes, error, parts)
+        code, reason = self._verdict(error, parts)
         code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
-        hand = np.full(poses.shape, np.nan)
-        hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
+        if wanted is None:
+            hand = np.full(poses.shape, np.nan)
+            hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
+        else:
+            hand = self._hand.rows(q)
         return Runs(
             law=self.law,
             q0=q0,
@@ -250,8 +284,8 @@ class Motion:
             cycles=self.cycles,
             code=code,
             reason=reason,
-            q_final=q.copy(),
-            x_final=hand if wanted is None else hand[:, :3, 3] @ self.law.task.rows[:, :3].T,
+            q_final=q,
+            x_final=hand,
             error=error,
             closest=np.sqrt(parts["closest"][:, 0]),
             path_length=parts["path"][:, 0].copy(),
@@ -268,9 +302,8 @@ class Motion:
         """Units of time of a state in one second or cycle."""
         return 1.0 if self.cycles else self.law.gain
 
-    def _verdict(
-        self, codes: NDArray[np.int64], error: Array, parts: dict[str, Array]
-    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    def _verdict(self, error: Array, parts: dict[str, Array]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+        codes = parts["code"][:, 0]
         slowest, early, late = (parts[name][:, 0] for name in ("slowest", "early", "late"))
         moving = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
         converged = (codes == ARRIVED) | ((codes == REST) & (error < ARRIVES) & (not self.cycles))
@@ -282,54 +315,61 @@ class Motion:
         reason[outcome != Outcome.UNDECIDED] = Reason.NONE
         return outcome.astype(np.uint8), reason.astype(np.uint8)
 
-    def _phases(
-        self, q0: Array, poses: Array, lock_time: Array, setting: Setting, advance: Advance
-    ) -> tuple[Array, NDArray[np.int64]]:
-        """States at the end and their codes. Between two locks nothing changes: such a phase is one loop."""
-        rows, layout, unit = len(q0), self._steps.state, self._unit
+    def _phases(self, q0: Array, poses: Array, lock_time: Array, setting: Setting, advance: Advance) -> Array:
+        """States at the end. Between two locks nothing changes: such a phase is one loop."""
+        rows, layout, unit, n = len(q0), self._steps.state, self._unit, self.law.arm.n
         states = np.zeros((rows, layout.size))
         parts = layout.values(states)
         parts["q"][:] = parts["low"][:] = parts["high"][:] = q0
         parts["slowest"][:] = parts["closest"][:] = FAR
         if not self.cycles:
             parts["h"][:] = setting.step * unit if self.fixed else FIRST
-        locks, limit = lock_time * unit, setting.limit * unit
+        target = self._system.numbers(poses)
+        parameters = np.empty((rows, target.shape[1] + n + 3))
+        parameters[:, : -n - 3], parameters[:, -2], parameters[:, -1] = target, setting.limit * unit, setting.accuracy
+        mask, until, limit = parameters[:, -n - 3 : -3], parameters[:, -3], setting.limit * unit
+        # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
+        last = FAR if self.law.speed_limit is not None and not self.cycles else limit
+        locks = lock_time * unit
         now, left = np.zeros(rows), np.arange(rows)
         while left.size:
-            mask = (locks[left] > now[left, None]).astype(np.float64)
-            until = np.where(mask > 0, locks[left], np.inf).min(axis=1)
-            # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
-            last = FAR if self.law.speed_limit is not None and not self.cycles else limit
-            until = np.minimum(until, last)
-            pose = np.concatenate([poses[left, :3, 3], poses[left, :3, :3].reshape(-1, 9)], axis=1)
-            self._enter(states, left, pose, mask)
-            options = np.broadcast_to([limit, setting.accuracy], (left.size, 2))
-            states[left], done = advance(states[left], np.concatenate([pose, mask, until[:, None], options], axis=1))
-            codes = parts["code"][left, 0]
-            codes[(codes == PHASE) & (until >= limit)] = TIME
-            parts["code"][left, 0] = codes
-            going_on = done & (codes == PHASE)
-            now[left] = until
-            left = left[going_on]
-            parts["time"][left, 0] = now[left]
-        return states, parts["code"][:, 0].astype(np.int64)
+            some: slice | NDArray[np.int64] = slice(None) if left.size == rows else left
+            healthy = locks[some] > now[some, None]
+            mask[some] = healthy
+            until[some] = np.minimum(np.where(healthy, locks[some], np.inf).min(axis=1), last)
+            self._enter(states, some, parameters[some])
+            states[some], done = advance(states[some], parameters[some])
+            codes, over = parts["code"][some, 0], until[some] >= limit
+            parts["code"][some, 0] = np.where((codes == PHASE) & over, TIME, codes)
+            left = left[done & (codes == PHASE) & ~over]
+            now[left] = parts["time"][left, 0] = until[left]
+        return states
 
-    def _enter(self, states: Array, rows: NDArray[np.int64], pose: Array, mask: Array) -> None:
+    def _enter(self, states: Array, rows: slice | NDArray[np.int64], parameters: Array) -> None:
         """What is known where a phase begins."""
         parts, n = self._steps.state.values(states), self.law.arm.n
-        known = self._at.rows(parts["q"][rows], pose[:, :3], pose[:, 3:].reshape(-1, 3, 3), mask)
+        known = self._at.rows(parts["q"][rows], *self._inputs(parameters)[:-3])
         good = np.isfinite(known).all(axis=1)
-        code = np.where(good, RUNNING, COLLAPSE).astype(np.float64)
+        code = np.where(good, RUNNING, COLLAPSE)
         known[~good] = np.where(np.isfinite(known[~good]), known[~good], 0.0)
         parts["error"][rows, 0] = known[:, n + 2]
         parts["closest"][rows, 0] = np.minimum(parts["closest"][rows, 0], known[:, n + 2])
         if not self.cycles:
-            rest = np.linalg.norm(known[:, :n], axis=1) < REST_SPEED * known[:, n + 1]
-            code[rest & good] = REST
+            rate = np.linalg.norm(known[:, :n], axis=1)
+            code[(rate < REST_SPEED * known[:, n + 1]) & good] = REST
             for name, at in (("hand", n), ("share", n + 1), ("slope", n + 3)):
                 parts[name][rows, 0] = known[:, at]
             parts["rates"][rows] = known[:, :n]
+            if not self.fixed:
+                parts["h"][rows, 0] = np.minimum(parts["h"][rows, 0], TURN / np.maximum(rate, TURN))
         parts["code"][rows, 0] = code
+
+    def _inputs(self, parameters: Array) -> list[Array]:
+        """Parameters in rows as the inputs of a kernel."""
+        shapes = [p.shape for p in self._steps.parameters]
+        ends = np.cumsum([rows * columns for rows, columns in shapes])[:-1]
+        blocks = np.split(parameters, ends, axis=1)
+        return [b.reshape(-1, *shape) if shape[1] > 1 else b for b, shape in zip(blocks, shapes, strict=True)]
 
     # ---- on demand -----------------------------------------------------------------------------------------------
 
@@ -349,55 +389,45 @@ class Motion:
 
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path:
         """See :meth:`Runs.path`."""
-        from scipy.interpolate import CubicHermiteSpline
-
         end = float(np.atleast_1d(runs.time)[k])
         if until is not None:
             if not (np.isfinite(until) and until > 0):
                 raise InputError(f"until is {until:g}; it must be a finite number above 0")
             end = min(end, float(until))
-        noted: list[Array] = []
+        noted: list[tuple[Array, Array]] = []
 
         def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
             parts = self._steps.state.values(states)
-            for _ in range(MOST_STEPS * (7 if self._staged else 1)):
-                noted.append(self._note(parts))
+            for _ in range(MOST_STEPS):
+                noted.append((states[0].copy(), parameters[0]))
                 if parts["code"][0, 0] != RUNNING or parts["time"][0, 0] > end * self._unit:
                     break
-                states[:] = self._single.rows(states, *self._unpacked(parameters))
+                states = self._stepped(states, parameters)
+                parts = self._steps.state.values(states)
             return states, np.array([parts["code"][0, 0] != RUNNING])
 
         lock_time = np.atleast_2d(runs.lock_time)[k : k + 1]
         self._phases(np.atleast_2d(runs.q0)[k : k + 1], self._poses(runs)[k : k + 1], lock_time, runs._setting, advance)
-        table, n = np.array(noted), self.law.arm.n
-        time = np.linspace(0.0, end, samples)
-        # Where a joint locks, two rows have the same time: the later one holds the rates from then on.
-        keep = np.r_[np.diff(table[:, 0]) > 0, True]
-        t, q, rates = table[keep, 0] / self._unit, table[keep, 1 : n + 1], table[keep, n + 1 :] * self._unit
-        if len(t) == 1:
-            at = np.repeat(q, samples, axis=0)
-        elif self.cycles:
-            at = np.stack([np.interp(time, t, column) for column in q.T], axis=1)
-        else:
-            at = CubicHermiteSpline(t, q, rates)(time)
-        pose = self._poses(runs)[k]
-        error = self._nearest.errors(at, np.broadcast_to(pose, (samples, 4, 4)))
-        return Path(time, at, self.law.arm.forward_kinematics(at)[:, :3, 3], error, time[:, None] >= lock_time)
-
-    @property
-    def _staged(self) -> bool:
-        return isinstance(self._steps, Steps) and self._steps.staged
-
-    def _note(self, parts: dict[str, Array]) -> Array:
-        """Time, configuration and rates of one state."""
+        states, parameters = (np.array(rows) for rows in zip(*noted, strict=True))
+        parts, time = self._steps.state.values(states), np.linspace(0.0, end, samples)
         if self.cycles:
-            return np.concatenate([parts["time"][0] + parts["substep"][0] / SUBSTEPS, parts["q"][0], 0 * parts["q"][0]])
-        return np.concatenate([parts["time"][0], parts["q"][0], parts["rates"][0]])
+            when = parts["time"][:, 0] + parts["substep"][:, 0] / SUBSTEPS
+            q = np.stack([np.interp(time, when, column) for column in parts["q"].T], axis=1)
+        else:
+            # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
+            here = np.searchsorted(parts["time"][:, 0], time * self._unit, side="right") - 1
+            given = parameters[here]
+            given[:, -3], given[:, -1] = time * self._unit, 1.0
+            q = self._steps.state.values(self._stepped(states[here], given))["q"]
+        pose = self._poses(runs)[k]
+        error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
+        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error, time[:, None] >= lock_time)
 
-    def _unpacked(self, parameters: Array) -> list[Array]:
-        n = self.law.arm.n
-        row = parameters[0]
-        return [row[:3], row[3:12].reshape(3, 3), row[12 : 12 + n], *row[12 + n :].reshape(-1, 1)]
+    def _stepped(self, states: Array, parameters: Array) -> Array:
+        """States after one step."""
+        for _ in range(self._steps.calls):
+            states = self._single.rows(states, *self._inputs(parameters))
+        return states
 
 
 @lru_cache(maxsize=16)
