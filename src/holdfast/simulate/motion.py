@@ -60,10 +60,12 @@ class System:
         # What the motion needs to know: no orientation where no row of the task has one.
         self.given = self.parameters if self._turns else [self.target, self.mask]
 
-    def numbers(self, poses: Array) -> Array:
-        """Targets (N, 4, 4) as the numbers of ``given`` before the mask, (N, ...)."""
-        positions = poses[:, :3, 3]
-        return np.concatenate([positions, poses[:, :3, :3].reshape(-1, 9)], axis=1) if self._turns else positions
+    def numbers(self, target: Array) -> Array:
+        """Targets, poses (N, 4, 4) or the task's rows (N, m), as the numbers of ``given`` before the mask, (N, ...)."""
+        if target.ndim == 2:
+            return np.asarray(target @ self.law.task.rows[:, :3])
+        positions = target[:, :3, 3]
+        return np.concatenate([positions, target[:, :3, :3].reshape(-1, 9)], axis=1) if self._turns else positions
 
     def error(self, q: SX) -> tuple[SX, SX]:
         """Error (m,) of the task's rows, m and rad, and their Jacobian (m, n)."""

@@ -35,7 +35,7 @@ from holdfast.simulate.tableaus import Tableau
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 COLLAPSED = 1e-12  # of 1/Ke: steps this short lead nowhere
-NEARLY = 1e-4  # rad (and m) per 1/Ke: below this speed the tolerance shrinks with it
+NEARLY, FINEST = 1e-4, 1e-12  # 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the finest
 TURN = 0.5  # rad (and m): a longer step would see too little of the way
 FIRST = 0.25  # of 1/Ke
 _SMALL = 1250  # operations of one evaluation: beyond, stages are taken one at a time
@@ -129,8 +129,8 @@ class Steps:
         rate = ca.sqrt(ca.sumsqr(here.rates))
         if self.tableau.errors:
             # Beside a singularity a rest point pulls so strongly that errors allowed elsewhere would keep the arm moving.
-            slow = lesser(greater(ca.sqrt(ca.sumsqr(parts["rates"])) / NEARLY, 1e-3), 1.0)
-            size = self._error(h, rates) / (slow * self._tolerance) ** 2
+            slow = greater(NEARLY * ca.sqrt(ca.sumsqr(parts["rates"])), FINEST)
+            size = self._error(h, rates) / lesser(self._tolerance, slow) ** 2
             good = size <= 1
             # A stage that met a singularity makes the estimate NaN, and every comparison with it false.
             usable = size < 1e20

@@ -13,7 +13,7 @@ from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
-    from holdfast.simulate.closed_loop import Motion, Setting
+    from holdfast.simulate.compiled import Motion, Setting
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
