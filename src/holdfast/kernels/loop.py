@@ -96,42 +96,48 @@ class Loop:
 
     def _iterate(self, batch: _Batch, most: int) -> None:
         """Take rows, step them all, put those that are done back and others in their place, until there are none."""
-        result, size, ahead = batch.result, self._size, self._ahead
+        result, size, ahead, tolerance = batch.result, self._size, self._ahead, batch.tolerance
         left = batch.take(most)
         if not left.size:
             return
         columns = self._columns(batch.inputs(left))
         out = np.empty((size + 1, columns.shape[1]))
-        steps, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)
+        begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
+        now, last = int(ahead), batch.most_steps  # steps taken where a residual is measured; when a row gives up
         while True:
             self._step.evaluate_columns(columns, out)
             residual = out[-1, : left.size]
-            steps += ahead
-            done = np.flatnonzero(waiting & ((residual <= batch.tolerance) | (steps >= batch.most_steps)))
-            if done.size:
-                rows = left[done]
-                result.state[rows] = (out if ahead else columns)[:size, done].T
-                result.residual[rows] = residual[done]
-                result.done[rows] = residual[done] <= batch.tolerance
-                result.steps[rows] = steps[done]
-            steps += not ahead
-            columns[:size] = out[:size]
-            if not done.size:
+            small = residual <= tolerance
+            if now < last and not small.any():  # a few rows may take many steps: nothing else is done for them
+                columns[:size] = out[:size]
+                now += 1
                 continue
+            done = np.flatnonzero(waiting & (small | (now - begun >= batch.most_steps)))
+            rows = left[done]
+            result.state[rows] = (out if ahead else columns)[:size, done].T
+            result.residual[rows] = residual[done]
+            result.done[rows] = small[done]
+            result.steps[rows] = now - begun[done]
+            columns[:size] = out[:size]
             fresh = batch.take(done.size)
-            places = done[: fresh.size]
+            places, gone = done[: fresh.size], done[fresh.size :]
             if fresh.size:
                 columns[:, places] = batch.inputs(fresh)
-                left[places], steps[places] = fresh, 0
-            waiting[done[fresh.size :]] = False
-            still = int(waiting.sum())
-            if not still:
+                left[places], begun[places] = fresh, now + (not ahead)
+            waiting[gone] = False
+            still = np.flatnonzero(waiting)
+            if not still.size:
                 return
-            if 4 * still <= 3 * left.size:
+            if 4 * still.size <= 3 * left.size:
                 # No rows are left to take: a batch that shrinks is cheaper.
-                columns = self._columns(columns[:, : left.size][:, waiting])
-                left, steps, waiting = left[waiting], steps[waiting], waiting[waiting]
+                columns = self._columns(columns[:, still])
+                left, begun, waiting = left[still], begun[still], waiting[still]
                 out = np.empty((size + 1, columns.shape[1]))
+            elif gone.size:
+                idle = np.flatnonzero(~waiting)  # they do what another row does, so that nobody needs to look at them
+                columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
+            now += 1
+            last = int(begun.min()) + batch.most_steps
 
     def _columns(self, values: Array) -> Array:
         """Contiguous (s + p, W) with W a multiple of the SIMD width, padded with the last column."""

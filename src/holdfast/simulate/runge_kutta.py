@@ -37,9 +37,9 @@ REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 COLLAPSED = 1e-12  # of 1/Ke: steps this short lead nowhere
 NEARLY, FINEST = 1e-4, 1e-12  # 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the finest
 TURN = 0.5  # rad (and m): a longer step would see too little of the way
-FIRST = 0.25  # of 1/Ke
+FIRST = 0.5  # of 1/Ke
 _SMALL = 1250  # operations of one evaluation: beyond, stages are taken one at a time
-_UNROLL = 2
+_EVALUATIONS = 32  # in one call, about
 
 
 class Steps:
@@ -72,7 +72,7 @@ class Steps:
             self._next,
             self.state,
             self.parameters,
-            stages * _UNROLL if self.staged else _UNROLL,
+            _EVALUATIONS if self.staged else max(1, _EVALUATIONS // stages),
         )
 
     def single(self) -> ca.Function:
