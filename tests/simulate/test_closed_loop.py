@@ -196,12 +196,40 @@ def test_terminal_points_and_outcomes_are_those_of_scipy(random_runs):
     assert compared == 12
 
 
+def test_what_is_noted_on_the_way_is_that_of_scipy(three, random_runs):
+    """Path, excursions and closest approach, although the integrator's steps are long."""
+    q0, x, locked, runs = random_runs
+    for k in np.flatnonzero(runs.time > 20)[:6]:
+        mask = np.arange(3) != locked[k]
+        found = solve_ivp(
+            lambda t, q, k=k, mask=mask: planar_rates(q, x[k], mask),
+            (0, 20),
+            q0[k],
+            "DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            dense_output=True,
+            max_step=0.2,
+        )
+        path = runs.path(k, 8001, until=20.0)
+        q = found.sol(path.time).T
+        np.testing.assert_allclose(path.q, q, atol=1e-7)
+        short = simulate(three, q0[k], x[k], [int(locked[k])], time_limit=20.0)
+        np.testing.assert_allclose([short.q_low, short.q_high], [q.min(axis=0), q.max(axis=0)], atol=5e-5)
+        s = np.cumsum(q, axis=1)
+        error = np.hypot(np.cos(s).sum(axis=1) - x[k, 0], np.sin(s).sum(axis=1) - x[k, 1])
+        assert short.closest == pytest.approx(error.min(), abs=2e-4)
+        np.testing.assert_allclose(path.error, error, atol=1e-6)
+
+
 def test_the_outcome_does_not_depend_on_tolerance_or_steps(three, random_runs):
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 200)[:60]
     tight = simulate(three, q0[few], x[few], locked[few], tolerance=1e-11)
     fixed = simulate(three, q0[few], x[few], locked[few], method="rk4", step=0.02)
+    loose = simulate(three, q0[few], x[few], locked[few], tolerance=1e-6)
     assert (tight.code == runs.code[few]).all()
+    assert (loose.code == runs.code[few]).all()
     assert np.abs(tight.x_final - runs.x_final[few]).max() < 1e-6
     smooth = np.isin(fixed.code, (Outcome.CONVERGED, Outcome.STUCK))
     assert smooth.mean() > 0.9
