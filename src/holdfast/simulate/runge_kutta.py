@@ -1,7 +1,7 @@
 """Explicit Runge-Kutta steps with a step size for each row of a batch, each step a straight-line program.
 
 The step-size control is part of the program, so that a batch needs nothing but its repetition. A law of many operations is
-evaluated once per call instead of once per stage: compiling it seven times over would take minutes.
+evaluated once per call instead of once per stage: compiling it a dozen times over would take minutes.
 
 Source: Hairer, Norsett, Wanner 1993, section II.4 for the control, II.10 for the error estimate of DOP853.
 """
