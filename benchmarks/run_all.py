@@ -25,6 +25,7 @@ WORKLOADS = (
     "start_up",
     "memory",
 )
+KEPT = ("agreement_closed_loop",)  # sections of programs that run_all.py does not run
 
 INTRODUCTION = """# Results
 
@@ -42,7 +43,7 @@ def mark(workload: str) -> str:
 def written() -> dict[str, str]:
     """The sections of RESULTS.md by workload, and what stands before the first as ``""``; nothing if there is no file."""
     text = RESULTS.read_text() if RESULTS.exists() else ""
-    places = sorted((text.index(mark(w)), w) for w in WORKLOADS if mark(w) in text)
+    places = sorted((text.index(mark(w)), w) for w in (*WORKLOADS, *KEPT) if mark(w) in text)
     ends = [place for place, _ in places[1:]] + [len(text)]
     sections = {w: text[place + len(mark(w)) : end].strip() for (place, w), end in zip(places, ends, strict=True)}
     return {"": text[: places[0][0]].strip(), **sections} if places else {}
@@ -53,17 +54,30 @@ def measure(workload: str, arguments: list[str]) -> str:
     return result.stdout.strip() if result.returncode == 0 else f"### {workload}\n\nfailed, see the messages above"
 
 
+def write(top: str, sections: dict[str, str]) -> None:
+    parts = [top, *[mark(w) + "\n" + sections[w] for w in (*WORKLOADS, *KEPT) if w in sections]]
+    RESULTS.write_text("\n\n".join(parts) + "\n")
+
+
+def put(name: str, text: str) -> None:
+    """Replace or add the section of one of ``KEPT``."""
+    sections = written()
+    sections[name] = text.strip()
+    write(sections.pop(""), sections)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, epilog="Other options go to the workloads.")
     parser.add_argument("--only", nargs="+", choices=WORKLOADS, help="measure these and keep the other sections as they are")
     chosen, arguments = parser.parse_known_args()
-    sections = written() if chosen.only else {}
+    sections = written()
+    if not chosen.only:
+        sections = {w: text for w, text in sections.items() if w in KEPT}
     when = f"{harness.environment()}." + (f" Options: `{' '.join(arguments)}`." if arguments else "")
     top = sections.pop("", f"{INTRODUCTION}\n{when}")
     for workload in chosen.only or WORKLOADS:
         sections[workload] = measure(workload, arguments) + (f"\n\nMeasured again: {when}" if chosen.only else "")
-    parts = [top, *[mark(w) + "\n" + sections[w] for w in WORKLOADS if w in sections]]
-    RESULTS.write_text("\n\n".join(parts) + "\n")
+    write(top, sections)
     print(RESULTS.read_text())
 
 

@@ -135,3 +135,20 @@ def test_matrix_parameters_are_row_major(backend, rng):
     run = loop.run(np.zeros((30, 2)), np.concatenate([b, m.reshape(30, 4)], 1), 1e-13, 200)
     assert run.done.all()
     np.testing.assert_allclose(run.state, np.linalg.solve(np.eye(2) - m, b[:, :, None])[:, :, 0], atol=1e-12)
+
+
+@pytest.mark.parametrize("most", [1, 7, 60])
+def test_a_residual_of_the_next_state_saves_a_step(loop, most, rng):
+    """Rows that take the places of others included: 9,000 are more than a worker holds."""
+    s, p = ca.SX.sym("s", 2), ca.SX.sym("p", 2)
+    after = ca.vertcat((s[0] + p[0] / s[0]) / 2, s[1] + p[1])
+    ahead = Loop("ahead", s, [p], after, ca.fabs(after[0] ** 2 - p[0]) / p[0], loop._step.backend, ahead=True)
+    state, parameters = draw(rng, 9000 if loop._step.backend == "heyoka" else 900)
+    first, second = loop.run(state, parameters, TOLERANCE, most), ahead.run(state, parameters, TOLERANCE, most)
+    needed = first.steps > 0  # the other one looks before it steps
+    np.testing.assert_array_equal(second.steps[needed], first.steps[needed])
+    np.testing.assert_array_equal(second.done[needed], first.done[needed])
+    np.testing.assert_allclose(second.state[needed], first.state[needed], rtol=1e-14)
+    assert (second.steps[~needed] == 1).all()
+    some = slice(17, 41)
+    assert_same(ahead.run(state[some], parameters[some], TOLERANCE, most), second, some)

@@ -196,12 +196,40 @@ def test_terminal_points_and_outcomes_are_those_of_scipy(random_runs):
     assert compared == 12
 
 
+def test_what_is_noted_on_the_way_is_that_of_scipy(three, random_runs):
+    """Path, excursions and closest approach, although the integrator's steps are long."""
+    q0, x, locked, runs = random_runs
+    for k in np.flatnonzero(runs.time > 20)[:6]:
+        mask = np.arange(3) != locked[k]
+        found = solve_ivp(
+            lambda t, q, k=k, mask=mask: planar_rates(q, x[k], mask),
+            (0, 20),
+            q0[k],
+            "DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            dense_output=True,
+            max_step=0.2,
+        )
+        path = runs.path(k, 8001, until=20.0)
+        q = found.sol(path.time).T
+        np.testing.assert_allclose(path.q, q, atol=1e-7)
+        short = simulate(three, q0[k], x[k], [int(locked[k])], time_limit=20.0)
+        np.testing.assert_allclose([short.q_low, short.q_high], [q.min(axis=0), q.max(axis=0)], atol=5e-5)
+        s = np.cumsum(q, axis=1)
+        error = np.hypot(np.cos(s).sum(axis=1) - x[k, 0], np.sin(s).sum(axis=1) - x[k, 1])
+        assert short.closest == pytest.approx(error.min(), abs=2e-4)
+        np.testing.assert_allclose(path.error, error, atol=1e-6)
+
+
 def test_the_outcome_does_not_depend_on_tolerance_or_steps(three, random_runs):
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 200)[:60]
     tight = simulate(three, q0[few], x[few], locked[few], tolerance=1e-11)
     fixed = simulate(three, q0[few], x[few], locked[few], method="rk4", step=0.02)
+    loose = simulate(three, q0[few], x[few], locked[few], tolerance=1e-6)
     assert (tight.code == runs.code[few]).all()
+    assert (loose.code == runs.code[few]).all()
     assert np.abs(tight.x_final - runs.x_final[few]).max() < 1e-6
     smooth = np.isin(fixed.code, (Outcome.CONVERGED, Outcome.STUCK))
     assert smooth.mean() > 0.9
@@ -258,6 +286,36 @@ def test_a_joint_that_locks_on_the_way(three, rng):
     many = simulate(three, np.tile(q0, (3, 1)), x, locked=[(1, lock), (0, 2.5)])
     np.testing.assert_array_equal(many.q_final[0], many.q_final[2])
     assert many.q_final[0, 1] == runs.q_final[1]
+
+
+@pytest.mark.parametrize("cycles", [False, True])
+def test_lock_times_of_each_run(three, rng, cycles):
+    """As many calls with a time each; whole numbers and infinity serve as well."""
+    law = Pseudoinverse(three.arm, "planar", speed_limit=0.05) if cycles else three
+    count = 12
+    q0, x = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6], (count, 3)), rng.uniform(-1.5, 1.5, (count, 2))
+    times = np.where(
+        rng.uniform(size=(count, 3)) < 0.5, np.inf, np.floor(rng.uniform(0, 6, (count, 3))) * (1 if cycles else 0.3)
+    )
+    times[0], times[1] = np.inf, 0.0
+    runs = simulate(law, q0, x, times, cycles=cycles)
+    np.testing.assert_array_equal(runs.lock_time, times)
+    for k in range(count):
+        alone = simulate(law, q0[k], x[k], [(i, float(t)) for i, t in enumerate(times[k]) if np.isfinite(t)], cycles=cycles)
+        np.testing.assert_array_equal(runs.q_final[k], alone.q_final)
+        assert (runs.code[k], runs.time[k]) == (alone.code, alone.time)
+    np.testing.assert_array_equal(runs.q_final[1], q0[1])
+    path = runs.path(2, 50)
+    assert (path.locked == (path.time[:, None] >= times[2])).all()
+    one = simulate(law, q0[0], x[0], times[3:4], cycles=cycles)
+    assert one.q_final.shape == (1, 3)
+
+
+def test_whole_numbers_are_lock_times_too(three):
+    q0, x = RAD([20.0, 40.0, 60.0]), [-0.5, 1.8]
+    runs = simulate(three, q0, x, np.array([[0, 1, 2], [1, 0, 2]]))
+    np.testing.assert_array_equal(runs.lock_time, [[0, 1, 2], [1, 0, 2]])
+    assert runs.q_final[0, 0] == q0[0]
 
 
 def test_a_healthy_arm_goes_straight(panda, rng):
@@ -393,13 +451,18 @@ def test_rows_with_nan_are_undecided_and_alone(three, random_runs):
         ({"locked": [0, (0, 2.0)]}, "twice"),
         ({"locked": np.array([0, 5])}, "joints 0 to 2, and -1"),
         ({"locked": np.array([0.5])}, "one joint index for each run"),
+        ({"locked": np.zeros((1, 2))}, "lock times are numbers \\(N, 3\\)"),
+        ({"locked": np.zeros((1, 3), dtype=bool)}, "lock times are numbers \\(N, 3\\)"),
+        ({"locked": np.array([[0.0, np.nan, np.inf]])}, "locked\\[0, 1\\] is nan; a lock time is 0 or more"),
+        ({"locked": np.array([[0.0, 1.0, -np.inf]])}, "locked\\[0, 2\\] is -inf"),
+        ({"locked": np.ones((2, 3)), "q0": np.zeros((3, 3))}, "the same number, or one for all"),
         ({"q0": np.zeros((2, 3)), "target": np.ones((3, 2))}, "the same number, or one for all"),
         ({"method": "euler"}, "adaptive or rk4"),
         ({"cycles": True, "method": "rk4"}, "method of their own"),
         ({"step": 0.1}, "belongs to method='rk4'"),
         ({"method": "rk4", "step": 5.0}, "not stable"),
         ({"time_limit": 0}, "time_limit is 0"),
-        ({"tolerance": 1e-3}, "between 1e-13 and 1e-08"),
+        ({"tolerance": 1e-3}, "between 1e-13 and 1e-06"),
         ({"q0": [0, np.nan, 0]}, "holds NaN"),
     ],
 )

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from holdfast.control.law import Law
 from holdfast.kernels import SX, Kernel
 from holdfast.simulate.motion import System
-from holdfast.simulate.runge_kutta import DORMAND_PRINCE
 
 Array = NDArray[np.float64]
 
@@ -30,6 +29,8 @@ class HealthyPaths:
     """The compiled step of one law: Dormand-Prince 5(4), with the estimate of its error."""
 
     def __init__(self, law: Law) -> None:
+        from scipy.integrate import RK45  # only its coefficients
+
         self.law = law
         system = System(law)
         s, h = ca.SX.sym("s"), ca.SX.sym("h")
@@ -39,10 +40,10 @@ class HealthyPaths:
             return law.rates(q, e) / (1 - at)
 
         rates = [slope(system.q, s)]
-        for row in DORMAND_PRINCE.rows:
-            q = system.q + h * sum(w * k for w, k in zip(row, rates, strict=False))
+        for row in [*(RK45.A[i, :i].tolist() for i in range(1, 6)), RK45.B.tolist()]:
+            q = system.q + h * sum(w * k for w, k in zip(row, rates, strict=True))
             rates.append(slope(q, s + h * sum(row)))
-        error = h * sum(w * k for w, k in zip(DORMAND_PRINCE.error, rates, strict=True))
+        error = h * sum(w * k for w, k in zip(RK45.E.tolist(), rates, strict=True))
         size = ca.sqrt(ca.sumsqr(error))
         self._step = Kernel("healthy motion", [system.q, s, h, system.target, system.rotation], [ca.vertcat(q, size)])
 

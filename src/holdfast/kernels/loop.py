@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,7 +16,8 @@ from holdfast.kernels.threads import in_pool, pool, thread_count
 
 Array = NDArray[np.float64]
 
-_MOST, _LEAST = 8192, 512  # rows that one worker iterates on; no result depends on it
+_BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
+_MOST, _LEAST = 4096, 256  # rows of that; no result depends on it
 
 
 @dataclass(frozen=True)
@@ -36,10 +38,10 @@ class LoopResult:
 
 
 class Loop:
-    """``state -> next state`` with a residual of the state, repeated row by row until the residual is small.
+    """``state -> next state`` with a residual, repeated row by row until the residual is small.
 
-    Rows that are done leave the batch, and each row's result is the one it had at that moment: results do not depend on
-    the other rows, on chunks or on threads.
+    Rows that are done leave the batch and others take their place, and each row's result is the one it had at that moment:
+    results do not depend on the other rows, on their order or on threads.
 
     Args:
         name: For messages.
@@ -48,14 +50,25 @@ class Loop:
         next_state: (s,) expression.
         residual: Scalar expression of the present state, not negative; NaN never ends a row.
         backend: As for :class:`Kernel`.
+        ahead: The residual is that of the next state, so that a row which arrives needs no further step to notice.
     """
 
     def __init__(
-        self, name: str, state: SX, parameters: Sequence[SX], next_state: SX, residual: SX, backend: str | None = None
+        self,
+        name: str,
+        state: SX,
+        parameters: Sequence[SX],
+        next_state: SX,
+        residual: SX,
+        backend: str | None = None,
+        ahead: bool = False,
     ) -> None:
-        self._size = int(state.numel())
-        self._parameters = sum(int(p.numel()) for p in parameters)
+        self._size, self._ahead = int(state.numel()), ahead
         self._step = Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend)
+        program, lanes = self._step.program, self._step.lanes
+        fits = min(_MOST, max(_LEAST, _BYTES // (8 * (program.n_in + program.n_out))))
+        # Columns a power of two apart would fall on the same places of the cache.
+        self._width = (fits // lanes | 1) * lanes
 
     def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> LoopResult:
         """Iterate.
@@ -67,51 +80,64 @@ class Loop:
             most_steps: Give up after this many steps.
         """
         rows = len(state)
-        result = LoopResult(
-            np.array(state, dtype=np.float64), np.full(rows, np.nan), np.zeros(rows, dtype=bool), np.zeros(rows, dtype=np.int64)
-        )
-        chunk = min(_MOST, max(_LEAST, -(-rows // thread_count())))
-        starts = range(0, rows, chunk)
+        batch = _Batch(state, parameters, tolerance, most_steps)
+        workers = min(thread_count(), -(-rows // _LEAST))
 
-        def work(start: int) -> None:
-            self._iterate(result, parameters, start, min(start + chunk, rows), tolerance, most_steps)
+        def work(_: int) -> None:
+            self._iterate(batch, min(self._width, -(-rows // workers)))
 
-        if len(starts) <= 1 or in_pool() or thread_count() == 1:
-            for start in starts:
-                work(start)
+        if workers <= 1 or in_pool():
+            workers = 1
+            if rows:
+                work(0)
         else:
-            list(pool().map(work, starts))
-        return result
+            list(pool().map(work, range(workers)))
+        return batch.result
 
-    def _iterate(self, result: LoopResult, parameters: Array, start: int, stop: int, tolerance: float, most_steps: int) -> None:
-        left = np.arange(start, stop)
-        columns = self._columns(np.concatenate([result.state[left].T, parameters[left].T]))
-        out = np.empty((self._size + 1, columns.shape[1]))
-        finished = np.zeros(left.size, dtype=bool)
-        for step in range(most_steps + 1):
+    def _iterate(self, batch: _Batch, most: int) -> None:
+        """Take rows, step them all, put those that are done back and others in their place, until there are none."""
+        result, size, ahead, tolerance = batch.result, self._size, self._ahead, batch.tolerance
+        left = batch.take(most)
+        if not left.size:
+            return
+        columns = self._columns(batch.inputs(left))
+        out = np.empty((size + 1, columns.shape[1]))
+        begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
+        now, last = int(ahead), batch.most_steps  # steps taken where a residual is measured; when a row gives up
+        while True:
             self._step.evaluate_columns(columns, out)
             residual = out[-1, : left.size]
-            now = (residual <= tolerance) & ~finished
-            last = step == most_steps
-            if last:
-                now = ~finished
-            if now.any():
-                rows = left[now]
-                result.state[rows] = columns[: self._size, : left.size][:, now].T
-                result.residual[rows] = residual[now]
-                result.done[rows] = residual[now] <= tolerance
-                result.steps[rows] = step
-                finished |= now
-                if last or finished.all():
-                    return
-                if 4 * int(finished.sum()) >= left.size:
-                    keep = ~finished
-                    columns[: self._size] = out[: self._size]
-                    columns = self._columns(columns[:, : left.size][:, keep])
-                    left, finished = left[keep], finished[keep]
-                    out = np.empty((self._size + 1, columns.shape[1]))
-                    continue
-            columns[: self._size] = out[: self._size]
+            small = residual <= tolerance
+            if now < last and not small.any():  # a few rows may take many steps: nothing else is done for them
+                columns[:size] = out[:size]
+                now += 1
+                continue
+            done = np.flatnonzero(waiting & (small | (now - begun >= batch.most_steps)))
+            rows = left[done]
+            result.state[rows] = (out if ahead else columns)[:size, done].T
+            result.residual[rows] = residual[done]
+            result.done[rows] = small[done]
+            result.steps[rows] = now - begun[done]
+            columns[:size] = out[:size]
+            fresh = batch.take(done.size)
+            places, gone = done[: fresh.size], done[fresh.size :]
+            if fresh.size:
+                columns[:, places] = batch.inputs(fresh)
+                left[places], begun[places] = fresh, now + (not ahead)
+            waiting[gone] = False
+            still = np.flatnonzero(waiting)
+            if not still.size:
+                return
+            if 4 * still.size <= 3 * left.size:
+                # No rows are left to take: a batch that shrinks is cheaper.
+                columns = self._columns(columns[:, still])
+                left, begun, waiting = left[still], begun[still], waiting[still]
+                out = np.empty((size + 1, columns.shape[1]))
+            elif gone.size:
+                idle = np.flatnonzero(~waiting)  # they do what another row does, so that nobody needs to look at them
+                columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
+            now += 1
+            last = int(begun.min()) + batch.most_steps
 
     def _columns(self, values: Array) -> Array:
         """Contiguous (s + p, W) with W a multiple of the SIMD width, padded with the last column."""
@@ -119,5 +145,29 @@ class Loop:
         width = -(-used // self._step.lanes) * self._step.lanes
         padded = np.empty((values.shape[0], width))
         padded[:, :used] = values
-        padded[:, used:] = values[:, used - 1 :]
+        padded[:, used:] = values[:, used - 1 : used]
         return padded
+
+
+class _Batch:
+    """Rows that wait for a worker."""
+
+    def __init__(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> None:
+        rows = len(state)
+        self.tolerance, self.most_steps = tolerance, most_steps
+        self.result = LoopResult(
+            np.array(state, dtype=np.float64), np.full(rows, np.nan), np.zeros(rows, dtype=bool), np.zeros(rows, dtype=np.int64)
+        )
+        self._parameters, self._next, self._lock = parameters, 0, threading.Lock()
+
+    def take(self, count: int) -> NDArray[np.int64]:
+        """Up to so many rows that nobody has had."""
+        with self._lock:
+            start = self._next
+            self._next = min(start + count, len(self._parameters))
+            return np.arange(start, self._next)
+
+    def inputs(self, rows: NDArray[np.int64]) -> Array:
+        """(s + p, R) where these consecutive rows start, and their parameters."""
+        some = slice(rows[0], rows[-1] + 1)
+        return np.concatenate([self.result.state[some].T, self._parameters[some].T])

@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
-from typing import Literal
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, Literal
 
-import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations
-from holdfast.arm.poses import check_poses
 from holdfast.arm.targets import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
-from holdfast.kernels import Kernel
-from holdfast.simulate.cycles import SUBSTEPS, Cycles
-from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System
-from holdfast.simulate.nearest import Nearest
-from holdfast.simulate.runge_kutta import CLASSIC, DORMAND_PRINCE, FIRST, LONGEST, REST_SPEED, Steps
-from holdfast.simulate.runs import Outcome, Path, Reason, Runs
+from holdfast.simulate.compiled import Setting, motion_of
+from holdfast.simulate.runs import Runs
+from holdfast.simulate.tableaus import CLASSIC
 
 Array = NDArray[np.float64]
 Method = Literal["adaptive", "rk4"]
-Locked = Sequence[str | int | tuple[str | int, float]] | NDArray[np.int64]
+Locked = Sequence[str | int | tuple[str | int, float]] | NDArray[np.int64] | Array
 
-ARRIVES = 1e-5  # m and rad: an error below it at rest is no error
-MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not coming to rest
-DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
 TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
 RADIUS = 0.1  # m
-TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-8, 1e-13
-MOST_STEPS = 100_000
+TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
 
 
 def simulate(
@@ -75,11 +65,12 @@ def simulate(
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
         locked: Joints, by name or index from 0, that stand from the start in every run; ``(joint, time)`` locks at that time,
-            s or cycles. Or one joint for each run: (N,) indices, -1 for none.
+            s or cycles. Or for each run of its own, as an array: (N,) the index of one joint, -1 for none; or (N, n) the time
+            at which each joint locks, s or cycles, infinite for never.
         cycles: Discrete control cycles in place of continuous time.
-        method: ``adaptive`` (Dormand-Prince 5(4)) or ``rk4`` (classic Runge-Kutta, fixed step).
+        method: ``adaptive`` (DOP853, order 8) or ``rk4`` (classic Runge-Kutta, fixed step).
         time_limit: s or cycles; 3000/Ke, or 1000 cycles, if not given.
-        tolerance: Of the adaptive method: the local error of a step, rad (and m), 1e-13 to 1e-8.
+        tolerance: Of the adaptive method: the local error of a step, rad (and m), 1e-13 to 1e-6.
         step: Of ``rk4``, s; 0.1/Ke if not given.
         radius: Of the target in cycles, m (and rad).
 
@@ -92,9 +83,10 @@ def simulate(
     Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
     """
     start, single = configurations(law.arm, q0)
-    poses, wanted = target_poses(law.task, target)
+    poses, rows_wanted = target_poses(law.task, target)
+    targets = poses if rows_wanted is None else rows_wanted
     locks, shared = _locks(law, locked)
-    counts = {"q0": len(start), "target": len(poses), "locked": len(locks)}
+    counts = {"q0": len(start), "target": len(targets), "locked": len(locks)}
     rows = max(counts.values()) if min(counts.values()) else 0
     for what, count in counts.items():
         if count not in (1, rows):
@@ -112,17 +104,18 @@ def simulate(
             raise InputError(f"{what} is {value:g}; it must be a finite number above 0")
     if not TIGHTEST <= tolerance <= LOOSEST:
         raise InputError(f"tolerance is {tolerance:g}; it must be between {TIGHTEST:g} and {LOOSEST:g}, or rest cannot be told")
-    if first * law.gain > LONGEST:
-        raise InputError(f"step is {first:g} s; above {LONGEST:g}/Ke, {LONGEST / law.gain:g} s, the method is not stable")
+    if first * law.gain > CLASSIC.longest:
+        raise InputError(
+            f"step is {first:g} s; above {CLASSIC.longest:g}/Ke, {CLASSIC.longest / law.gain:g} s, the method is not stable"
+        )
     setting = Setting(float(limit), float(radius if cycles else tolerance), float(first))
-    runs = _motion(law, "cycles" if cycles else method).run(
+    runs = motion_of(law, "cycles" if cycles else method).run(
         np.broadcast_to(start, (rows, law.arm.n)),
-        np.broadcast_to(poses, (rows, 4, 4)),
+        np.broadcast_to(targets, (rows, *targets.shape[1:])),
         np.broadcast_to(locks, (rows, law.arm.n)),
         setting,
-        None if wanted is None else np.broadcast_to(wanted, (rows, law.task.m)),
     )
-    if single and shared and np.ndim(target) == (2 if wanted is None else 1):
+    if single and shared and np.ndim(target) == targets.ndim - 1:
         arrays = {name: value[0] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
         return replace(runs, **arrays)
     return runs
@@ -135,8 +128,13 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
     """When each joint locks (M, n), infinite for never; and whether that is the same for all runs."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
+        if locked.ndim == 2:
+            return _lock_times(law, locked), False
         if locked.ndim != 1 or not np.issubdtype(locked.dtype, np.integer):
-            raise InputError(f"locked has shape {locked.shape}; an array holds one joint index for each run, (N,), -1 for none")
+            raise InputError(
+                f"locked has shape {locked.shape} and type {locked.dtype}; an array holds one joint index for each run, (N,) "
+                f"whole numbers, -1 for none, or lock times, (N, {arm.n})"
+            )
         wrong = np.flatnonzero((locked < -1) | (locked >= arm.n))
         if wrong.size:
             raise InputError(
@@ -160,229 +158,18 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
     return times, True
 
 
-# ---- the motion --------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Setting:
-    """How runs were made.
-
-    Attributes:
-        limit: s, or cycles.
-        accuracy: Tolerance of a step, or radius of the target in cycles.
-        step: Of the fixed-step method, s.
-    """
-
-    limit: float
-    accuracy: float
-    step: float
-
-
-Advance = Callable[[Array, Array], tuple[Array, NDArray[np.bool_]]]
-
-
-class Motion:
-    """The compiled motion of one law under one method."""
-
-    def __init__(self, law: Law, method: str) -> None:
-        self.law, self.cycles, self.fixed = law, method == "cycles", method == "rk4"
-        self._system = System(law)
-        self._steps: Steps | Cycles = (
-            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DORMAND_PRINCE)
+def _lock_times(law: Law, locked: NDArray[Any]) -> Array:
+    arm = law.arm
+    if locked.shape[1] != arm.n or not np.issubdtype(locked.dtype, np.number):
+        raise InputError(
+            f"locked has shape {locked.shape} and type {locked.dtype}; lock times are numbers (N, {arm.n}), one for each run "
+            "and joint"
         )
-        s = self._system
-        here = s.at(s.q)
-        known = ca.vertcat(here.rates, here.hand, here.share, here.squared_error, here.slope)
-        self._at = Kernel("start of a motion", [s.q, *s.parameters], [known])
-
-    @cached_property
-    def _nearest(self) -> Nearest:
-        return Nearest(self._system)
-
-    @cached_property
-    def _single(self) -> Kernel:
-        steps = self._steps
-        symbol = ca.SX.sym("state", steps.state.size)
-        return Kernel("one step", [symbol, *steps.parameters], [steps.single()(symbol, *steps.parameters)])
-
-    def run(self, q0: Array, poses: Array, lock_time: Array, setting: Setting, wanted: Array | None) -> Runs:
-        """Runs from q0 (N, n) to poses (N, 4, 4) with joints that lock at (N, n), s or cycles."""
-        good = np.isfinite(q0).all(axis=1) & np.isfinite(poses).all(axis=(1, 2)) & ~np.isnan(lock_time).any(axis=1)
-        chosen = np.flatnonzero(good)
-        ended = np.full((len(q0), self._steps.state.size), np.nan)
-        codes = np.full(len(q0), COLLAPSE)
-
-        def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
-            result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.unrolled))
-            return result.state, result.done
-
-        if chosen.size:
-            ended[chosen], codes[chosen] = self._phases(q0[chosen], poses[chosen], lock_time[chosen], setting, advance)
-        parts = self._steps.state.values(ended)
-        q = parts["q"]
-        error = np.sqrt(parts["error"][:, 0])
-        code, reason = self._verdict(codes, error, parts)
-        code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
-        hand = np.full(poses.shape, np.nan)
-        hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
-        return Runs(
-            law=self.law,
-            q0=q0,
-            target=poses if wanted is None else wanted,
-            lock_time=lock_time,
-            cycles=self.cycles,
-            code=code,
-            reason=reason,
-            q_final=q.copy(),
-            x_final=hand if wanted is None else hand[:, :3, 3] @ self.law.task.rows[:, :3].T,
-            error=error,
-            closest=np.sqrt(parts["closest"][:, 0]),
-            path_length=parts["path"][:, 0].copy(),
-            q_low=parts["low"].copy(),
-            q_high=parts["high"].copy(),
-            limits_passed=(parts["low"] < self.law.arm.lower) | (parts["high"] > self.law.arm.upper),
-            time=parts["time"][:, 0] / self._unit,
-            _motion=self,
-            _setting=setting,
+    times = np.array(locked, dtype=np.float64)
+    wrong = np.argwhere(~(times >= 0))
+    if wrong.size:
+        k, joint = wrong[0]
+        raise InputError(
+            f"locked[{k}, {joint}] is {times[k, joint]:g}; a lock time is 0 or more, and infinite for a joint that never locks"
         )
-
-    @property
-    def _unit(self) -> float:
-        """Units of time of a state in one second or cycle."""
-        return 1.0 if self.cycles else self.law.gain
-
-    def _verdict(
-        self, codes: NDArray[np.int64], error: Array, parts: dict[str, Array]
-    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-        slowest, early, late = (parts[name][:, 0] for name in ("slowest", "early", "late"))
-        moving = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
-        converged = (codes == ARRIVED) | ((codes == REST) & (error < ARRIVES) & (not self.cycles))
-        stuck = (codes == REST) & ~converged
-        outcome = np.select([converged, stuck, moving], [Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING], Outcome.UNDECIDED)
-        reason = np.select(
-            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.SLOW, Reason.STEPS], 0
-        )
-        reason[outcome != Outcome.UNDECIDED] = Reason.NONE
-        return outcome.astype(np.uint8), reason.astype(np.uint8)
-
-    def _phases(
-        self, q0: Array, poses: Array, lock_time: Array, setting: Setting, advance: Advance
-    ) -> tuple[Array, NDArray[np.int64]]:
-        """States at the end and their codes. Between two locks nothing changes: such a phase is one loop."""
-        rows, layout, unit = len(q0), self._steps.state, self._unit
-        states = np.zeros((rows, layout.size))
-        parts = layout.values(states)
-        parts["q"][:] = parts["low"][:] = parts["high"][:] = q0
-        parts["slowest"][:] = parts["closest"][:] = FAR
-        if not self.cycles:
-            parts["h"][:] = setting.step * unit if self.fixed else FIRST
-        locks, limit = lock_time * unit, setting.limit * unit
-        now, left = np.zeros(rows), np.arange(rows)
-        while left.size:
-            mask = (locks[left] > now[left, None]).astype(np.float64)
-            until = np.where(mask > 0, locks[left], np.inf).min(axis=1)
-            # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
-            last = FAR if self.law.speed_limit is not None and not self.cycles else limit
-            until = np.minimum(until, last)
-            pose = np.concatenate([poses[left, :3, 3], poses[left, :3, :3].reshape(-1, 9)], axis=1)
-            self._enter(states, left, pose, mask)
-            options = np.broadcast_to([limit, setting.accuracy], (left.size, 2))
-            states[left], done = advance(states[left], np.concatenate([pose, mask, until[:, None], options], axis=1))
-            codes = parts["code"][left, 0]
-            codes[(codes == PHASE) & (until >= limit)] = TIME
-            parts["code"][left, 0] = codes
-            going_on = done & (codes == PHASE)
-            now[left] = until
-            left = left[going_on]
-            parts["time"][left, 0] = now[left]
-        return states, parts["code"][:, 0].astype(np.int64)
-
-    def _enter(self, states: Array, rows: NDArray[np.int64], pose: Array, mask: Array) -> None:
-        """What is known where a phase begins."""
-        parts, n = self._steps.state.values(states), self.law.arm.n
-        known = self._at.rows(parts["q"][rows], pose[:, :3], pose[:, 3:].reshape(-1, 3, 3), mask)
-        good = np.isfinite(known).all(axis=1)
-        code = np.where(good, RUNNING, COLLAPSE).astype(np.float64)
-        known[~good] = np.where(np.isfinite(known[~good]), known[~good], 0.0)
-        parts["error"][rows, 0] = known[:, n + 2]
-        parts["closest"][rows, 0] = np.minimum(parts["closest"][rows, 0], known[:, n + 2])
-        if not self.cycles:
-            rest = np.linalg.norm(known[:, :n], axis=1) < REST_SPEED * known[:, n + 1]
-            code[rest & good] = REST
-            for name, at in (("hand", n), ("share", n + 1), ("slope", n + 3)):
-                parts[name][rows, 0] = known[:, at]
-            parts["rates"][rows] = known[:, :n]
-        parts["code"][rows, 0] = code
-
-    # ---- on demand -----------------------------------------------------------------------------------------------
-
-    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array:
-        """See :meth:`Runs.least_error`."""
-        q, poses = np.atleast_2d(runs.q_final), self._poses(runs)
-        mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
-        good = np.isfinite(q).all(axis=1)
-        least = np.full(len(q), np.nan)
-        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), mask], axis=1)
-        least[good] = self._nearest.search(q[good], parameters[good], restarts, generator)
-        return least
-
-    def _poses(self, runs: Runs) -> Array:
-        target = runs.target
-        return check_poses(target) if target.shape[-2:] == (4, 4) else target_poses(self.law.task, target)[0]
-
-    def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path:
-        """See :meth:`Runs.path`."""
-        from scipy.interpolate import CubicHermiteSpline
-
-        end = float(np.atleast_1d(runs.time)[k])
-        if until is not None:
-            if not (np.isfinite(until) and until > 0):
-                raise InputError(f"until is {until:g}; it must be a finite number above 0")
-            end = min(end, float(until))
-        noted: list[Array] = []
-
-        def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
-            parts = self._steps.state.values(states)
-            for _ in range(MOST_STEPS * (7 if self._staged else 1)):
-                noted.append(self._note(parts))
-                if parts["code"][0, 0] != RUNNING or parts["time"][0, 0] > end * self._unit:
-                    break
-                states[:] = self._single.rows(states, *self._unpacked(parameters))
-            return states, np.array([parts["code"][0, 0] != RUNNING])
-
-        lock_time = np.atleast_2d(runs.lock_time)[k : k + 1]
-        self._phases(np.atleast_2d(runs.q0)[k : k + 1], self._poses(runs)[k : k + 1], lock_time, runs._setting, advance)
-        table, n = np.array(noted), self.law.arm.n
-        time = np.linspace(0.0, end, samples)
-        # Where a joint locks, two rows have the same time: the later one holds the rates from then on.
-        keep = np.r_[np.diff(table[:, 0]) > 0, True]
-        t, q, rates = table[keep, 0] / self._unit, table[keep, 1 : n + 1], table[keep, n + 1 :] * self._unit
-        if len(t) == 1:
-            at = np.repeat(q, samples, axis=0)
-        elif self.cycles:
-            at = np.stack([np.interp(time, t, column) for column in q.T], axis=1)
-        else:
-            at = CubicHermiteSpline(t, q, rates)(time)
-        pose = self._poses(runs)[k]
-        error = self._nearest.errors(at, np.broadcast_to(pose, (samples, 4, 4)))
-        return Path(time, at, self.law.arm.forward_kinematics(at)[:, :3, 3], error, time[:, None] >= lock_time)
-
-    @property
-    def _staged(self) -> bool:
-        return isinstance(self._steps, Steps) and self._steps.staged
-
-    def _note(self, parts: dict[str, Array]) -> Array:
-        """Time, configuration and rates of one state."""
-        if self.cycles:
-            return np.concatenate([parts["time"][0] + parts["substep"][0] / SUBSTEPS, parts["q"][0], 0 * parts["q"][0]])
-        return np.concatenate([parts["time"][0], parts["q"][0], parts["rates"][0]])
-
-    def _unpacked(self, parameters: Array) -> list[Array]:
-        n = self.law.arm.n
-        row = parameters[0]
-        return [row[:3], row[3:12].reshape(3, 3), row[12 : 12 + n], *row[12 + n :].reshape(-1, 1)]
-
-
-@lru_cache(maxsize=16)
-def _motion(law: Law, method: str) -> Motion:
-    return Motion(law, method)
+    return times

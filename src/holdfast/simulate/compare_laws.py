@@ -17,7 +17,8 @@ from holdfast.arm.poses import check_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
-from holdfast.simulate.closed_loop import ARRIVES, RADIUS, TOLERANCE, simulate
+from holdfast.simulate.closed_loop import RADIUS, TOLERANCE, simulate
+from holdfast.simulate.compiled import ARRIVES
 from holdfast.simulate.healthy_cost import HealthyCost, healthy_cost, prescribed_way
 from holdfast.simulate.runs import Outcome, Reason, Runs
 

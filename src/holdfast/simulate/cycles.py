@@ -39,11 +39,13 @@ class Cycles:
     Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``radius`` of the target.
     """
 
+    calls = 1  # of single() in a step
+
     def __init__(self, system: System) -> None:
         self.system = system
         n, m = system.law.arm.n, system.law.task.m
         self._until, self._limit, self._radius = (ca.SX.sym(x) for x in ("until", "limit", "radius"))
-        self.parameters = [*system.parameters, self._until, self._limit, self._radius]
+        self.parameters = [*system.given, self._until, self._limit, self._radius]
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)
         ends = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
         self.state = State(q=n, substep=1, command=m, place=3, **scalars, **ends)

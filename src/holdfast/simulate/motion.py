@@ -56,6 +56,16 @@ class System:
         self.mask = ca.SX.sym("mask", law.arm.n)
         self.target, self.rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         self.parameters = [self.target, self.rotation, self.mask]
+        self._turns = law.task.angular or law.task.frame != "base"
+        # What the motion needs to know: no orientation where no row of the task has one.
+        self.given = self.parameters if self._turns else [self.target, self.mask]
+
+    def numbers(self, target: Array) -> Array:
+        """Targets, poses (N, 4, 4) or the task's rows (N, m), as the numbers of ``given`` before the mask, (N, ...)."""
+        if target.ndim == 2:
+            return np.asarray(target @ self.law.task.rows[:, :3])
+        positions = target[:, :3, 3]
+        return np.concatenate([positions, target[:, :3, :3].reshape(-1, 9)], axis=1) if self._turns else positions
 
     def error(self, q: SX) -> tuple[SX, SX]:
         """Error (m,) of the task's rows, m and rad, and their Jacobian (m, n)."""
@@ -172,5 +182,5 @@ def loop_of(
     after = symbol
     for _ in range(times):
         after = once(after, *parameters)
-    running = ca.if_else(state.split(symbol)["code"] == RUNNING, 1.0, 0.0)
-    return Loop(name, symbol, parameters, after, running), times
+    running = ca.if_else(state.split(after)["code"] == RUNNING, 1.0, 0.0)
+    return Loop(name, symbol, parameters, after, running, ahead=True), times

@@ -14,7 +14,8 @@ from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
-from holdfast.simulate.closed_loop import ARRIVES, DECAYS, Locked, simulate
+from holdfast.simulate.closed_loop import Locked, simulate
+from holdfast.simulate.compiled import ARRIVES, DECAYS
 from holdfast.simulate.motion import HALF, WINDOW, System
 from holdfast.simulate.mujoco_model import compiled, mujoco_spec
 from holdfast.simulate.physical_run import Ending, PhysicalRun, Why

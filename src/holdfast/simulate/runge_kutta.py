@@ -1,15 +1,15 @@
 """Explicit Runge-Kutta steps with a step size for each row of a batch, each step a straight-line program.
 
 The step-size control is part of the program, so that a batch needs nothing but its repetition. A law of many operations is
-evaluated once per call instead of once per stage: compiling it seven times over would take minutes.
+evaluated once per call instead of once per stage: compiling it a dozen times over would take minutes.
 
-Source: Dormand and Prince 1980, the pair RK5(4)7M; Hairer, Norsett, Wanner 1993, section II.4 for the control.
+Source: Hairer, Norsett, Wanner 1993, section II.4 for the control, II.10 for the error estimate of DOP853.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from itertools import pairwise
 
 import casadi as ca
 
@@ -31,45 +31,15 @@ from holdfast.simulate.motion import (
     turning_value,
     watched,
 )
+from holdfast.simulate.tableaus import Tableau
 
 REST_SPEED = 1e-8  # rad (and m) per 1/Ke: at rest
 COLLAPSED = 1e-12  # of 1/Ke: steps this short lead nowhere
-LONGEST = 2.5  # of 1/Ke: beyond it the method is not stable for the rate Ke at which the error itself shrinks
-NEARLY = 1e-4  # rad (and m) per 1/Ke: below this speed the tolerance shrinks with it
+NEARLY, FINEST = 1e-4, 1e-12  # 1/Ke, rad (and m): the tolerance is at most so much of the speed, down to the finest
 TURN = 0.5  # rad (and m): a longer step would see too little of the way
-FIRST = 1e-2  # of 1/Ke
-_SMALL = 2500  # operations of one evaluation: beyond, stages are taken one at a time
-_UNROLL = 8
-
-
-@dataclass(frozen=True)
-class Tableau:
-    """A method whose last stage is the new state, so that its derivative serves the next step too.
-
-    Attributes:
-        name: For people.
-        rows: Row i holds the weights of the derivatives before stage i + 1; the last row is the step itself.
-        error: Weights of the error estimate; empty for a fixed step.
-    """
-
-    name: str
-    rows: tuple[tuple[float, ...], ...]
-    error: tuple[float, ...] = ()
-
-
-DORMAND_PRINCE = Tableau(
-    "Dormand-Prince 5(4)",
-    (
-        (1 / 5,),
-        (3 / 40, 9 / 40),
-        (44 / 45, -56 / 15, 32 / 9),
-        (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
-        (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
-        (35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84),
-    ),
-    (71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40),
-)
-CLASSIC = Tableau("Runge-Kutta 4", ((1 / 2,), (0.0, 1 / 2), (0.0, 0.0, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)))
+FIRST = 0.5  # of 1/Ke
+_SMALL = 1250  # operations of one evaluation: beyond, stages are taken one at a time
+_EVALUATIONS = 32  # in one call, about
 
 
 class Steps:
@@ -88,20 +58,21 @@ class Steps:
         self.system, self.tableau = system, tableau
         n, stages = system.law.arm.n, len(tableau.rows)
         self._until, self._limit, self._tolerance = (ca.SX.sym(x) for x in ("until", "limit", "tolerance"))
-        self.parameters = [*system.parameters, self._until, self._limit, self._tolerance]
-        size = ca.Function("at", [system.q, *system.parameters], [system.at(system.q).rates], {"cse": True}).n_instructions()
+        self.parameters = [*system.given, self._until, self._limit, self._tolerance]
+        size = ca.Function("at", [system.q, *system.given], [system.at(system.q).rates], {"cse": True}).n_instructions()
         self.staged = int(size) > _SMALL
         kept = {"stage": 1, "k": n * (stages - 1), "hands": stages - 1, "shares": stages - 1} if self.staged else {}
         scalars = dict.fromkeys(("hand", "share", "error", "slope", "h", "time", "clock", "path", "closest"), 1)
         ends = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
         self.state = State(q=n, rates=n, **scalars, **ends, **kept)
+        self.calls = stages if self.staged else 1  # of single() in a step
         self._next = self._stage if self.staged else self._step
         self.loop, self.unrolled = loop_of(
             f"closed loop, {tableau.name}",
             self._next,
             self.state,
             self.parameters,
-            stages * _UNROLL if self.staged else _UNROLL,
+            _EVALUATIONS if self.staged else max(1, _EVALUATIONS // stages),
         )
 
     def single(self) -> ca.Function:
@@ -156,27 +127,27 @@ class Steps:
         weights = self.tableau.rows[-1]
         running = parts["code"] == RUNNING
         rate = ca.sqrt(ca.sumsqr(here.rates))
-        if self.tableau.error:
+        if self.tableau.errors:
             # Beside a singularity a rest point pulls so strongly that errors allowed elsewhere would keep the arm moving.
-            slow = lesser(greater(ca.sqrt(ca.sumsqr(parts["rates"])) / NEARLY, 1e-3), 1.0)
-            error = h * _mixed(self.tableau.error, [*rates, here.rates]) / (slow * self._tolerance)
-            size = ca.sumsqr(error) / error.numel()
+            slow = greater(NEARLY * ca.sqrt(ca.sumsqr(parts["rates"])), FINEST)
+            size = self._error(h, rates) / lesser(self._tolerance, slow) ** 2
             good = size <= 1
             # A stage that met a singularity makes the estimate NaN, and every comparison with it false.
             usable = size < 1e20
-            factor = ca.if_else(usable, 0.9 * ca.exp(-0.1 * ca.log(ca.if_else(usable, size, 1.0) + 1e-12)), 0.2)
-            factor = lesser(greater(factor, 0.2), 5.0)
+            root = ca.if_else(usable, size, 1.0) + 1e-20
+            for _ in range(4):  # of the squared error of a method of order 8
+                root = ca.sqrt(root)
+            factor = ca.if_else(usable, lesser(greater(0.9 / root, 0.2), 10.0), 0.2)
             # A step cut short by the end of its phase says nothing against the step that was planned.
             grown = ca.if_else(h < parts["h"], greater(h * factor, parts["h"]), h * factor)
-            longest = TURN / greater(rate, TURN / LONGEST)
+            longest = TURN / greater(rate, TURN / self.tableau.longest)
             after = ca.if_else(good, lesser(grown, longest), h * factor)
         else:
             good = ca.sumsqr(here.rates) < FAR
             after = ca.if_else(good, parts["h"], 0.0)
         time, clock = parts["time"] + h, parts["clock"] + h * _mixed(weights, shares)
         speed = rate / here.share
-        squared = turning_value(parts["error"], here.squared_error, h * parts["slope"], h * here.slope)
-        turn = turning_value(parts["q"], end, h * parts["rates"], h * here.rates)
+        closest, low, high = self._least_and_greatest(parts, h, rates, end, here)
         code = ca.if_else(time >= self._until - COLLAPSED, PHASE, RUNNING)
         code = ca.if_else(clock >= self._limit * (1 - 1e-12), TIME, code)
         code = ca.if_else(speed < REST_SPEED, REST, code)
@@ -192,15 +163,41 @@ class Steps:
             "time": time,
             "clock": clock,
             "path": parts["path"] + h * _mixed(weights, hands),
-            "closest": lesser(parts["closest"], lesser(squared, here.squared_error)),
-            "low": lesser(parts["low"], lesser(turn, end)),
-            "high": greater(parts["high"], greater(turn, end)),
+            "closest": closest,
+            "low": low,
+            "high": high,
             **watched(parts, speed, clock, self._limit),
             "code": code,
         }
         # Everything else stays as it was, also where the run has ended.
         code = ca.if_else(running, ca.if_else(after < COLLAPSED, COLLAPSE, RUNNING), parts["code"])
         return chosen(ca.logic_and(running, good), moved, {**parts, "h": after, "code": code})
+
+    def _least_and_greatest(self, parts: dict[str, SX], h: SX, rates: list[SX], end: SX, here: Here) -> tuple[SX, SX, SX]:
+        """Least squared error, least and greatest joint values so far: at both ends of the step and where a slope changes sign.
+
+        A long step is looked at in two halves.
+        """
+        points = [(parts["q"], parts["rates"], parts["error"], parts["slope"])]
+        if self.tableau.middle:
+            way, slope = (_mixed(weights, [*rates, here.rates]) for weights in self.tableau.middle)
+            e, j = self.system.error(parts["q"] + h * way)
+            points.append((parts["q"] + h * way, slope, ca.sumsqr(e), -2 * ca.dot(e, j @ slope)))
+        points.append((end, here.rates, here.squared_error, here.slope))
+        span = h / (len(points) - 1)
+        closest, low, high = parts["closest"], parts["low"], parts["high"]
+        for (q0, rates0, error0, slope0), (q1, rates1, error1, slope1) in pairwise(points):
+            squared = turning_value(error0, error1, span * slope0, span * slope1)
+            turn = turning_value(q0, q1, span * rates0, span * rates1)
+            closest = lesser(closest, lesser(squared, error1))
+            low, high = lesser(low, lesser(turn, q1)), greater(high, greater(turn, q1))
+        return closest, low, high
+
+    def _error(self, h: SX, rates: list[SX]) -> SX:
+        """Estimated mean squared error of a step."""
+        assert self.tableau.errors is not None
+        fifth, third = (ca.sumsqr(_mixed(weights, rates)) for weights in self.tableau.errors)
+        return h * h * fifth * fifth / ((fifth + 0.01 * third + 1e-60) * rates[0].numel())
 
 
 def _mixed(weights: Sequence[SX | float], values: Sequence[SX]) -> SX:

@@ -13,7 +13,7 @@ from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
-    from holdfast.simulate.closed_loop import Motion, Setting
+    from holdfast.simulate.compiled import Motion, Setting
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -147,7 +147,7 @@ class Runs:
         return np.asarray(self.error - self.least_error())
 
     def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> Path:
-        """Run k again, sampled at equal times: cubic between the integrator's own steps.
+        """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
 
         Args:
             k: Which run, from 0.

@@ -1,0 +1,288 @@
+"""The compiled motion of one law: batches of runs, how they ended, and what they were like."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.control.law import Law
+from holdfast.errors import InputError
+from holdfast.kernels import Kernel
+from holdfast.kernels.threads import in_pool, pool, thread_count
+from holdfast.simulate.cycles import SUBSTEPS, Cycles
+from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System
+from holdfast.simulate.nearest import Nearest
+from holdfast.simulate.runge_kutta import FIRST, REST_SPEED, TURN, Steps
+from holdfast.simulate.runs import Outcome, Path, Reason, Runs
+from holdfast.simulate.tableaus import CLASSIC, DOP853
+
+Array = NDArray[np.float64]
+
+ARRIVES = 1e-5  # m and rad: an error below it at rest is no error
+MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not coming to rest
+DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
+MOST_STEPS = 100_000
+BLOCK, LEAST_BLOCK = 8192, 256  # runs that one thread makes together; no result depends on it
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How runs were made.
+
+    Attributes:
+        limit: s, or cycles.
+        accuracy: Tolerance of a step, or radius of the target in cycles.
+        step: Of the fixed-step method, s.
+    """
+
+    limit: float
+    accuracy: float
+    step: float
+
+
+Advance = Callable[[Array, Array], tuple[Array, NDArray[np.bool_]]]
+
+
+class Motion:
+    """The compiled motion of one law under one method."""
+
+    def __init__(self, law: Law, method: str) -> None:
+        self.law, self.cycles, self.fixed = law, method == "cycles", method == "rk4"
+        self._system = System(law)
+        self._steps: Steps | Cycles = (
+            Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DOP853)
+        )
+        s = self._system
+        here = s.at(s.q)
+        known = ca.vertcat(here.rates, here.hand, here.share, here.squared_error, here.slope)
+        self._at = Kernel("start of a motion", [s.q, *s.given], [known])
+
+    @cached_property
+    def _nearest(self) -> Nearest:
+        return Nearest(self._system)
+
+    @cached_property
+    def _hand(self) -> Kernel:
+        """What the task prescribes of the tool point."""
+        place = kinematics.chain(self.law.arm, self._system.q).position
+        return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ place])
+
+    @cached_property
+    def _single(self) -> Kernel:
+        steps = self._steps
+        symbol = ca.SX.sym("state", steps.state.size)
+        return Kernel("one step", [symbol, *steps.parameters], [steps.single()(symbol, *steps.parameters)])
+
+    def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs:
+        """Runs from q0 (N, n) to target (N, 4, 4) or (N, m), with joints that lock at (N, n), s or cycles.
+
+        A few thousand at a time, so that everything about them is done while they are in the cache, and by every thread.
+        """
+        rows, workers = len(q0), 1 if in_pool() else thread_count()
+        each = -(-rows // max(workers, 1))
+        block = max(-(-each // max(-(-each // BLOCK), 1)), LEAST_BLOCK)
+        blocks = [slice(k, min(k + block, rows)) for k in range(0, max(rows, 1), block)]
+
+        def work(some: slice) -> dict[str, NDArray[Any]]:
+            return self._block(q0[some], target[some], lock_time[some], setting)
+
+        done = [work(b) for b in blocks] if workers == 1 or len(blocks) == 1 else list(pool().map(work, blocks))
+        ends = done[0] if len(done) == 1 else {name: np.concatenate([d[name] for d in done]) for name in done[0]}
+        return Runs(
+            law=self.law,
+            q0=q0,
+            target=target,
+            lock_time=lock_time,
+            cycles=self.cycles,
+            **ends,
+            _motion=self,
+            _setting=setting,
+        )
+
+    def _block(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> dict[str, NDArray[Any]]:
+        """Fields of :class:`Runs`."""
+        numbers = self._system.numbers(target)
+        good = np.isfinite(q0).all(axis=1) & np.isfinite(target).all(axis=tuple(range(1, target.ndim)))
+        chosen: slice | NDArray[np.int64] = slice(None) if good.all() else np.flatnonzero(good)
+
+        def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
+            result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.unrolled))
+            return result.state, result.done
+
+        states = self._phases(q0[chosen], numbers[chosen], lock_time[chosen], setting, advance)
+        if not good.all():
+            states, known = np.full((len(q0), states.shape[1]), np.nan), states
+            states[chosen] = known
+        parts = self._steps.state.values(states)
+        q, low, high = (parts[name].copy() for name in ("q", "low", "high"))
+        error = np.sqrt(parts["error"][:, 0])
+        code, reason = self._verdict(error, parts)
+        code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
+        if target.ndim == 2:
+            hand = self._hand.rows(q)
+        else:
+            hand = np.full(target.shape, np.nan)
+            hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
+        return {
+            "code": code,
+            "reason": reason,
+            "q_final": q,
+            "x_final": hand,
+            "error": error,
+            "closest": np.sqrt(parts["closest"][:, 0]),
+            "path_length": parts["path"][:, 0].copy(),
+            "q_low": low,
+            "q_high": high,
+            "limits_passed": (low < self.law.arm.lower) | (high > self.law.arm.upper),
+            "time": parts["time"][:, 0] / self._unit,
+        }
+
+    @property
+    def _unit(self) -> float:
+        """Units of time of a state in one second or cycle."""
+        return 1.0 if self.cycles else self.law.gain
+
+    def _verdict(self, error: Array, parts: dict[str, Array]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+        codes = parts["code"][:, 0]
+        slowest, early, late = (parts[name][:, 0] for name in ("slowest", "early", "late"))
+        moving = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
+        converged = (codes == ARRIVED) | ((codes == REST) & (error < ARRIVES) & (not self.cycles))
+        stuck = (codes == REST) & ~converged
+        outcome = np.select([converged, stuck, moving], [Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING], Outcome.UNDECIDED)
+        reason = np.select(
+            [codes == COLLAPSE, codes == TIME, codes == RUNNING], [Reason.SINGULAR, Reason.SLOW, Reason.STEPS], 0
+        )
+        reason[outcome != Outcome.UNDECIDED] = Reason.NONE
+        return outcome.astype(np.uint8), reason.astype(np.uint8)
+
+    def _phases(self, q0: Array, target: Array, lock_time: Array, setting: Setting, advance: Advance) -> Array:
+        """States at the end. Between two locks nothing changes: such a phase is one loop."""
+        rows, layout, unit, n = len(q0), self._steps.state, self._unit, self.law.arm.n
+        states = np.zeros((rows, layout.size))
+        parts = layout.values(states)
+        parts["q"][:] = parts["low"][:] = parts["high"][:] = q0
+        parts["slowest"][:] = parts["closest"][:] = FAR
+        if not self.cycles:
+            parts["h"][:] = setting.step * unit if self.fixed else FIRST
+        parameters = np.empty((rows, target.shape[1] + n + 3))
+        parameters[:, : -n - 3], parameters[:, -2], parameters[:, -1] = target, setting.limit * unit, setting.accuracy
+        mask, until, limit = parameters[:, -n - 3 : -3], parameters[:, -3], setting.limit * unit
+        # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
+        last = FAR if self.law.speed_limit is not None and not self.cycles else limit
+        locks = lock_time * unit
+        now, left = np.zeros(rows), np.arange(rows)
+        while left.size:
+            some: slice | NDArray[np.int64] = slice(None) if left.size == rows else left
+            healthy = locks[some] > now[some, None]
+            mask[some] = healthy
+            until[some] = np.minimum(np.where(healthy, locks[some], np.inf).min(axis=1), last)
+            self._enter(states, some, parameters[some])
+            states[some], done = advance(states[some], parameters[some])
+            codes, over = parts["code"][some, 0], until[some] >= limit
+            parts["code"][some, 0] = np.where((codes == PHASE) & over, TIME, codes)
+            left = left[done & (codes == PHASE) & ~over]
+            now[left] = parts["time"][left, 0] = until[left]
+        return states
+
+    def _enter(self, states: Array, rows: slice | NDArray[np.int64], parameters: Array) -> None:
+        """What is known where a phase begins."""
+        parts, n = self._steps.state.values(states), self.law.arm.n
+        known = self._at.rows(parts["q"][rows], *self._inputs(parameters)[:-3])
+        good = np.isfinite(known).all(axis=1)
+        code = np.where(good, RUNNING, COLLAPSE)
+        known[~good] = np.where(np.isfinite(known[~good]), known[~good], 0.0)
+        parts["error"][rows, 0] = known[:, n + 2]
+        parts["closest"][rows, 0] = np.minimum(parts["closest"][rows, 0], known[:, n + 2])
+        if not self.cycles:
+            rate = np.linalg.norm(known[:, :n], axis=1)
+            code[(rate < REST_SPEED * known[:, n + 1]) & good] = REST
+            for name, at in (("hand", n), ("share", n + 1), ("slope", n + 3)):
+                parts[name][rows, 0] = known[:, at]
+            parts["rates"][rows] = known[:, :n]
+            if not self.fixed:
+                parts["h"][rows, 0] = np.minimum(parts["h"][rows, 0], TURN / np.maximum(rate, TURN))
+        parts["code"][rows, 0] = code
+
+    def _inputs(self, parameters: Array) -> list[Array]:
+        """Parameters in rows as the inputs of a kernel."""
+        shapes = [p.shape for p in self._steps.parameters]
+        ends = np.cumsum([rows * columns for rows, columns in shapes])[:-1]
+        blocks = np.split(parameters, ends, axis=1)
+        return [b.reshape(-1, *shape) if shape[1] > 1 else b for b, shape in zip(blocks, shapes, strict=True)]
+
+    # ---- on demand -----------------------------------------------------------------------------------------------
+
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array:
+        """See :meth:`Runs.least_error`."""
+        q, poses = np.atleast_2d(runs.q_final), self._poses(runs)
+        mask = (np.atleast_2d(runs.lock_time) > np.atleast_1d(runs.time)[:, None]).astype(np.float64)
+        good = np.isfinite(q).all(axis=1)
+        least = np.full(len(q), np.nan)
+        parameters = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9), mask], axis=1)
+        least[good] = self._nearest.search(q[good], parameters[good], restarts, generator)
+        return least
+
+    def _poses(self, runs: Runs) -> Array:
+        """Targets (N, 4, 4)."""
+        if runs.target.shape[-2:] == (4, 4):
+            return runs.target.reshape(-1, 4, 4)
+        rows = np.atleast_2d(runs.target)
+        poses = np.tile(np.eye(4), (len(rows), 1, 1))
+        poses[:, :3, 3] = rows @ self.law.task.rows[:, :3]
+        return poses
+
+    def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path:
+        """See :meth:`Runs.path`."""
+        end = float(np.atleast_1d(runs.time)[k])
+        if until is not None:
+            if not (np.isfinite(until) and until > 0):
+                raise InputError(f"until is {until:g}; it must be a finite number above 0")
+            end = min(end, float(until))
+        noted: list[tuple[Array, Array]] = []
+
+        def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
+            parts = self._steps.state.values(states)
+            for _ in range(MOST_STEPS):
+                noted.append((states[0].copy(), parameters[0]))
+                if parts["code"][0, 0] != RUNNING or parts["time"][0, 0] > end * self._unit:
+                    break
+                states = self._stepped(states, parameters)
+                parts = self._steps.state.values(states)
+            return states, np.array([parts["code"][0, 0] != RUNNING])
+
+        lock_time = np.atleast_2d(runs.lock_time)[k : k + 1]
+        pose = self._poses(runs)[k]
+        numbers = self._system.numbers(pose[None])
+        self._phases(np.atleast_2d(runs.q0)[k : k + 1], numbers, lock_time, runs._setting, advance)
+        states, parameters = (np.array(rows) for rows in zip(*noted, strict=True))
+        parts, time = self._steps.state.values(states), np.linspace(0.0, end, samples)
+        if self.cycles:
+            when = parts["time"][:, 0] + parts["substep"][:, 0] / SUBSTEPS
+            q = np.stack([np.interp(time, when, column) for column in parts["q"].T], axis=1)
+        else:
+            # From the step's beginning by a step of its own, as good as the integrator's; its accuracy is beyond doubt.
+            here = np.searchsorted(parts["time"][:, 0], time * self._unit, side="right") - 1
+            given = parameters[here]
+            given[:, -3], given[:, -1] = time * self._unit, 1.0
+            q = self._steps.state.values(self._stepped(states[here], given))["q"]
+        error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
+        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error, time[:, None] >= lock_time)
+
+    def _stepped(self, states: Array, parameters: Array) -> Array:
+        """States after one step."""
+        for _ in range(self._steps.calls):
+            states = self._single.rows(states, *self._inputs(parameters))
+        return states
+
+
+@lru_cache(maxsize=16)
+def motion_of(law: Law, method: str) -> Motion:
+    """The motion of a law, compiled once."""
+    return Motion(law, method)
