@@ -2,7 +2,8 @@
 
 Every page has one Python session and one temporary folder, shared by its directives:
 
-``run``: Python code and what it prints, the value of a last expression included.
+``run``: Python code and what it prints, the value of a last expression included; a figure is drawn, and ``:about:`` says
+    for people who cannot see it what it shows.
 ``shell``: command lines (``$ ...``) and what they print; ``:exit:`` is the exit code expected (0), ``:head:`` the number
     of lines shown of each output.
 ``file``: text that is shown and saved under the name given.
@@ -68,19 +69,23 @@ class _Live(SphinxDirective):
 
 
 class Run(_Live):
+    option_spec: ClassVar = {"about": directives.unchanged_required}
+
     def run(self) -> list[nodes.Node]:
         code = "\n".join(self.content)
         out = io.StringIO()
         tree = ast.parse(code)
         last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
-        before = Path.cwd()
+        before, drawn = Path.cwd(), None
         try:
             os.chdir(self.folder)
             with contextlib.redirect_stdout(out):
                 exec(compile(tree, self.env.docname, "exec"), self.names)
                 if last is not None:
                     value = eval(compile(ast.Expression(last.value), self.env.docname, "eval"), self.names)
-                    if value is not None:
+                    if hasattr(value, "savefig"):
+                        drawn = self.drawn(value)
+                    elif value is not None:
                         print(repr(value))
         except Exception as error:
             raise self.error(f"code of '{self.env.docname}' fails:\n{traceback.format_exc()}") from error
@@ -89,7 +94,17 @@ class Run(_Live):
         shown = [self.block(code, "python", "live-code")]
         if out.getvalue():
             shown.append(self.block(out.getvalue().rstrip(), "text", "live-output"))
-        return shown
+        return shown if drawn is None else [*shown, drawn]
+
+    def drawn(self, figure: Any) -> nodes.Node:
+        """A figure inside the page, so that there is no file to carry."""
+        from holdfast.report.figures import svg
+
+        if "about" not in self.options:
+            raise self.error("a figure needs the option :about:, what it shows")
+        number = self.env.temp_data["live-figures"] = self.env.temp_data.get("live-figures", 0) + 1
+        picture = nodes.raw("", svg(figure, f"figure-{number}", self.options["about"]), format="html")
+        return nodes.container("", picture, classes=["live-figure"])
 
 
 class Shell(_Live):

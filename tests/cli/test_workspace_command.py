@@ -42,7 +42,7 @@ def test_maps_and_several_laws(cli, ask, tmp_path):
         (["--target", "1,2,3"], "needs 2, in m"),
         (["--target", "1.5,1.5", "--map", "--procedure"], "--procedure"),
         (["--target", "1.5,1.5", "--laws", "damped:x"], "not a number"),
-        (["--target", "1.5,1.5", "--laws", "pseudoinverse:2"], "takes no number"),
+        (["--target", "1.5,1.5", "--laws", "pseudoinverse:2"], "takes no setting"),
         (["--target", "9,9"], "within its reach"),
     ],
 )

@@ -13,7 +13,7 @@ RAD = np.deg2rad
 
 
 def test_figure_8(three):
-    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(45), starts=600)
+    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(45), starts=300)
     assert found.converged.value == 1
     shares = dict(found.shares)
     assert sorted(shares) == ["solution 1", "solution 2"]

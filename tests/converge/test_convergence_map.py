@@ -135,7 +135,7 @@ def test_files(sampled, tmp_path):
 def test_laws_meet_the_same_failures():
     arm = hf.arms.load("planar-3r")
     plain, weak = pseudoinverse(arm, "planar"), damped(arm, 9.0, "planar")
-    choice = hf.best_law({"plain": plain, "again": plain, "weak": weak}, [1.5, 1.0], 12, configurations=3, time_limit=60.0)
+    choice = hf.best_law({"plain": plain, "again": plain, "weak": weak}, [1.5, 1.0], 8, configurations=2, time_limit=40.0)
     assert all(np.array_equal(m.q0, choice.maps[0].q0) for m in choice.maps)
     same = choice.difference("again", "plain")
     assert (same.value, same.low, same.high) == (0, 0, 0)

@@ -10,10 +10,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
+from holdfast.arm.configurations import without_idle_limits
 from holdfast.control import damped, pseudoinverse
 from holdfast.converge.arriving import arriving
 from holdfast.converge.healthy_paths import HealthyPaths
-from holdfast.converge.starts import configurations_at, lattice, read_places, without_idle_limits
+from holdfast.converge.starts import configurations_at, lattice, read_places
 from holdfast.converge.workspace_output import save, summary
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.

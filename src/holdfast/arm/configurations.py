@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -22,6 +25,25 @@ def configurations(arm: Arm, q: ArrayLike) -> tuple[Array, bool]:
     if single and not np.isfinite(a).all():
         raise InputError(f"q for '{arm.name}' holds NaN or infinity; give {arm.n} finite numbers")
     return np.atleast_2d(a), single
+
+
+def with_limits(arm: Arm, lower: Array, upper: Array) -> Arm:
+    """The arm with other limits (n,) of its joints."""
+    limits = zip(arm.joints, lower.tolist(), upper.tolist(), strict=True)
+    return replace(arm, joints=tuple(replace(j, lower=low, upper=high) for j, low, high in limits))
+
+
+@lru_cache(maxsize=32)
+def without_limits(arm: Arm) -> Arm:
+    """The arm as a law sees it: every turning joint comes round after 2 pi."""
+    return with_limits(arm, np.full(arm.n, -np.inf), np.full(arm.n, np.inf))
+
+
+@lru_cache(maxsize=32)
+def without_idle_limits(arm: Arm) -> Arm:
+    """The arm, without the limits of joints that may make a whole turn: those exclude no posture."""
+    idle = ~arm.prismatic & (arm.upper - arm.lower >= 2 * np.pi - 1e-6)
+    return with_limits(arm, np.where(idle, -np.inf, arm.lower), np.where(idle, np.inf, arm.upper)) if idle.any() else arm
 
 
 def finite_limits(arm: Arm) -> tuple[Array, Array]:

@@ -82,6 +82,11 @@ class Joint:
         """Unit of the joint variable: rad or m."""
         return "m" if self.prismatic else "rad"
 
+    @property
+    def shown(self) -> tuple[float, str]:
+        """Factor and unit in which people read the joint variable: (1, "m") or (180/pi, "deg")."""
+        return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
+
 
 @dataclass(frozen=True, eq=False)
 class Link:

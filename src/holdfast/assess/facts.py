@@ -233,8 +233,7 @@ class Facts:
     def scene(self) -> tuple[Scene, int]:
         """What the views show, and how many poses are drawn."""
         a, rows = self.a, self.rows
-        origins, tool = joint_positions(a.arm, self.representative[0])
-        chain = np.vstack([a.arm.base[:3, 3], origins, tool])
+        posture = chain(a.arm, self.representative[0])
         none = np.zeros((0, 3))
         points, values, missing, drawn = none, np.zeros(0), none, 0
         if rows is not None:
@@ -248,7 +247,7 @@ class Facts:
         if a.region.kind == "box":
             c, s = np.array(a.region.center[:3]), np.array(a.region.size[:3])
             box = np.array([c - s / 2, c + s / 2])
-        return Scene(points, values, missing, chain, origins, a.arm.prismatic, box), drawn
+        return Scene(points, values, missing, posture, posture[1:-1], a.arm.prismatic, box), drawn
 
     @cached_property
     def views(self) -> list[View]:
@@ -327,6 +326,11 @@ class Facts:
         width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
         per = "per decade" if self.log else self.unit and f"per{self.unit}"
         return Bin(edges, share / width, "", f"probability density {per}".strip())
+
+
+def chain(arm: Arm, q: Array) -> Array:
+    """Base, origins of the joint frames and tool point (n + 2, 3) in the world, m, at one configuration (n,)."""
+    return np.vstack([arm.base[:3, 3], *joint_positions(arm, q)])
 
 
 def joint_positions(arm: Arm, q: Array) -> tuple[Array, Array]:

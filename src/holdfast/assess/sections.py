@@ -308,7 +308,7 @@ def _ranges(a: Assessment) -> str:
         return ""
     parts = []
     for joint, c, s in zip(a.arm.joints, a.region.center, a.region.size, strict=True):
-        unit, scale = ("m", 1.0) if joint.prismatic else ("deg", 180 / np.pi)
+        scale, unit = joint.shown
         parts.append(f"{joint.name} {as_given(scale * (c - s / 2))} to {as_given(scale * (c + s / 2))} {unit}")
     return ": " + ", ".join(parts)
 

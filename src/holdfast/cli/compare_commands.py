@@ -19,6 +19,7 @@ from holdfast.cli.options import (
     console,
     number,
     print_json,
+    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -218,8 +219,7 @@ def _print(c: LawComparison, about: str, files: list[Path]) -> None:
         out.print(gains)
     if c.comparable.any():
         _print_costs(c, rows.healthy_rows(c))
-    for file in files:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, files)
 
 
 def _print_costs(c: LawComparison, costs: list[dict[str, Any]]) -> None:

@@ -34,6 +34,7 @@ from holdfast.cli.options import (
     outside_limits,
     placed,
     print_json,
+    print_written,
     read_arm,
     read_configuration,
     read_objective,
@@ -318,8 +319,7 @@ def _print(result: _Result, file: Path | None) -> None:
     if result.given is not None and result.worse.any():
         which = "" if len(result.targets) == 1 else f" of {int(result.worse.sum())} poses"
         out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)
-    if file is not None:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, [file])
 
 
 def _print_clearance(result: _Result, out: Console) -> None:

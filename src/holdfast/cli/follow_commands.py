@@ -22,6 +22,7 @@ from holdfast.cli.options import (
     number,
     placed,
     print_json,
+    print_written,
     read_arm,
     read_configuration,
     read_objective,
@@ -257,8 +258,7 @@ def _print(result: Trajectory, bound: float | None, slowness: list[SlowMotion] |
         out.print(escape(line[:1].upper() + line[1:]), soft_wrap=True)
     if slowness is not None:
         _print_slowness(result, bound or 0.0, slowness)
-    for file in files:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, files)
 
 
 def _print_slowness(result: Trajectory, bound: float, slowness: list[SlowMotion]) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import read_numbers
+from holdfast.cli.options import TARGET_HELP, read_numbers
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ TargetOption = Annotated[
     str,
     typer.Option(
         "--target",
-        help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
+        help=TARGET_HELP,
         show_default=False,
     ),
 ]
@@ -50,8 +50,8 @@ LawsOption = Annotated[
 ]
 
 
-def read_labelled_law(text: str, arm: Arm, task: str | Task, **more: Any) -> Law:
-    """A law as its label says, ``slug`` or ``slug:setting``."""
+def read_labelled_law(text: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
+    """A law as its label says, ``slug`` or ``slug:setting``; ``option`` is what an error calls it."""
     from holdfast.control import by_name
     from holdfast.control.laws import BY_NAME
 
@@ -60,14 +60,14 @@ def read_labelled_law(text: str, arm: Arm, task: str | Task, **more: Any) -> Law
     given: dict[str, Any] = dict(more)
     if colon:
         if slug in BY_NAME and not setting:
-            raise InputError(f"--law '{text}': the {BY_NAME[slug].name} takes no setting; write {slug} alone")
-        numbers = read_numbers(f"--law {slug}", value, f"{slug}:NUMBER")
+            raise InputError(f"{option} '{text}': the {BY_NAME[slug].name} takes no setting; write {slug} alone")
+        numbers = read_numbers(f"{option} {slug}", value, f"{slug}:NUMBER")
         if numbers.size == 1 and setting != "weights":
             given[setting] = float(numbers[0])
         elif setting == "weights":
             given[setting] = numbers
         else:
-            raise InputError(f"--law '{text}' has {numbers.size} numbers after the colon; give one")
+            raise InputError(f"{option} '{text}' has {numbers.size} numbers after the colon; give one")
     return by_name(slug, arm, task=task, **given)
 
 

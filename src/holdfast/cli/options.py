@@ -37,6 +37,7 @@ TipOption = Annotated[
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
 TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
+TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
 IndexOption = Annotated[
     str,
@@ -51,6 +52,8 @@ QOption = Annotated[
     typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
 ]
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")]
+PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
+SeedOption = Annotated[int, typer.Option("--seed", help="Of all random draws.")]
 FailuresOption = Annotated[
     str,
     typer.Option("--failures", help="single, pairs, a number of joints, or sets such as 'joint2; joint1+joint4' or '2; 1+4'."),
@@ -360,6 +363,15 @@ def number(value: float | np.floating[Any], digits: int = 4) -> str:
     if not math.isfinite(value):
         return "infinite" if math.isinf(value) else "none"
     return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
+
+
+def print_written(out: Console, files: Iterable[Path | None]) -> None:
+    """Say which files were written."""
+    from rich.markup import escape
+
+    for file in files:
+        if file is not None:
+            out.print(f"written: {escape(str(file))}", soft_wrap=True)
 
 
 def console() -> Console:

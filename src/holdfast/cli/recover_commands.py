@@ -29,6 +29,7 @@ from holdfast.cli.options import (
     number,
     plain,
     print_json,
+    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -357,12 +358,11 @@ def _print(result: Recovery, files: list[Path]) -> None:
             out.print(escape(f"check: {line}{shape if line.startswith('least') else ''}"), soft_wrap=True)
         table = Table("joint", "start", "end", "", box=None, pad_edge=False)
         for k, joint in enumerate(result.arm.joints):
-            factor, unit = (1.0, "m") if joint.prismatic else (180 / np.pi, "deg")
+            factor, unit = joint.shown
             cells = [f"{number(factor * x)} {unit}" for x in (result.q[0, k], result.q[-1, k])]
             table.add_row(escape(joint.name), *cells, "locked" if joint.name in result.locked else "")
         out.print(table)
-    for file in files:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, files)
 
 
 def add(app: typer.Typer) -> None:

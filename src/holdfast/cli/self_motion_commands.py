@@ -10,14 +10,18 @@ import typer
 from numpy.typing import NDArray
 
 from holdfast.cli.options import (
+    TARGET_HELP,
     ArmArgument,
     BaseOption,
     JsonOption,
+    PlotOption,
+    SeedOption,
     TaskOption,
     TipOption,
     console,
     number,
     print_json,
+    print_written,
     read_arm,
     read_joint,
     read_numbers,
@@ -28,7 +32,7 @@ from holdfast.cli.options import (
 from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
-    from holdfast.arm import Arm
+    from holdfast.arm import Arm, Joint
     from holdfast.arm.task import Task
     from holdfast.converge import TolerantWorkspace
     from holdfast.converge.bounds import Arcs
@@ -40,14 +44,8 @@ PoseOption = Annotated[
 ]
 TargetOption = Annotated[
     str | None,
-    typer.Option(
-        "--target",
-        help="The target, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w.",
-        show_default=False,
-    ),
+    typer.Option("--target", help=TARGET_HELP, show_default=False),
 ]
-PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
-SeedOption = Annotated[int, typer.Option("--seed", help="Of all random draws.")]
 
 
 def self_motion(
@@ -151,12 +149,9 @@ def _print(arm: Arm, motion: SelfMotion, arcs: list[Arcs] | None, files: list[Pa
         for joint, found, turns in zip(arm.joints, arcs, _turning(arm), strict=True):
             free = turns and found == [(-np.pi, np.pi)]
             whole = free or found == [(joint.lower, joint.upper)]
-            table.add_row(
-                escape(joint.name), _arcs(found, joint.prismatic), "anywhere" if whole else "" if found else "nowhere"
-            )
+            table.add_row(escape(joint.name), _arcs(found, joint), "anywhere" if whole else "" if found else "nowhere")
         out.print(table)
-    for file in files:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, files)
 
 
 def _turning(arm: Arm) -> list[bool]:
@@ -165,10 +160,10 @@ def _turning(arm: Arm) -> list[bool]:
     return [bool(x) for x in turning(arm)]
 
 
-def _arcs(arcs: Arcs, prismatic: bool) -> str:
+def _arcs(arcs: Arcs, joint: Joint) -> str:
     if not arcs:
         return "-"
-    factor, unit = (1.0, "m") if prismatic else (180 / np.pi, "deg")
+    factor, unit = joint.shown
     return ", ".join(f"{_short(factor * a)} to {_short(factor * b)}" for a, b in arcs) + f" {unit}"
 
 
@@ -264,8 +259,8 @@ def _limit(arm: Arm, text: str) -> tuple[float, float]:
     numbers = read_numbers(f"--limit '{text}'", values, "JOINT=LOW,HIGH")
     if numbers.size != 2:
         raise InputError(f"--limit '{text}' has {numbers.size} numbers after =; give the lower and the upper limit")
-    factor = 1.0 if arm.joints[read_joint(arm, joint)].prismatic else np.pi / 180
-    return float(factor * numbers[0]), float(factor * numbers[1])
+    factor = arm.joints[read_joint(arm, joint)].shown[0]
+    return float(numbers[0] / factor), float(numbers[1] / factor)
 
 
 def _region_data(region: TolerantWorkspace) -> dict[str, Any]:
@@ -296,12 +291,11 @@ def _print_region(region: TolerantWorkspace, plot: Path | None) -> None:
     out.print(f"[bold]{escape(region.arm.name)}[/bold], task {escape(region.task.name)}: {region.describe()}", soft_wrap=True)
     table = Table("joint", "artificial limits", "points its locks lose", box=None, pad_edge=False)
     for joint, (low, high), lost in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
-        table.add_row(escape(joint.name), _arcs([(low, high)], joint.prismatic), f"{lost:.1%}")
+        table.add_row(escape(joint.name), _arcs([(low, high)], joint), f"{lost:.1%}")
     out.print(table)
     if not region.exact:
         out.print("values between the tried ones, and configurations that were not found, are not in the interval")
-    if plot is not None:
-        out.print(f"written: {escape(str(plot))}", soft_wrap=True)
+    print_written(out, [plot])
 
 
 def add(app: typer.Typer) -> None:

@@ -27,6 +27,7 @@ from holdfast.cli.options import (
     console,
     number,
     print_json,
+    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -178,14 +179,13 @@ def _print(runs: Runs, files: list[Path]) -> None:
     out.print(facts)
     table = Table("joint", "start", "end", "least", "greatest", "", box=None, pad_edge=False)
     for k, joint in enumerate(arm.joints):
-        factor, shown = (1.0, "m") if joint.prismatic else (180 / np.pi, "deg")
+        factor, shown = joint.shown
         cells = [f"{number(factor * x[k])} {shown}" for x in (runs.q0, runs.q_final, runs.q_low, runs.q_high)]
         notes = ["locked"] if np.isfinite(runs.lock_time[k]) else []
         notes += ["passes its limits"] if runs.limits_passed[k] else []
         table.add_row(escape(joint.name), *cells, ", ".join(notes))
     out.print(table)
-    for file in files:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, files)
 
 
 def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None, physical: PhysicalRun | None) -> list[Path]:

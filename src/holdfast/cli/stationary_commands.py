@@ -20,11 +20,14 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     JsonOption,
+    PlotOption,
+    SeedOption,
     TaskOption,
     TipOption,
     console,
     number,
     print_json,
+    print_written,
     read_arm,
     read_joint,
     read_numbers,
@@ -42,8 +45,6 @@ LockOption = Annotated[
     typer.Option("--lock", help="A joint that stands. May be given again, with --at.", show_default=False),
 ]
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--at is in degrees (sliding joints stay in m).")]
-PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
-SeedOption = Annotated[int, typer.Option("--seed", help="Of the random starts.")]
 SHOWN = 12  # points of a kind in a table
 MANY = 3  # eigenvalues: of more only the ends of their range
 
@@ -259,8 +260,7 @@ def _print_curves(curves: Curves, plot: Path | None) -> None:
     out, arm = console(), curves.law.arm
     for line in curves.describe():
         out.print(escape(line), soft_wrap=True)
-    sliding = arm.joints[curves.joint].prismatic
-    factor, unit = (1.0, "m") if sliding else (180 / np.pi, "deg")
+    factor, unit = arm.joints[curves.joint].shown
     table = Table(
         "curve", f"{escape(arm.joint_names[curves.joint])}, {unit}", "kind", "error, least to most", box=None, pad_edge=False
     )
@@ -271,7 +271,7 @@ def _print_curves(curves: Curves, plot: Path | None) -> None:
             table.add_row(str(k + 1), ends, s.kind.word, f"{number(error.min())} to {number(error.max())}")
     if curves.curves:
         out.print(table)
-    _written(out, plot)
+    print_written(out, [plot])
 
 
 def _print_basins(found: Basins, plot: Path | None) -> None:
@@ -286,19 +286,19 @@ def _print_basins(found: Basins, plot: Path | None) -> None:
     for name, share in found.shares:
         table.add_row(name, str(share), number(points.error[codes[name]]) if name in codes else "")
     out.print(table)
-    _written(out, plot)
+    print_written(out, [plot])
 
 
 def _table(arm: Arm, *more: str) -> Any:
     from rich.markup import escape
     from rich.table import Table
 
-    joints = [f"{escape(j.name)}, {'m' if j.prismatic else 'deg'}" for j in arm.joints]
+    joints = [f"{escape(j.name)}, {j.shown[1]}" for j in arm.joints]
     return Table("kind", *joints, *more, box=None, pad_edge=False)
 
 
 def _joints(arm: Arm, q: Any) -> list[str]:
-    return [f"{x:.4f}" if j.prismatic else f"{np.rad2deg(x):.4f}" for j, x in zip(arm.joints, q, strict=True)]
+    return [f"{j.shown[0] * x:.4f}" for j, x in zip(arm.joints, q, strict=True)]
 
 
 def _first(kind: Any, most: int) -> Any:
@@ -314,13 +314,6 @@ def _spread(values: Any) -> str:
 
 def _complex(value: complex) -> str:
     return number(value.real) if abs(value.imag) < 1e-9 else f"{number(value.real)}{value.imag:+.3g}i"
-
-
-def _written(out: Any, plot: Path | None) -> None:
-    from rich.markup import escape
-
-    if plot is not None:
-        out.print(f"written: {escape(str(plot))}", soft_wrap=True)
 
 
 def add(app: typer.Typer) -> None:

@@ -16,6 +16,7 @@ from holdfast.cli.options import (
     console,
     number,
     print_json,
+    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -158,8 +159,7 @@ def _print(result: FreeSwing, files: list[Path]) -> None:
                 f"{number(1000 * d.distance)} mm",
             )
         out.print(table)
-    for file in files:
-        out.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(out, files)
 
 
 def _write(result: FreeSwing, path: Path) -> None:
@@ -179,7 +179,7 @@ def _draw(result: FreeSwing, path: Path) -> None:
 
     failed = result.arm.joints[result.joint]
     slides = failed.prismatic
-    scale, shown = (1.0, "m") if slides else (180 / np.pi, "deg")
+    scale, shown = failed.shown
     pull = float(np.linalg.norm(result.arm.gravity)) or 1.0
     height = -(result.tool_position - result.tool_position[0]) @ result.arm.gravity / pull
     level = (scale * result.rest_angle, "comes to rest") if result.settled else None

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_labelled_law, read_law
 from holdfast.cli.options import (
+    TARGET_HELP,
     ArmArgument,
     BaseOption,
     JsonOption,
@@ -17,6 +18,7 @@ from holdfast.cli.options import (
     console,
     number,
     print_json,
+    print_written,
     read_arm,
     read_target,
     read_task,
@@ -35,8 +37,7 @@ def workspace(
         str,
         typer.Option(
             "--target",
-            help="Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w. "
-            "With --map also a number of random places (random:200) or a lattice (grid:30).",
+            help=f"{TARGET_HELP} With --map also a number of random places (random:200) or a lattice (grid:30).",
             show_default=False,
         ),
     ],
@@ -98,10 +99,10 @@ def workspace(
     """
     model = read_arm(arm, base, tip)
     wanted = read_task(task, arm, model)
-    made = [
-        read_law(name, model, wanted, w, d, p)
-        for name, w, d, p in (_laws(laws) if laws is not None else [(law, weights, damping, pre_failure_error)])
-    ]
+    if laws is None:
+        made = [read_law(law, model, wanted, weights, damping, pre_failure_error)]
+    else:
+        made = [read_labelled_law(part, model, wanted, "--laws") for part in map(str.strip, laws.split(";")) if part]
     flat = made[0].task.m == 2 and not made[0].task.angular
     if not map_ and flat and laws is None:
         options: dict[str, Any] = {
@@ -133,28 +134,6 @@ def _places(text: str) -> str | int:
     return int(text) if text.isdecimal() else text
 
 
-def _laws(text: str) -> list[tuple[str, str | None, float | None, float | None]]:
-    """Laws with their one number: name, weights, damping, pre-failure error."""
-    found: list[tuple[str, str | None, float | None, float | None]] = []
-    for part in (x.strip() for x in text.split(";") if x.strip()):
-        name, _, value = part.partition(":")
-        if value and name not in ("weighted", "damped", "failure-tolerant"):
-            raise InputError(f"--laws: '{part}': {name} takes no number; write it without")
-        try:
-            figure = float(value) if value and name != "weighted" else None
-        except ValueError as error:
-            raise InputError(f"--laws: '{value}' in '{part}' is not a number") from error
-        found.append(
-            (
-                name,
-                value if name == "weighted" and value else None,
-                figure if name == "damped" else None,
-                figure if name == "failure-tolerant" else None,
-            )
-        )
-    return found
-
-
 def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, json_: bool) -> None:
     from holdfast.converge import workspace as run
     from holdfast.converge.workspace_output import save, summary
@@ -170,7 +149,6 @@ def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, 
 
 
 def _print(w: Workspace, files: list[Path]) -> None:
-    import numpy as np
     from rich.markup import escape
     from rich.table import Table
 
@@ -179,7 +157,7 @@ def _print(w: Workspace, files: list[Path]) -> None:
         show.print(escape(line), soft_wrap=True)
     table = Table("joint", "target in reach with it at", box=None, pad_edge=False)
     for joint, arcs in zip(w.law.arm.joints, w.bounds, strict=True):
-        factor, unit = (1.0, "m") if joint.prismatic else (180 / np.pi, "deg")
+        factor, unit = joint.shown
         told = ", ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
         table.add_row(escape(joint.name), told or "no value")
     show.print(table)
@@ -187,8 +165,7 @@ def _print(w: Workspace, files: list[Path]) -> None:
     for name, values in w.means().items():
         means.add_row(name, *[number(x) for x in values])
     show.print(means)
-    for file in files:
-        show.print(f"written: {escape(str(file))}", soft_wrap=True)
+    print_written(show, files)
 
 
 def _map(laws: list[Law], options: dict[str, Any], out: Path | None, json_: bool) -> None:

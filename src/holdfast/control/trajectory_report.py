@@ -181,7 +181,7 @@ class _Facts:
         t = self.t
         panels = []
         for k, joint in enumerate(t.arm.joints):
-            unit, scale = ("m", 1.0) if joint.prismatic else ("deg", 180 / np.pi)
+            scale, unit = joint.shown
             lines = [Line(scale * t.q[:, k], "position", "first")]
             reach = np.ptp(scale * t.q[:, k]) + (0.1 if joint.prismatic else 10.0)
             for limit in (joint.lower, joint.upper):

@@ -1,7 +1,7 @@
 """Where it ends: what stays within reach, where a failed arm comes to rest and from where, and the way home afterwards."""
 
 from holdfast.converge.basins import Basins, basins
-from holdfast.converge.best_law import Difference, LawChoice, best_law
+from holdfast.converge.best_law import LawChoice, best_law
 from holdfast.converge.bounds import joint_bounds
 from holdfast.converge.convergence_map import ConvergenceMap, convergence_map
 from holdfast.converge.curves import Curve, Curves, Segment
@@ -26,7 +26,6 @@ __all__ = [
     "ConvergenceMap",
     "Curve",
     "Curves",
-    "Difference",
     "Ending",
     "Kind",
     "LawChoice",

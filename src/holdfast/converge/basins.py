@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.configurations import finite_limits
+from holdfast.arm.configurations import finite_limits, without_limits
 from holdfast.arm.targets import target_pose
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind
-from holdfast.converge.rest_system import RestSystem, distinct, without_limits
+from holdfast.converge.rest_system import RestSystem, distinct
 from holdfast.converge.stationary import Joints, RestPoints, read_joints, rest_points, search
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence

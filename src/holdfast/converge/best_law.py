@@ -13,19 +13,9 @@ from holdfast.control.law import Law
 from holdfast.converge.convergence_map import ConvergenceMap, convergence_map, shared
 from holdfast.converge.starts import Places
 from holdfast.errors import InputError
-from holdfast.interval import Interval, check_confidence
+from holdfast.interval import Difference, Interval, check_confidence
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Difference:
-    """How much more often one law arrives than another, as a share of the failures, with its confidence interval."""
-
-    value: float
-    low: float
-    high: float
-    confidence: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,16 +58,12 @@ class LawChoice:
         Raises:
             InputError: No such law or joint, or fewer than two places.
         """
-        from scipy.stats import t
-
         check_confidence(confidence)
         apart = self._by_place(name, joint) - self._by_place(other, joint)
         apart = apart[~np.isnan(apart)]
         if apart.size < 2:
             raise InputError(f"{apart.size} places have motions; an interval needs 2 or more")
-        half = float(t.ppf(0.5 + confidence / 2, apart.size - 1) * apart.std(ddof=1) / np.sqrt(apart.size))
-        middle = float(apart.mean())
-        return Difference(middle, middle - half, middle + half, confidence)
+        return Difference.of_means(apart, confidence)
 
     @property
     def ranking(self) -> list[str]:

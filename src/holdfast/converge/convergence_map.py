@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations as as_configurations
+from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
-from holdfast.converge.starts import Places, configurations_at, read_places, without_idle_limits
+from holdfast.converge.starts import Places, configurations_at, read_places
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
 from holdfast.simulate import Outcome, simulate

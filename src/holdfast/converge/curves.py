@@ -159,8 +159,7 @@ class Curves:
     def describe(self) -> list[str]:
         """A few sentences for people."""
         arm = self.law.arm
-        turning = not arm.joints[self.joint].prismatic
-        factor, unit = (180 / np.pi, "deg") if turning else (1.0, "m")
+        factor, unit = arm.joints[self.joint].shown
         name = arm.joint_names[self.joint]
         lines = [
             f"'{arm.name}' under {self.law.describe()}, {name} locked at any value: {len(self)} curves, {self.starts} starts"
@@ -171,7 +170,7 @@ class Curves:
         lines += [f"whole curves of rest points with {name} at {values} {unit}"] if values else []
         if len(self.loose):
             stuck = self.loose.attracting
-            near = merged([(float(x) - NEARBY, float(x) + NEARBY) for x in self.loose.q[stuck, self.joint]], turning)
+            near = merged([(float(x) - NEARBY, float(x) + NEARBY) for x in self.loose.q[stuck, self.joint]], unit == "deg")
             arcs = ", ".join(f"{factor * (a + NEARBY):.0f} to {factor * (b - NEARBY):.0f}" for a, b in near)
             where = f", about {arcs} {unit}" if near else ""
             lines.append(f"{len(self.loose)} points sampled of surfaces of rest points, {int(stuck.sum())} attracting{where}")

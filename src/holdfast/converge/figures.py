@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task, plane_normal
-from holdfast.assess.facts import joint_positions
+from holdfast.assess.facts import chain
+from holdfast.converge.places_file import axis_label
 from holdfast.report.reach import JointPanel, Projection, RegionMap, region_figure, self_motion_figure
 from holdfast.solve.self_motion import SelfMotion
 
@@ -29,11 +30,10 @@ _CONFIGURATIONS = 6
 def self_motion_picture(arm: Arm, motion: SelfMotion, arcs: list[Arcs]) -> Figure:
     """Joint values along the curves with the ranges of the joints, and the arm in a few of the configurations."""
     low, high = finite_limits(arm)
-    units = [(1.0, "m") if j.prismatic else (180 / np.pi, "deg") for j in arm.joints]
-    factors = np.array([f for f, _ in units])
+    factors = np.array([j.shown[0] for j in arm.joints])
     panels = [
-        JointPanel(f"{j.name}, {u}", [(f * a, f * b) for a, b in found], (f * x, f * y))
-        for j, (f, u), found, x, y in zip(arm.joints, units, arcs, low, high, strict=True)
+        JointPanel(f"{j.name}, {j.shown[1]}", [(f * a, f * b) for a, b in found], (f * x, f * y))
+        for j, f, found, x, y in zip(arm.joints, factors, arcs, low, high, strict=True)
     ]
     longest = sorted(motion.components, key=lambda c: -c.length)[:_CURVES]
     curves = []
@@ -46,7 +46,7 @@ def self_motion_picture(arm: Arm, motion: SelfMotion, arcs: list[Arcs]) -> Figur
         chosen = q[np.linspace(0, len(q) - 1, _CONFIGURATIONS + longest[0].closed).astype(int)[:_CONFIGURATIONS]]
     elif len(motion.q):
         chosen = motion.q[np.linspace(0, len(motion.q) - 1, _CONFIGURATIONS).astype(int)]
-    chains = np.array([np.vstack([arm.base[:3, 3], *joint_positions(arm, q)]) for q in chosen])
+    chains = np.array([chain(arm, q) for q in chosen])
     views = (
         [Projection(chains @ np.array(directions).T, labels, title) for directions, labels, title in _views(arm)]
         if len(chosen)
@@ -61,17 +61,9 @@ def _views(arm: Arm) -> list[tuple[Array, tuple[str, str], str]]:
     """Directions (2, 3) to the right and up, labels and title of each view."""
     if plane_normal(arm) is not None:
         rows = as_task(arm, "planar").rows[:, :3]
-        names = [_axis(row) for row in rows]
-        return [(rows, (f"{names[0]}, m", f"{names[1]}, m"), "In the plane of the arm")]
+        return [(rows, (axis_label(rows[0]), axis_label(rows[1])), "In the plane of the arm")]
     x, y, z = np.eye(3)
     return [(np.array([x, z]), ("x, m", "z, m"), "From the side"), (np.array([x, y]), ("x, m", "y, m"), "From above")]
-
-
-def _axis(direction: Array) -> str:
-    k = int(np.argmax(np.abs(direction)))
-    if abs(direction[k]) < 1 - 1e-9:
-        return "along (" + ", ".join(f"{v:.2f}" for v in direction) + ")"
-    return ("" if direction[k] > 0 else "-") + "xyz"[k]
 
 
 def region_picture(region: TolerantWorkspace) -> Figure:

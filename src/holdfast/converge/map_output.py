@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.errors import StoreError
+from holdfast.converge.places_file import axis_label, save_places
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from holdfast.converge.convergence_map import ConvergenceMap
 
 _WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
@@ -48,32 +48,18 @@ def save(m: ConvergenceMap, folder: str | Path) -> list[Path]:
     """
     from holdfast.report.figures import save_png
 
-    place = Path(folder)
-    header = ["x_m", "y_m", "z_m", "motions"] + [f"{word}_{name}" for word in _WORDS for name in m.columns]
-    numbers = np.column_stack([m.places.points, m.known.sum(axis=1), *[m.values(word) for word in _WORDS]])
-    files = [place / "map.csv", place / "map.json"]
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-        with files[0].open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(header)
-            writer.writerows([["" if np.isnan(x) else f"{x:.9g}" for x in row] for row in numbers])
-        files[1].write_text(json.dumps(summary(m), indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise StoreError(f"cannot write to '{place}': {error.strerror or error}; choose another folder") from error
+    columns = ["motions", *(f"{word}_{name}" for word in _WORDS for name in m.columns)]
+    values = [m.known.sum(axis=1), *(m.values(word) for word in _WORDS)]
+    files = save_places(folder, "map", m.places, columns, values, summary(m))
     for name, figure in figures(m).items():
-        files.append(save_png(figure, place / f"{name}.png", 130))
+        files.append(save_png(figure, Path(folder) / f"{name}.png", 130))
     return files
 
 
-def figures(m: ConvergenceMap) -> dict[str, Any]:
-    """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
-    from holdfast.report.place_maps import Plane, binned, outcome_bars, place_maps
+def outcomes_figure(m: ConvergenceMap) -> Figure:
+    """A bar for each locked joint: how the motions ended."""
+    from holdfast.report.outcomes import Stack, stack_figure
 
-    arm, task = m.law.arm, m.law.task
-    told = (
-        f"{arm.name}, {m.law.name}, task {task.name}: {int(m.known.sum())} motions over {len(m.places)} {m.over}, seed {m.seed}"
-    )
     arrived = m.shares("converged")
     values = {word: np.array([s.value for s in m.shares(word).values()]) for word in _WORDS}
     trapped = values["trapped"]
@@ -86,11 +72,18 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
         "keeps moving, target out of reach": moving_far,
         "undecided, target out of reach": 1 - values["converged"] - trapped - stuck_far - moving_far,
     }
-    limits = 100 * np.array([[s.low, s.high] for s in arrived.values()])
+    low, high = (np.array([getattr(s, end) for s in arrived.values()]) for end in ("low", "high"))
     names = [f"{name} locked" for name in m.columns[:-1]] + ["no joint locked"]
-    caption = f"{told}\nbar ends: 95 % confidence of the share that arrives"
-    found = {"outcomes": outcome_bars(names, {k: 100 * v for k, v in parts.items()}, limits, caption)}
+    bars = Stack("", names, np.column_stack(list(parts.values())), low, high)
+    return stack_figure([bars], list(parts), "share of the motions", caption=_told(m))
 
+
+def figures(m: ConvergenceMap) -> dict[str, Figure]:
+    """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
+    from holdfast.report.place_maps import Plane, binned, place_maps
+
+    task, told = m.law.task, _told(m)
+    found = {"outcomes": outcomes_figure(m)}
     rows = {"arrives": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
     rows = {name: v[:, :-1] for name, v in rows.items()}
     target = m.target[m.known]
@@ -98,25 +91,28 @@ def figures(m: ConvergenceMap) -> dict[str, Any]:
     views = {"map": None} if task.m == 2 and not task.angular else {f"map-{name}": axes for name, axes in _VIEWS.items()}
     for name, axes in views.items():
         across = task.rows[:, :3] if axes is None else np.eye(3)[list(axes)]
-        words = tuple(
-            f"{'xyz'[int(np.argmax(np.abs(r)))]}, m" if np.isclose(np.abs(r).max(), 1) else "along the task, m" for r in across
-        )
+        words = axis_label(across[0]), axis_label(across[1])
         point = across @ target[0, :3, 3] if len(target) else np.zeros(2)
         mark = (float(point[0]), float(point[1])) if alone else None
         points = m.places.points @ across.T
         if m.places.cells is not None:
-            plane, shown = Plane(points, (words[0], words[1]), m.places.cells, m.places.axes, mark, "target"), rows
+            plane, shown = Plane(points, words, m.places.cells, m.places.axes, mark, "target"), rows
             depth = ""
         else:
             pairs = {word: binned(points, v, _BINS) for word, v in rows.items()}
             first = next(iter(pairs.values()))[0]
-            plane = replace(first, labels=(words[0], words[1]), mark=mark, mark_label="target")
+            plane = replace(first, labels=words, mark=mark, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
             depth = "; mean over the places in a cell" + ("" if axes is None else ", whatever their depth")
         found[name] = place_maps(
             plane, shown, m.columns[:-1], "of the motions, percent", f"{told}\nwhere the {m.over} are{depth}"
         )
     return found
+
+
+def _told(m: ConvergenceMap) -> str:
+    motions, places = int(m.known.sum()), len(m.places)
+    return f"{m.law.arm.name}, {m.law.name}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
 
 
 def _means(m: ConvergenceMap, word: str) -> list[Any]:

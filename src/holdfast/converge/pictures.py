@@ -57,7 +57,7 @@ def basins_figure(basins: Basins) -> Figure:
     """A map of the basins where the starts are a grid over two joints (Fig. 8 of Goel et al. 2005), else bars of the shares."""
     points, arm = basins.points, basins.points.law.arm
     where = ", ".join(
-        f"{arm.joint_names[k]} locked at {x * _factor(arm, k):.4g} {_unit(arm, k)}"
+        f"{arm.joint_names[k]} locked at {x * arm.joints[k].shown[0]:.4g} {arm.joints[k].shown[1]}"
         for k, x in zip(points.locked, points.at, strict=True)
     )
     caption = f"{arm.name}, {points.law.name}; {where}; {len(basins.end)} starts"
@@ -71,7 +71,7 @@ def basins_figure(basins: Basins) -> Figure:
     low, high = (f(basins.starts[:, [first, second]], axis=0) for f in (np.min, np.max))
     half = (high - low) / (np.array(basins.shape) - 1) / 2
     low, high = low - half, high + half
-    scale = np.array([_factor(arm, first), _factor(arm, second)])
+    scale = np.array([arm.joints[first].shown[0], arm.joints[second].shown[0]])
     left, right = low * scale, high * scale
     alone = np.flatnonzero(~points.continuum)
     marks = [
@@ -98,22 +98,14 @@ def _within_reach(curves: Curves, seed: int) -> tuple[Array, list[tuple[float, f
     middle = np.repeat((edges[1:] + edges[:-1]) / 2, _TRIES)
     found = curves._system.reaches(middle, np.random.default_rng(seed)).reshape(_CELLS, _TRIES).any(axis=1)
     changes = np.flatnonzero(np.diff(np.r_[0, found.astype(int), 0]))
-    shown = edges * _factor(arm, joint)
+    shown = edges * arm.joints[joint].shown[0]
     return shown, [(float(shown[a]), float(shown[b])) for a, b in zip(changes[::2], changes[1::2], strict=True)]
 
 
 def _values(arm: Arm, q: Array, k: int | np.intp) -> Array:
     """Values of one joint, in degrees from -180 to 180, or m."""
-    return np.asarray(wrapped(arm, q)[:, k] * _factor(arm, k))
-
-
-def _factor(arm: Arm, k: int | np.intp) -> float:
-    return 1.0 if arm.joints[k].prismatic else 180 / np.pi
-
-
-def _unit(arm: Arm, k: int | np.intp) -> str:
-    return "m" if arm.joints[k].prismatic else "deg"
+    return np.asarray(wrapped(arm, q)[:, k] * arm.joints[k].shown[0])
 
 
 def _axis(arm: Arm, k: int | np.intp) -> str:
-    return f"{arm.joint_names[k]}, {_unit(arm, k)}"
+    return f"{arm.joint_names[k]}, {arm.joints[k].shown[1]}"

@@ -8,8 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm
-from holdfast.assess.facts import joint_positions
+from holdfast.assess.facts import chain
 from holdfast.assess.survival import before_and_after_figure
 from holdfast.errors import InputError
 from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, style
@@ -22,12 +21,6 @@ Array = NDArray[np.float64]
 
 _DOTS = 160  # of the hand's way
 _BETWEEN = 4  # ghosts of the arm on its way
-
-
-def _chain(arm: Arm, q: Array) -> Array:
-    """Base, joints and tool (n + 2, 3), m."""
-    origins, tool = joint_positions(arm, q)
-    return np.vstack([arm.base[:3, 3], origins, tool])
 
 
 def _on_the_way(q: Array, count: int) -> Array:
@@ -51,9 +44,9 @@ def scene_figure(recovery: Recovery) -> Figure:
     moving = len(recovery.q) > 1
     way = _on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
     points = arm.forward_kinematics(way)[:, :3, 3] if moving else np.zeros((0, 3))
-    ghosts = [_chain(arm, q) for q in _on_the_way(recovery.q, _BETWEEN + 2)[1:-1]] if moving else []
-    start = _chain(arm, recovery.at)
-    final = _chain(arm, recovery.q[-1]) if moving else start
+    ghosts = [chain(arm, q) for q in _on_the_way(recovery.q, _BETWEEN + 2)[1:-1]] if moving else []
+    start = chain(arm, recovery.at)
+    final = chain(arm, recovery.q[-1]) if moving else start
     # What only widens the view: the places of everything that is drawn by hand below.
     reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     box = np.array([reach.min(axis=0), reach.max(axis=0)])

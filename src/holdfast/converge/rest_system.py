@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.configurations import without_limits
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.converge.equations import RestEquations, metric
@@ -137,14 +137,9 @@ def idle_joints(law: Law) -> tuple[int, ...]:
     return tuple(int(k) for k in np.flatnonzero(j < IDLE * j.max()))
 
 
-def without_limits(arm: Arm) -> Arm:
-    """The arm as a law sees it: every turning joint comes round after 2 pi."""
-    return replace(arm, joints=tuple(replace(j, lower=-np.inf, upper=np.inf) for j in arm.joints))
-
-
 def wrapped(arm: Arm, q: Array) -> Array:
-    """Configurations (N, n) with turning joints from -pi to pi."""
-    return np.where(arm.prismatic, q, (q + np.pi) % (2 * np.pi) - np.pi)
+    """Configurations (N, n) with turning joints from -pi to pi, whatever their limits."""
+    return joint_space.wrapped(without_limits(arm), q)
 
 
 def distinct(arm: Arm, q: Array, known: Array, apart: float) -> Array:

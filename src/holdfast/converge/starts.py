@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm.configurations import without_idle_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
+from holdfast.solve import joint_space
 from holdfast.solve.inverse import solver
 from holdfast.solve.self_motion import TOLERANCE, Component, fibres
 
@@ -123,14 +124,6 @@ def _at(points: Array) -> Array:
     return poses
 
 
-@lru_cache(maxsize=32)
-def without_idle_limits(arm: Arm) -> Arm:
-    """The arm, without the limits of joints that may make a whole turn: those exclude no posture."""
-    idle = ~arm.prismatic & (arm.upper - arm.lower >= 2 * np.pi - 1e-6)
-    free = [replace(j, lower=-np.inf, upper=np.inf) if x else j for j, x in zip(arm.joints, idle, strict=True)]
-    return replace(arm, joints=tuple(free)) if idle.any() else arm
-
-
 # ---- configurations there ----------------------------------------------------------------------------------------
 
 
@@ -162,7 +155,7 @@ def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int
         missing -= np.bincount(rows[ok], minlength=len(places))
         used += wave
     order = np.argsort(owner, kind="stable")
-    return owner[order], engine.wrapped(found[order])
+    return owner[order], joint_space.wrapped(arm, found[order])
 
 
 def on_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, Array]:
@@ -173,8 +166,6 @@ def on_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, A
 
 
 def _evenly(arm: Arm, curve: Component, count: int) -> Array:
-    from holdfast.solve import joint_space
-
     q = curve.q
     if curve.closed:
         q = np.concatenate([q, q[-1:] + joint_space.difference(arm, q[:1], q[-1:])])

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.configurations import finite_limits
+from holdfast.arm.configurations import finite_limits, with_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
@@ -75,15 +75,9 @@ class Space:
 
 def limited(arm: Arm, limits: Array) -> Arm:
     """The arm with artificial limits (n, 2); those of a whole turn or more of a joint without limits are none."""
-    turning = joint_space.turning(arm)
-    joints = []
-    for k, joint in enumerate(arm.joints):
-        low, high = (float(x) for x in limits[k])
-        free = turning[k] and high - low >= 2 * np.pi - 1e-9
-        joints.append(
-            joint if free else replace(joint, type="prismatic" if joint.prismatic else "revolute", lower=low, upper=high)
-        )
-    return replace(arm, joints=tuple(joints))
+    low, high = limits.T
+    free = joint_space.turning(arm) & (high - low >= 2 * np.pi - 1e-9)
+    return with_limits(arm, np.where(free, arm.lower, low), np.where(free, arm.upper, high))
 
 
 def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:

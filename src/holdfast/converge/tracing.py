@@ -12,11 +12,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.configurations import without_limits
 from holdfast.control.law import Law
 from holdfast.converge.curves import Curve, Curves
 from holdfast.converge.equations import TOLERANCE
 from holdfast.converge.events import marked
-from holdfast.converge.rest_system import RestSystem, without_limits, wrapped
+from holdfast.converge.rest_system import RestSystem, wrapped
 from holdfast.converge.stationary import rest_points
 from holdfast.solve.self_motion import Component, distance_to_curve
 

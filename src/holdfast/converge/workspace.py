@@ -10,12 +10,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
 from holdfast.converge.arriving import arriving
 from holdfast.converge.bounds import joint_bounds
 from holdfast.converge.healthy_paths import healthy_paths
 from holdfast.converge.measures import Arcs, Flags, Index, Measures, averaged, spaced, within
-from holdfast.converge.starts import Places, configurations_at, read_places, without_idle_limits
+from holdfast.converge.starts import Places, configurations_at, read_places
 from holdfast.converge.stationary import stationary
 from holdfast.errors import InputError, TaskError
 from holdfast.simulate import Outcome, Reason, simulate

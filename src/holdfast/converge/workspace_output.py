@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import StoreError
+from holdfast.converge.places_file import axis_label, save_places
 
 if TYPE_CHECKING:
     from holdfast.converge.workspace import Workspace
@@ -54,22 +52,11 @@ def save(w: Workspace, folder: str | Path) -> list[Path]:
     from holdfast.converge.workspace import ENDS
     from holdfast.report.figures import save_png
 
-    place = Path(folder)
-    header = ["x_m", "y_m", "z_m", "configurations", "lost", *ENDS]
-    header += [f"{name}_{column}_percent" for name in w.measures for column in w.columns]
-    numbers = np.column_stack([w.places.points, w.configurations, w.lost, w.ends, *w.measures.values()])
-    files = [place / "workspace.csv", place / "workspace.json"]
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-        with files[0].open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(header)
-            writer.writerows([["" if np.isnan(x) else f"{x:.9g}" for x in row] for row in numbers])
-        files[1].write_text(json.dumps(summary(w), indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise StoreError(f"cannot write to '{place}': {error.strerror or error}; choose another folder") from error
+    columns = ["configurations", "lost", *ENDS, *(f"{name}_{column}_percent" for name in w.measures for column in w.columns)]
+    values = [w.configurations, w.lost, w.ends, *w.measures.values()]
+    files = save_places(folder, "workspace", w.places, columns, values, summary(w))
     for name, figure in figures(w).items():
-        files.append(save_png(figure, place / f"{name}.png", 130))
+        files.append(save_png(figure, Path(folder) / f"{name}.png", 130))
     return files
 
 
@@ -88,8 +75,7 @@ def _figure(w: Workspace, names: tuple[str, ...], label: str) -> Any:
     columns = [*arm.joint_names, "any joint"]
     flat = task.m == 2 and not task.angular
     rows = task.rows[:, :3] if flat else np.eye(3)[[0, 2]]
-    words = ("x, m", "y, m") if not flat or np.allclose(rows, np.eye(3)[:2]) else ("first row of the task, m", "second row, m")
-    words = words if flat else ("x, m", "z, m")
+    words = axis_label(rows[0]), axis_label(rows[1])
     point = rows @ w.target[:3, 3]
     target = (float(point[0]), float(point[1]))
     plane = Plane(w.places.points @ rows.T, words, w.places.cells, w.places.axes, target, "target")

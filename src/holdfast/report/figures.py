@@ -34,8 +34,10 @@ Array = NDArray[np.float64]
 
 INK, SOFT, FAINT = "#1b1f24", "#59636e", "#d4d9de"
 BLUE, ORANGE, SKY = "#0a5c9e", "#c8500a", "#a9cbe6"  # after Okabe and Ito, darkened for thin lines
+GREEN, PURPLE, AMBER, LIGHT_BLUE = "#007a5e", "#a8497f", "#c58a00", "#4aa3d6"
+PALE = "#e9ecef"  # where there is nothing
 # Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
-_COLORS = (BLUE, ORANGE, "#007a5e", "#a8497f", INK, "#c58a00", "#4aa3d6")
+COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
 _LINES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))
 WIDTH = 10.0  # inches: 960 px in a page
 
@@ -268,7 +270,7 @@ def compare_cdf_figure(
         for axes, (title, curves) in zip(every, panels, strict=True):
             for c in curves:
                 k = labels.index(c.label)
-                color, line = _COLORS[k % len(_COLORS)], _LINES[k % len(_LINES)]
+                color, line = COLORS[k % len(COLORS)], _LINES[k % len(_LINES)]
                 axes.plot(c.x, c.share, color=color, linestyle=line, linewidth=1.7, label=plain(c.label, 40))
             _marks(axes, marks)
             axes.set(xlabel=xlabel, ylabel=ylabel, ylim=(0, 1.02), title=title)

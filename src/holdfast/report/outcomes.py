@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,14 +13,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import BLUE, COLORS, FAINT, INK, ORANGE, PURPLE, SKY, SOFT, WIDTH, finished, plain, style
 
 Array = NDArray[np.float64]
 
 # Light to dark as well as by hue, and hatched where two neighbours would print alike.
-FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""))
+FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "////"), (FAINT, ""), (PURPLE, ".."))
 MARKERS = ("o", "s", "D", "^", "v", "P", "X")
-SHADES = (INK, BLUE, ORANGE, "#007a5e", "#a8497f", "#c58a00", "#4aa3d6")
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,15 @@ class Stack:
     level: float | None = None
 
 
-def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, level: str = "") -> Figure:
+def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, level: str = "", caption: str = "") -> Figure:
     """Groups of stacked bars with the interval of the first outcome.
 
     Args:
         stacks: From the top.
-        outcomes: (K,) what the parts are, up to four.
+        outcomes: (K,) what the parts are, up to five.
         xlabel: What the shares are of.
         level: What the mark of a group says.
+        caption: What was computed, a few lines.
     """
     total = sum(len(s.bars) for s in stacks)
     with style():
@@ -89,7 +90,12 @@ def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, 
         keys.append(Line2D([], [], color=INK, linewidth=1.4, label=f"95 % interval of {outcomes[0]}"))
         if level:
             keys.append(Line2D([], [], color=INK, linewidth=1.4, linestyle=(0, (2, 1)), label=level))
-        figure.legend(handles=keys, loc="outside lower center", ncols=3, columnspacing=2.0)
+        place: Literal["outside upper center", "outside lower center"] = (
+            "outside upper center" if caption else "outside lower center"
+        )
+        figure.legend(handles=keys, loc=place, ncols=3, columnspacing=2.0)
+        if caption:
+            figure.supxlabel("\n".join(plain(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
         return finished(figure)
 
 
@@ -155,7 +161,7 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
             axes.axvline(0, color=SOFT, linewidth=1.0)
             for k, g in enumerate(gains):
                 places = np.arange(len(cases)) + (k - (len(gains) - 1) / 2) * 0.6 / max(len(gains), 1)
-                color = SHADES[(k + 1) % len(SHADES)]
+                color = COLORS[k % len(COLORS)]
                 axes.hlines(places, g.low, g.high, color=color, linewidth=1.6)
                 axes.plot(g.value, places, MARKERS[k % len(MARKERS)], color=color, markersize=5, label=plain(g.label, 40))
             axes.set_xlabel(label)

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import INK, ORANGE, PALE, SOFT, WIDTH, finished, plain, style
 from holdfast.report.scenes import Scale, finish_bar
 
 Array = NDArray[np.float64]
-
-_NOTHING = "#e9ecef"  # a place without a value
-_PARTS = ((BLUE, ""), (SKY, ""), (ORANGE, ""), ("#f0b98d", "//"), ("#a8497f", ".."), ("#c3c9cf", "xx"))  # of a bar, in order
 
 
 @dataclass(frozen=True)
@@ -83,14 +81,14 @@ def _draw(axes: Axes, plane: Plane, values: Array, scale: Scale) -> None:
     if plane.cells is not None and plane.axes is not None:
         x, y = plane.axes
         picture = np.full((len(y), len(x), 4), 0.0)
-        picture[plane.cells[:, 1], plane.cells[:, 0]] = np.array([0.914, 0.925, 0.937, 1.0])
+        picture[plane.cells[:, 1], plane.cells[:, 0]] = to_rgba(PALE)
         picture[plane.cells[known, 1], plane.cells[known, 0]] = scale.colors(values[known])
         half = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
         extent = (x[0] - half[0], x[-1] + half[0], y[0] - half[1], y[-1] + half[1])
         axes.imshow(picture, origin="lower", extent=extent, interpolation="nearest")
     else:
         x, y = plane.points.T
-        axes.scatter(x[~known], y[~known], s=9, color=_NOTHING, linewidths=0)
+        axes.scatter(x[~known], y[~known], s=9, color=PALE, linewidths=0)
         axes.scatter(x[known], y[known], s=11, c=scale.colors(values[known]), linewidths=0)
         axes.set_aspect("equal")
     if plane.mark is not None:
@@ -123,33 +121,3 @@ def binned(points: Array, values: Array, bins: int) -> tuple[Plane, Array]:
     axes = tuple(low[k] + size * (np.arange(count[k]) + 0.5) for k in range(2))
     centres = np.stack([axes[0][cells[:, 0]], axes[1][cells[:, 1]]], axis=1)
     return Plane(centres, ("", ""), cells, (axes[0], axes[1])), means
-
-
-def outcome_bars(names: Sequence[str], parts: Mapping[str, Array], intervals: Array, caption: str) -> Figure:
-    """Stacked horizontal bars that add up to 100 %: how runs ended, one bar for each case.
-
-    Args:
-        names: (K,) of the cases.
-        parts: By label, (K,) percent; drawn from left to right.
-        intervals: (K, 2) confidence limits of the first part, percent.
-        caption: What was computed.
-    """
-    with style():
-        figure = Figure(figsize=(WIDTH * 0.85, 1.3 + 0.36 * len(names)))
-        axes = figure.add_subplot()
-        rows, left = np.arange(len(names)), np.zeros(len(names))
-        for (label, values), (color, hatch) in zip(parts.items(), _PARTS, strict=False):
-            axes.barh(
-                rows, values, left=left, height=0.66, color=color, hatch=hatch, edgecolor="white", linewidth=0.5, label=label
-            )
-            left = left + values
-        first = next(iter(parts.values()))
-        reach = np.abs(intervals.T - first)
-        axes.errorbar(first, rows, xerr=reach, fmt="none", ecolor=INK, elinewidth=1.2, capsize=3)
-        axes.set_yticks(rows, [plain(n, 40) for n in names])
-        axes.set(xlabel="runs, percent", xlim=(0, 100), ylim=(len(names) - 0.5, -0.5))
-        axes.grid(axis="y", visible=False)
-        axes.tick_params(axis="y", length=0)
-        figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3, columnspacing=2.0)
-        figure.supxlabel("\n".join(plain(line, 160) for line in caption.splitlines()), fontsize=9, color=SOFT)
-        return finished(figure)

@@ -13,12 +13,11 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import BLUE, INK, ORANGE, PALE, SKY, SOFT, WIDTH, finished, plain, style
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-PALE = "#e3e7eb"
 _GAP = 0.04  # of the whole length, between two curves
 
 

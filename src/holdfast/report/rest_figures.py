@@ -15,11 +15,10 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from holdfast.report.figures import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, finished, plain, style
+from holdfast.report.figures import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, plain, style
 
 Array = NDArray[np.float64]
 
-GREEN, PURPLE = "#007a5e", "#a8497f"
 # Colour, line width, line style and marker of each kind; sinks stand out.
 KINDS: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
     "solution": (GREEN, 1.6, "-", "o"),
@@ -28,8 +27,9 @@ KINDS: dict[str, tuple[str, float, Literal["-", "--", ":"], str]] = {
     "source": (PURPLE, 1.3, "--", "^"),
     "degenerate": (INK, 1.3, ":", "s"),
 }
+_REACHED = "#e3f1ec"
 # Of basins: pale, and told apart by hue and by lightness.
-_PALE = ("#bfe3d6", "#7fb8a8", "#d9edf9", "#93c4e3", "#f3e3b3", "#dcc46f")
+_ARRIVES = ("#bfe3d6", "#7fb8a8", "#d9edf9", "#93c4e3", "#f3e3b3", "#dcc46f")
 _STUCK = ("#f4c7ab", "#e39a6f", "#f7dccb", "#c98058")
 _OTHER = {"moving": "#c9a3bb", "undecided": "#d4d9de", "target": "#bfe3d6", "stuck": "#f4c7ab"}
 
@@ -74,7 +74,7 @@ def curves_over(
         panels = np.atleast_1d(figure.subplots(len(ylabels), 1, sharex=True))
         for p, (axes, ylabel) in enumerate(zip(panels, ylabels, strict=True)):
             for low, high in reached:
-                axes.axvspan(low, high, color="#e3f1ec", linewidth=0, zorder=0)
+                axes.axvspan(low, high, color=_REACHED, linewidth=0, zorder=0)
             for line in lines:
                 color, width, dashes, _ = KINDS[line.kind]
                 axes.plot(*_broken(line.x, line.y[p]), color=color, linewidth=width, linestyle=dashes)
@@ -93,7 +93,7 @@ def curves_over(
             Line2D([], [], color=KINDS[k][0], linewidth=KINDS[k][1], linestyle=KINDS[k][2], label=k) for k in present
         ]
         if reached:
-            handles.append(Patch(color="#e3f1ec", label="target within reach"))
+            handles.append(Patch(color=_REACHED, label="target within reach"))
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
         figure.supxlabel(plain(caption, 200), fontsize=9, color=SOFT)
         return finished(figure)
@@ -166,7 +166,7 @@ def share_bars(names: Sequence[str], shares: Sequence[tuple[float, float, float]
 
 
 def _basin_colors(names: Sequence[str]) -> list[str]:
-    good, bad = iter(_PALE * 50), iter(_STUCK * 50)
+    good, bad = iter(_ARRIVES * 50), iter(_STUCK * 50)
     out = []
     for name in names:
         word = name.split()[0]

@@ -193,7 +193,7 @@ class RunReport:
     def _joints(self) -> Picture:
         panels = []
         for k, joint in enumerate(self.arm.joints):
-            unit, scale = ("m", 1.0) if joint.prismatic else ("deg", 180 / np.pi)
+            scale, unit = joint.shown
             values = scale * self.seen.q[:, k]
             lines = [Line(values, "position", "first")]
             near = float(np.ptp(values)) + 0.1 * (1.0 if joint.prismatic else 100.0)

@@ -258,18 +258,12 @@ class InverseKinematics:
         rows = np.flatnonzero(finite)
         found = self._search(self._loop, parameters, rows, seed, restarts, tolerance, lambda start, _: start, first)
         q, used = found.q, found.restarts
-        q = self.wrapped(q)
+        q = joint_space.wrapped(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
         position_error, rotation_error = self.errors(q, poses)
         status = np.where(self.verdict(q, poses, tolerance), Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(q, status, position_error, rotation_error, used)
-
-    def wrapped(self, q: Array) -> Array:
-        """Joints without limits come back to -pi..pi."""
-        turning = joint_space.turning(self.arm)
-        q[:, turning] = np.arctan2(np.sin(q[:, turning]), np.cos(q[:, turning]))
-        return q
 
 
 def damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:

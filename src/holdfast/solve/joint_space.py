@@ -39,6 +39,11 @@ def nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.intp]]
     return np.asarray(distance), np.asarray(index)
 
 
+def wrapped(arm: Arm, q: Array) -> Array:
+    """Configurations (..., n) with joints that turn without limits in -pi to pi."""
+    return np.where(turning(arm), np.arctan2(np.sin(q), np.cos(q)), q)
+
+
 def folded(arm: Arm, q: Array) -> Array:
     """Configurations (N, n) with joints that turn without limits in 0 to 2 pi, 2 pi left out."""
     x = q % (2 * np.pi)

@@ -24,6 +24,7 @@ from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
+from holdfast.solve import joint_space
 from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solve.maximin import maximin_step
 from holdfast.status import Status, require_ok
@@ -177,7 +178,7 @@ class Ascent:
         q, _ = self._climb(step, q, poses[owner], _LAST_STEPS, radius)
         # Far below the tolerance, so that the pose does not pay for the value.
         q, _ = self.engine.attempt(q, poses[owner], 1e-3 * tolerance)
-        q = self.engine.wrapped(q)
+        q = joint_space.wrapped(self.engine.arm, q)
         good = self.engine.verdict(q, poses[owner], tolerance)
         if clear:
             good &= self._is_clear(q)
