@@ -37,6 +37,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]
+suppress_warnings = ["ref.python"]  # a plain Kind or Path in a signature has namesakes in other packages
 
 html_theme = "furo"
 html_title = f"holdfast {release}"

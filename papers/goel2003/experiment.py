@@ -333,10 +333,8 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
     anticipated, perceived = (a.correlation(*pair) for pair in CORRELATIONS)
     healthy = a.table("healthy").set_index("measure")
     time, rated = healthy.loc["M1"], healthy.loc["M12"]
-    gains = a.table("gains").set_index("difficulty").loc["all"]
-    tasks, people, machine, same_side = (
-        int(str(gains[x])) for x in ("tasks", "operators_gain", "computer_gains", "same_direction")
-    )
+    gains = next(r for _, r in a.table("gains").iterrows() if r["difficulty"] == "all")
+    tasks, people, machine, same_side = (int(gains[x]) for x in ("tasks", "operators_gain", "computer_gains", "same_direction"))
 
     def told(d: dict[str, tuple[float, float]]) -> str:
         return ", ".join(f"{g} {x:+.3f} (t = {t:.1f})" for g, (x, t) in d.items())
