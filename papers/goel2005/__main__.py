@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from papers.goel2005 import statements, three_links, two_links
+from papers.goel2005 import reachability, rest_points, statements, three_links, two_links, workspaces
 from papers.part import write
 
 HERE = Path(__file__).parent
-PARTS = (two_links, three_links, statements)
+PARTS = (two_links, three_links, reachability, rest_points, statements, workspaces)
 
 
 def main() -> None:

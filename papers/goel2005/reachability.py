@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.converge.figures import self_motion_picture
 from holdfast.report.figures import save_png
+from holdfast.solve.self_motion import SelfMotion
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import TARGET, law
 from papers.numbers import beside
@@ -45,7 +46,12 @@ def farthest(ours: list[list[tuple[float, float]]], expected: list[list[tuple[fl
     """Largest difference of an end, deg; infinite where the numbers of arcs differ."""
     if [len(a) for a in ours] != [len(b) for b in expected]:
         return float("inf")
-    gaps = [abs(u - v) for a, b in zip(ours, expected, strict=True) for x, y in zip(a, b, strict=True) for u, v in zip(x, y)]
+    gaps = [
+        abs(u - v)
+        for a, b in zip(ours, expected, strict=True)
+        for x, y in zip(a, b, strict=True)
+        for u, v in zip(x, y, strict=True)
+    ]
     return max(gaps, default=0.0)
 
 
@@ -67,7 +73,7 @@ def others_table() -> list[str]:
     return lines
 
 
-def traced(motion: hf.SelfMotion) -> Array:
+def traced(motion: SelfMotion) -> Array:
     """(2, 3) least and greatest value of each joint on the traced manifold, deg from -180 to 180."""
     q = np.degrees((motion.q + np.pi) % (2 * np.pi) - np.pi)
     return np.stack([q.min(axis=0), q.max(axis=0)])
@@ -89,7 +95,8 @@ def result(folder: Path) -> Part:
         "5.1 bounds of joints 1, 2, 3 for x_d = (1.5, 1.5)",
         "[-24.30, 114.30], [-111.80, 111.80], [-111.80, 111.80] deg, of the single self-motion manifold",
         ", ".join(f"[{joint[0][0]:.2f}, {joint[0][1]:.2f}]" for joint in found)
-        + f" deg; {len(motion.components)} manifold, along which the joints run within {np.abs(traced(motion) - ends).max():.0e} "
+        + f" deg; {len(motion.components)} manifold, along which the joints run within "
+        f"{np.abs(traced(motion) - ends).max():.0e} "
         "deg of these ends",
         "agrees; (8) is lost in our text, and these numbers confirm how we read it",
         Verdict.HOLDS if np.abs(ends.T - np.array(PRINTED)).max() < 0.006 else Verdict.FALSE,

@@ -33,7 +33,7 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
                 _stretches(above, curve, wrapped(np.degrees(curve.q[:, other])))
                 if not curve.degenerate:
                     _stretches(below, curve, np.prod(curve.eigenvalues, axis=1).real)
-            _ticks(above)
+            above.set(xlim=(0, 360), xticks=range(0, 361, 60))
             above.set(title=f"joint {c.joint + 1} locked", ylabel=f"joint {other + 1}, deg", ylim=(-180, 180))
             above.set_yticks(range(-180, 181, 60))
             below.set_yscale("symlog", linthresh=BAND)
@@ -58,15 +58,10 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
 
 def _stretches(axes: Axes, curve: Curve, values: Array) -> None:
     """Values along a curve over the locked angle, drawn by kind, broken where an angle comes round."""
-    x = wrapped(np.degrees(curve.locked))
+    x = np.degrees(curve.locked) % 360
     for s in curve.segments:
         rows = slice(s.first, s.last + 1)
         color, width, line, _ = KINDS[s.kind.word]
         a, b = x[rows].copy(), values[rows].copy()
         jumps = np.flatnonzero((np.abs(np.diff(a)) > 180) | (np.abs(np.diff(b)) > 180)) + 1
         axes.plot(np.insert(a, jumps, np.nan), np.insert(b, jumps, np.nan), color=color, linewidth=width, linestyle=line)
-
-
-def _ticks(axes: Axes) -> None:
-    axes.set(xlim=(-180, 180))
-    axes.set_xticks(range(-180, 181, 60))

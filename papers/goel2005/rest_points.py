@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.converge import Curves, Kind
+from holdfast.converge import Basins, Curves, Kind
 from holdfast.converge.pictures import basins_figure
 from holdfast.report.figures import save_png
 from papers.claims import Claim, Verdict
@@ -123,7 +123,9 @@ def range_table(found: Sequence[Curves]) -> list[str]:
                 low = min(first, last)
                 shift = wrapped(low + 1e-6) - 1e-6 - low
                 shape = family(c.joint, curve.q[(s.first + s.last) // 2])
-                lines.append(f"| {c.joint + 1} | {number} | {s.kind.word} | {first + shift:.3f} to {last + shift:.3f} | {shape} |")
+                lines.append(
+                    f"| {c.joint + 1} | {number} | {s.kind.word} | {first + shift:.3f} to {last + shift:.3f} | {shape} |"
+                )
     return lines
 
 
@@ -139,7 +141,10 @@ def family(joint: int, q: Array) -> str:
 
 def sinks(found: Sequence[Curves]) -> list[str]:
     """Locked angles with a sink, folds, and whole lines of rest points, beside the specification."""
-    lines = ["| joint | sinks at locked angles (deg) | folds at (deg) | whole lines of rest points at (deg) |", "|---|---|---|---|"]
+    lines = [
+        "| joint | sinks at locked angles (deg) | folds at (deg) | whole lines of rest points at (deg) |",
+        "|---|---|---|---|",
+    ]
     for c, expected, folds, points in zip(found, SINKS, FOLDS, LINES, strict=True):
         arcs = zip(np.degrees(c.sink_arcs).ravel(), np.ravel(expected), strict=True)
         turns = np.concatenate([wrapped(np.degrees(k.locked[k.folds])) for k in c.curves if not k.degenerate])
@@ -181,14 +186,14 @@ LOCKED_8, GRID = 45.0, 64
 SHARES = (0.51, 0.49)  # of 4000 samples, the specification's
 
 
-def figure_8(path: Path) -> tuple[hf.Basins, float]:
+def figure_8(path: Path) -> tuple[Basins, float]:
     """Basins, and for how much of the boundary starts on either side end at different solutions."""
     found = hf.basins(law(), TARGET, 1, np.deg2rad(LOCKED_8), grid=GRID)
     save_png(basins_figure(found), path, dpi=110)
     return found, split_by(found)
 
 
-def split_by(found: hf.Basins, beside_it: float = 0.02) -> float:
+def split_by(found: Basins, beside_it: float = 0.02) -> float:
     """Share of places along the boundary with starts that end at different solutions on either side, so many rad away."""
     q, across = [], []
     for line in found.boundaries:
@@ -205,7 +210,7 @@ def split_by(found: hf.Basins, beside_it: float = 0.02) -> float:
     return float(np.mean(ends[0] != ends[1]))
 
 
-def basin_table(found: hf.Basins) -> list[str]:
+def basin_table(found: Basins) -> list[str]:
     """Shares of the starts."""
     lines = ["| basin of | configuration (deg) | share of starts | 95 % interval | specification |", "|---|---|---|---|---|"]
     for (name, share), expected in zip(found.shares, SHARES, strict=True):
@@ -217,7 +222,7 @@ def basin_table(found: hf.Basins) -> list[str]:
 # ---- all of it -------------------------------------------------------------------------------------------------------------
 
 
-def claims(found: Sequence[Curves], basins: hf.Basins, split: float, worst: tuple[float, float, int]) -> list[Claim]:
+def claims(found: Sequence[Curves], basins: Basins, split: float, worst: tuple[float, float, int]) -> list[Claim]:
     """What sections 4.3 to 4.6 say of the three-link arm."""
     saddles = [k for k, kind in enumerate(basins.points.kind) if kind == Kind.SADDLE]
     every, crossing = changes(found)
@@ -236,7 +241,8 @@ def claims(found: Sequence[Curves], basins: hf.Basins, split: float, worst: tupl
             "Fig. 8 and 4.5: basins",
             "all trajectories converge to the solution of their basin; what is drawn to S1 and S2 parts the basins",
             f"{basins.converged.value:.1%} of {len(basins.end)} starts converge, {basins.shares[0][1].value:.1%} and "
-            f"{basins.shares[1][1].value:.1%} to either solution; {split:.0%} of the places along the stable manifolds of S1 and "
+            f"{basins.shares[1][1].value:.1%} to either solution; {split:.0%} of the places along the stable manifolds of S1 "
+            "and "
             "S2, followed backwards, have starts 0.02 rad away on either side that end at different solutions",
             "agrees; which solution the paper calls 1 is not stated",
             Verdict.HOLDS if basins.converged.value == 1 and split > 0.95 else Verdict.PARTLY,
@@ -244,7 +250,8 @@ def claims(found: Sequence[Curves], basins: hf.Basins, split: float, worst: tupl
         Claim(
             "Fig. 9: joint 1, x_d = (1.5, 1.5)",
             "stationary curves grown from two seeds S1 and S2, with sink segments",
-            f"{len(folded)} curves: one through both arms of the stretched family with sinks at {_arc(folded)} deg of joint 1, and "
+            f"{len(folded)} curves: one through both arms of the stretched family with sinks at {_arc(folded)} deg of joint "
+            "1, and "
             "two folded lines, each at one angle ("
             + ", ".join(f"{np.degrees(x):.4f}" for x in folded.degenerate_angles)
             + " deg), on which one eigenvalue is 0 everywhere",
@@ -254,10 +261,12 @@ def claims(found: Sequence[Curves], basins: hf.Basins, split: float, worst: tupl
         Claim(
             "4.6, for the paper's target",
             "sink segments end where the determinant vanishes",
-            f"{every} ends of sinks on the curves of the three joints: {every - crossing} where a real eigenvalue changes sign or "
+            f"{every} ends of sinks on the curves of the three joints: {every - crossing} where a real eigenvalue changes "
+            "sign or "
             f"J loses rank, {crossing} at a crossing pair. The sinks begin where the target goes out of reach, within "
             f"{complement(found):.0e} deg",
-            "true for this target; for others see the statement on 4.6 below. Where J loses rank the determinant passes through "
+            "true for this target; for others see the statement on 4.6 below. Where J loses rank the determinant passes "
+            "through "
             "infinity, not zero, and segments must be split there, too",
             Verdict.HOLDS if not crossing else Verdict.FALSE,
         ),
@@ -280,7 +289,8 @@ def result(folder: Path) -> Part:
         "## Where the arm can come to rest, beside the specification",
         "",
         "x_d = (1.5, 1.5), pseudoinverse; every regular rest point at seven locked angles. Ours, and how far they are from the "
-        f"specification's (at most {angle:.0e} deg and {eigenvalue:.0e} Ke; it prints four and five digits); {more} points were "
+        f"specification's (at most {angle:.0e} deg and {eigenvalue:.0e} Ke; it prints four and five digits); {more} points "
+        "were "
         "found that it does not have.",
         "",
         *table,
