@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -31,8 +30,9 @@ from papers.stuck_panda.study import (
 )
 
 HERE = Path(__file__).parent
-SIZES = {"position": 150, "pose": 60}  # places
+SIZES = {"position": 80, "pose": 40}  # places
 CONFIGURATIONS = 2
+MOST = 5  # errors of continua that are told
 WORDS = ("converged", "stuck", "moving", "undecided", "trapped")
 
 
@@ -115,7 +115,8 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
         f"{sum(found[0].outcomes.values())} runs from random configurations with joint 4 at the same angle. *Continuum*: "
         "points that "
         "are not isolated, as the Panda can turn its spherical shoulder about the line from there to the target without moving "
-        "joint 4. A stuck run is explained if it ended within 0.01 rad of an isolated point, or with the error (to 1e-4) of a "
+        "joint 4; those with a star repel in no direction. A stuck run is explained if it ended within 0.01 rad of an "
+        "isolated point, or with the error (to 1e-4) of a "
         "continuum that attracts.",
         "",
         *elbow_table(found),
@@ -157,12 +158,19 @@ def answers(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow]) -> list
         mine = [e for e in found if e.task == task]
         stuck = sum(e.outcomes["stuck"] for e in mine)
         alone, level, other = (sum(getattr(e, x) for e in mine) for x in ("isolated", "continuum", "elsewhere"))
-        excess = np.concatenate([e.excess for e in mine])
-        near = f"{np.mean(excess < 1e-3):.0%} of them as near to the target as the arm then could be" if stuck else ""
+        errors, excess = (np.concatenate([getattr(e, x) for e in mine]) for x in ("errors", "excess"))
+        size = "m" if task == "position" else "m and rad"
+        astray = (
+            f"; their error is {np.median(errors):.3f} {size} in the median, where {np.median(errors - excess):.3f} could be "
+            "had "
+            "with the joint where it stands"
+            if stuck
+            else ""
+        )
         lines.append(
             f"Task {task}: of {stuck} stuck runs with joint 4 locked {alone} ended at an isolated point of rest and {level} "
             "on a "
-            f"continuum that had been found before, {other} elsewhere; {near} (to 1e-3)."
+            f"continuum that had been found before, {other} elsewhere{astray}."
         )
     for task, c in choices.items():
         best = c.best
@@ -224,25 +232,23 @@ def law_table(choices: Mapping[str, hf.LawChoice]) -> list[str]:
 def elbow_table(found: Sequence[Elbow]) -> list[str]:
     """Points of rest and runs by angle."""
     lines = [
-        "| task | law | joint 4 at, deg | erroneous points: isolated | continua | runs: arrive, stuck, moving, undecided "
+        "| task | law | joint 4 at, deg | isolated erroneous points | continua, by error | runs: arrive, stuck, moving, "
+        "undecided "
         "| stuck: isolated, continuum, elsewhere | error of stuck runs, m or m and rad |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for e in found:
-        cells = [e.task, e.law, f"{e.angle:g}", _points(e.counts, True), _points(e.counts, False)]
+        kinds = ", ".join(f"{n} {kind}{'s' if n > 1 else ''}" for kind, n in e.isolated_kinds.items()) or "none"
+        every, attracting = e.levels
+        continua = ", ".join(f"{x:.3f}{'*' if x in attracting else ''}" for x in every[:MOST]) or "none"
+        continua += f" and {len(every) - MOST} more" if len(every) > MOST else ""
+        cells = [e.task, e.law, f"{e.angle:g}", kinds, continua]
         reasons = ", ".join(f"{count} {reason}" for reason, count in e.reasons.items())
         cells.append(", ".join(str(e.outcomes[o]) for o in figures.OUTCOMES) + (f" ({reasons})" if reasons else ""))
         cells.append(f"{e.isolated}, {e.continuum}, {e.elsewhere}")
         cells.append(f"{e.errors.min():.3f} to {e.errors.max():.3f}" if len(e.errors) else "-")
         lines.append(f"| {' | '.join(cells)} |")
     return lines
-
-
-def _points(counts: Counter[tuple[str, bool]], isolated: bool) -> str:
-    some = {kind: n for (kind, alone), n in counts.items() if alone == isolated and kind != "solution"}
-    if not isolated:
-        return ", ".join(some) or "none"  # a sample: how many says nothing
-    return ", ".join(f"{n} {kind}{'s' if n > 1 else ''}" for kind, n in some.items()) or "none"
 
 
 def main() -> None:

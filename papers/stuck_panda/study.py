@@ -26,7 +26,7 @@ PRE_FAILURE = (0.1, 0.3, 0.5, 0.7, 0.9)
 SHOWN = ("pseudoinverse", f"damped {DAMPING:g}", "tolerant 0.5")  # joint by joint
 TIME_LIMIT = 500.0  # 1/Ke
 SEED = 1
-ANGLES = tuple(range(-170, 0, 20))  # deg, of the elbow
+ANGLES = (-165.0, -140.0, -115.0, -90.0, -65.0, -40.0, -15.0)  # of the elbow, deg
 STARTS = 100  # random ones for each of them
 SAME, LEVEL = 1e-2, 1e-4  # rad (an end is at a point), m and rad (or has the error of a continuum)
 
@@ -118,9 +118,18 @@ class Elbow:
     excess: Array
 
     @property
-    def counts(self) -> Counter[tuple[str, bool]]:
-        """Points by kind and whether they are isolated."""
-        return Counter((k, not loose) for k, loose in zip(self.points.kinds, self.points.continuum, strict=True))
+    def isolated_kinds(self) -> Counter[str]:
+        """Kinds of the isolated erroneous points."""
+        p = self.points
+        return Counter(k for k, loose in zip(p.kinds, p.continuum, strict=True) if not loose and k != Kind.SOLUTION.word)
+
+    @property
+    def levels(self) -> tuple[Array, Array]:
+        """Errors, to 1e-3, of erroneous continua; and of those of them that attract."""
+        p = self.points
+        wrong = p.continuum & (p.kind != Kind.SOLUTION)
+        every, attracting = (np.unique(np.round(p.error[wrong & rows], 3)) for rows in (wrong, p.attracting))
+        return every, attracting
 
 
 def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
