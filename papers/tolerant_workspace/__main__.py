@@ -82,10 +82,12 @@ def results(found: Sequence[Best], region: TolerantWorkspace) -> list[str]:
     return [
         "# The failure-tolerant workspace of three equal links",
         "",
-        "Written by `python -m papers.tolerant_workspace`. Bader and Maciejewski 2020 compute the optimum for equal links; only "
+        "Written by `python -m papers.tolerant_workspace`. Bader and Maciejewski 2020 compute the optimum for equal links; "
+        "only "
         "the abstract could be had, which gives no number. Brute force stands in for it.",
         "",
-        f"`hf.tolerant_workspace(arm, task='planar', optimise=True)` finds {region.size:.4f} m^2 of {region.healthy_size:.4f} m^2 "
+        f"`hf.tolerant_workspace(arm, task='planar', optimise=True)` finds {region.size:.4f} m^2 of {region.healthy_size:.4f} "
+        "m^2 "
         f"({region.share:.1%}), for unit links, with artificial limits of {shown} deg.",
         "",
         f"Brute force: every pair of limits of joints 2 and 3 on a grid of {STEP:g} deg (one of two mirror images), "
@@ -101,7 +103,8 @@ def results(found: Sequence[Best], region: TolerantWorkspace) -> list[str]:
             for b in found
         ],
         "",
-        "Both use the same closed form of the area; that one is checked against sampled inverse kinematics and a scan of angles in "
+        "Both use the same closed form of the area; that one is checked against sampled inverse kinematics and a scan of "
+        "angles in "
         "`tests/converge/test_tolerant_workspace.py`.",
         "",
         "![The region](region.png)",
