@@ -84,15 +84,14 @@ def boxes() -> Claim:
     """Of a target with two self-motion manifolds: configurations in which any joint may lock though they lie in no box."""
     x = np.array(OTHERS[2])
     rng = np.random.default_rng(SEED)
-    second, third = (np.radians(arcs(x)[k]) for k in (1, 2))
+    (low, high), (lower, upper) = (np.radians(arcs(x)[k][arc]) for k, arc in ((1, 1), (2, 0)))
     # Joint 2 on the arc of the one manifold, joint 3 on that of the other.
-    q = np.stack(
-        [rng.uniform(-np.pi, np.pi, BETWEEN), rng.uniform(*second[1], BETWEEN), rng.uniform(*third[0], BETWEEN)], axis=1
-    )
+    columns = [rng.uniform(float(a), float(b), BETWEEN) for a, b in ((-np.pi, np.pi), (low, high), (lower, upper))]
+    q = np.stack(columns, axis=1)
     found = [hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), k, q[:, k], task="planar").success for k in range(3)]
     return Claim(
         "5, pseudocode: B_xd, the union of the bounding boxes of all self-motion manifolds of x_d",
-        "what lies outside cannot guarantee reachability",
+        "the part of a trajectory inside it is that from which the target stays in reach",
         f"x_d = ({x[0]:g}, {x[1]:g}) has two manifolds, mirror images. With joint 2 on an arc of the one and joint 3 on an "
         "arc of the "
         "other the arm is in neither box; yet x_d stays in reach, whichever joint locks, in "
