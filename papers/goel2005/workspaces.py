@@ -1,6 +1,6 @@
 """Section 5: the workspace analysis, Fig. 10, and what the paper says of the starts of Figs. 5 and 6.
 
-``python -m papers.goel2005.workspaces`` simulates every failure of Fig. 10, too (brute force), and compares.
+``python -m papers.goel2005 --brute`` simulates every failure of Fig. 10 (brute force), and compares.
 """
 
 from __future__ import annotations
@@ -67,19 +67,17 @@ class Measured:
         date: When.
         seconds: Of processor time, all threads.
         ends: Failures that ended as in :attr:`holdfast.Workspace.ends`.
-        means: Means of F100, Favg and Fsens for an arbitrary joint, percent.
         difference: Largest difference of any measure of any start and joint to the procedure's, percentage points.
     """
 
     date: str
     seconds: float
     ends: tuple[int, ...]
-    means: tuple[float, float, float]
     difference: float
 
 
-# By `python -m papers.goel2005.workspaces`, on a virtual machine with two cores that others used, too.
-BRUTE = Measured("2026-11-21", 0.0, (0, 0, 0, 0, 0, 0), (100.0, 100.0, 0.0), 0.0)
+# By `python -m papers.goel2005 --brute`, on a virtual machine with two cores that others used, too.
+BRUTE = Measured("2026-11-21", 0.0, (0, 0, 0, 0, 0, 0), 0.0)
 
 # ---- tables ----------------------------------------------------------------------------------------------------------------
 
@@ -143,13 +141,13 @@ def figure_10(w: hf.Workspace, path: Path) -> None:
     )
     m = w.measures
     rows = {of: np.stack([m[f"{of}{what}"][:, 3] for what in ("100", "avg", "sens")], axis=1) for of in ("R", "F")}
+    unknown = "; grey: R is 0, no such part" if np.isnan(rows["F"]).any() else ""
     caption = (
-        f"Fig. 10: {len(w.places)} starts, {int(w.configurations.sum())} configurations, an arbitrary joint locks. R: share of "
-        "the way from which\nthe target stays in reach. F: share of that part from which the failed arm arrives; grey: R is "
-        "0, no "
-        "such part"
+        f"Fig. 10: {len(w.places)} starts, {int(w.configurations.sum())} configurations, an arbitrary joint locks. R: share "
+        "of the "
+        f"way from which\nthe target stays in reach. F: share of that part from which the failed arm arrives{unknown}"
     )
-    columns = ("100: configurations", "avg: mean", "sens: greatest - least")
+    columns = ("R100, F100", "Ravg, Favg", "Rsens, Fsens")
     save_png(place_maps(plane, rows, columns, "percent", caption), path, dpi=110)
 
 
@@ -170,7 +168,7 @@ def work(w: hf.Workspace, seconds: float) -> list[str]:
         f"{BRUTE.ends[2]} moving, {BRUTE.ends[3] + BRUTE.ends[4]} undecided at the time limit ({brute_slow:.2%}), of which "
         f"{BRUTE.ends[4]} next to a solution that attracts; {BRUTE.seconds:.0f} s of processor time. Largest difference to the "
         f"procedure in any measure of any start and joint: {BRUTE.difference:.2g} percentage points. "
-        "`python -m papers.goel2005.workspaces` measures it again.",
+        "`python -m papers.goel2005 --brute` measures it again.",
     ]
 
 
@@ -330,18 +328,11 @@ def result(folder: Path) -> Part:
     return Part(claims(w, grid, gaps), sections, titles)
 
 
-def main() -> None:
-    """Both methods, and what to store in :data:`BRUTE`."""
+def brute() -> None:
+    """Both methods, compared, and what to store in :data:`BRUTE`."""
     quick, fast = analysis("procedure")
-    brute, slow = analysis("brute")
-    gaps = [np.nanmax(np.abs(values - quick.measures[name])) for name, values in brute.measures.items()]
-    means = [float(brute.means()[name][3]) for name in ("F100", "Favg", "Fsens")]
+    full, slow = analysis("brute")
+    gap = max(float(np.nanmax(np.abs(values - quick.measures[name]))) for name, values in full.measures.items())
+    ends = tuple(full.ends.sum(axis=0).tolist())
     print(f"procedure {fast:.0f} s, brute force {slow:.0f} s of processor time")
-    print(
-        f"Measured({time.strftime('%Y-%m-%d')!r}, {slow:.0f}, {tuple(brute.ends.sum(axis=0).tolist())}, {means}, "
-        f"{max(gaps):.3g})"
-    )
-
-
-if __name__ == "__main__":
-    main()
+    print(f"Measured({time.strftime('%Y-%m-%d')!r}, {slow:.0f}, {ends}, {gap:.3g})")
