@@ -10,7 +10,7 @@ from papers.english1998 import measures, planar
 from papers.english1998.planar import Borders, Planar
 from papers.goel2003 import laws
 from papers.goel2003.peak_error import PeakError, golden
-from papers.goel2005 import statements, three_links, two_links
+from papers.goel2005 import three_links, two_links
 from papers.numbers import beside
 from papers.seven_dof import __main__ as seven_dof
 from papers.seven_dof import study
@@ -120,49 +120,6 @@ def test_cases_of_figures_5_to_7():
         run = three_links.run(case.start, case.joint, case.target)
         assert run.outcome == case.outcome, case.name
         assert case.final is None or three_links.away(run.q_final, case.final) < 1e-4
-
-
-def test_stuck_commands_are_those_of_the_corrected_theorem(monkeypatch):
-    monkeypatch.setattr(statements, "TRIALS", 200)
-    worst, agree = statements.exact_form()
-    assert worst < 1e-9
-    assert agree == 200
-
-
-def test_eigenvalues_cross_the_axis_where_the_determinant_does_not_vanish(rng):
-    h = statements.hopf()
-    assert h.angle == pytest.approx(168.2262, abs=1e-4)
-    assert h.fold == pytest.approx(167.909, abs=1e-3)
-    assert abs(h.eigenvalue.real) < 1e-9
-    assert abs(h.eigenvalue.imag) == pytest.approx(0.086, abs=1e-3)
-    assert h.determinant > 0
-    assert "sink" not in statements.kinds(168.30)
-    assert statements.solutions(168.30) == 2
-    # The linearisation against differences of the law, and the family against its definition.
-    for folded in (False, True):
-        q = statements.family(160.0, folded, 1, np.array([1.1, 0.2]))
-        x = np.array([1.1, 0.2])
-
-        def rates(q, x=x):
-            law = three_links.law()
-            return law.velocity(q, x - law.arm.forward_kinematics(q)[:2, 3])[[0, 2]]
-
-        np.testing.assert_allclose(rates(q), 0, atol=1e-12)
-        columns = [(rates(q + h) - rates(q - h)) / 2e-6 for h in 1e-6 * np.eye(3)[[0, 2]]]
-        np.testing.assert_allclose(statements.linearised(q, x), np.transpose(columns), atol=1e-6)
-
-
-def test_a_reachable_target_without_a_sink_that_is_never_reached():
-    found = statements.cycle(168.42, 3.0, time_limit=3000.0)
-    assert found.outcome == "moving"
-    assert found.width == pytest.approx(17.770, abs=2e-3)
-    assert found.period == pytest.approx(107.28, abs=0.02)
-
-
-def test_r100_of_the_starts():
-    share = statements.reachable_share(three_links.START_5, 1, 72, 100)
-    assert np.mean(share == 1) == pytest.approx(0.707, abs=0.05)
-    assert share.mean() == pytest.approx(0.8063, abs=0.02)
 
 
 # ---- Goel, Maciejewski, Balakrishnan, Proctor 2003 --------------------------------------------------------------------------

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.solve import self_motion
+from holdfast.converge.starts import configurations_at, read_places
 from papers.arms import without_limits
 from papers.claims import Claim, Verdict
 from papers.numbers import beside
@@ -176,21 +176,10 @@ def thresholds() -> tuple[float, float]:
     return found[0], found[1]
 
 
-def manifold(place: ArrayLike, count: int, seed: int = 1) -> Array:
-    """(count, 3) configurations of a place, rad, at equal joint-space distances along its self-motion manifold."""
-    pose = np.eye(4)
-    pose[:2, 3] = np.asarray(place)
-    curves = self_motion(law().arm, pose, "planar", 0.01, seed).components
-    return np.concatenate([_spread(c.q, round(count / len(curves)), c.closed) for c in curves])
-
-
-def _spread(q: Array, count: int, closed: bool) -> Array:
-    """Points at equal distances along a polygon."""
-    if closed:
-        q = np.concatenate([q, q[-1:] + wrapped(np.degrees(q[:1] - q[-1:])) * np.pi / 180])
-    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
-    at = np.linspace(0, way[-1], count, endpoint=not closed)
-    return np.stack([np.interp(at, way, column) for column in q.T], axis=1)
+def manifold(place: ArrayLike, count: int) -> Array:
+    """(count, 3) configurations of a place, rad, equally far apart along its self-motion manifold in joint space."""
+    poses = read_places(law().arm, law().task, place, np.random.default_rng(0)).poses
+    return configurations_at(law().arm, law().task, poses, count, 0)[1]
 
 
 def claims(found: dict[str, hf.Runs]) -> list[Claim]:

@@ -83,7 +83,7 @@ def test_a_tilted_arm_with_axes_up_and_down_has_the_same_area(rng):
 
 
 def test_the_best_limits_of_equal_links(unit3):
-    """Our optimum: brute force on a grid of 20 deg with five widths of joint 1 finds nothing larger."""
+    """Our optimum; `python -m papers.tolerant_workspace` compares it with brute force over a grid of limits."""
     region = tolerant_workspace(unit3, task="planar", optimise=True)
     assert region.exact
     assert region.optimised
