@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
+from holdfast.arm.configurations import without_limits
 from holdfast.control import Law
 from holdfast.converge import Kind, RestPoints
-from holdfast.converge.rest_system import idle_joints, without_limits
+from holdfast.converge.rest_system import idle_joints
 from holdfast.simulate import Outcome, Reason
 from holdfast.solve import joint_space
 
