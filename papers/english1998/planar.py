@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
+from holdfast.arm.configurations import without_limits
 from holdfast.arm.task import as_task
 from holdfast.control.events import Curvature
 from holdfast.indices.susceptibility import Susceptibility
 from holdfast.paths import Constant, TimedPath, line
 from holdfast.solve import fibres, self_motion
 from holdfast.solve.fibre_path import best_path_over
-from papers.arms import without_limits
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class Planar:
     @classmethod
     def load(cls) -> Planar:
         """The built-in arm, unit masses and centres of mass in the middle of the links."""
-        arm = without_limits("planar-3r")
+        arm = without_limits(hf.arms.load("planar-3r"))
         largest = hf.susceptibility.largest_static_torque(arm)
         torque = hf.susceptibility.torque(arm, 1 / (3 * largest**2))
         return cls(arm, torque, hf.susceptibility.swing_angle(arm, np.array([0, 1, 0]) / np.pi**2))
