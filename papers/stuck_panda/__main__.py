@@ -155,6 +155,9 @@ def answers(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow]) -> list
             "trapped."
         )
     for task in choices:
+        arcs = hf.joint_bounds(arm(), target(), task, seed=SEED)[ELBOW]
+        where = ", ".join(f"{np.degrees(low):.1f} to {np.degrees(high):.1f}" for low, high in arcs)
+        lines.append(f"Task {task}: the target can be reached within the limits with joint 4 at {where} deg and nowhere else.")
         mine = [e for e in found if e.task == task]
         stuck = sum(e.outcomes["stuck"] for e in mine)
         alone, level, other = (sum(getattr(e, x) for e in mine) for x in ("isolated", "continuum", "elsewhere"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,10 @@ from papers.stuck_panda.study import ELBOW, SHOWN, Elbow, arm
 Array = NDArray[np.float64]
 
 OUTCOMES = ("converged", "stuck", "moving", "undecided")
-CELLS = 9  # of a map, along its longer edge
+CELLS = 6  # of a map, along its longer edge
+
+
+ORDER = ("degenerate", "source", "saddle", "solution", "sink")  # of drawing
 
 
 def draw_joints(task: str, choice: hf.LawChoice, path: Path) -> None:
@@ -57,8 +61,6 @@ def _over_joints(m: hf.ConvergenceMap, outcome: str) -> float:
 
 def draw_map(task: str, choice: hf.LawChoice, goal: Array, path: Path) -> None:
     """From where motions end how when the elbow locks: places seen from the side, by law."""
-    from dataclasses import replace
-
     maps = [choice.map_of(name) for name in SHOWN]
     points = maps[0].places.points[:, [0, 2]]
     rows: dict[str, Array] = {}
@@ -89,7 +91,13 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
                         levels = np.unique(np.round(p.error[rows], 3))
                         face = "none" if loose else color
                         axes.plot(
-                            np.full(len(levels), e.angle), levels, marker, color=color, markerfacecolor=face, markersize=6
+                            np.full(len(levels), e.angle),
+                            levels,
+                            marker,
+                            color=color,
+                            markerfacecolor=face,
+                            markersize=6,
+                            zorder=ORDER.index(kind),
                         )
                 axes.plot(np.full(len(e.errors), e.angle + 5), e.errors, "_", color=INK, markersize=9, alpha=0.5)
             size = "m" if task == "position" else "m and rad"
