@@ -148,7 +148,7 @@ def test_starts_of_the_specification(monkeypatch):
 
 def test_measures_over_a_small_lattice():
     w, seconds = workspaces.analysis("procedure", 7)
-    values = dict(zip((what for what, *_ in workspaces.GRID), workspaces.grid_values(w), strict=True))
+    values = dict(zip((what for what, _ in workspaces.GRID), workspaces.grid_values(w), strict=True))
     assert values["mean R100, %"] == pytest.approx(np.nanmean(w.reach.full[:, 3]))
     assert values["starts with R100 = 0"] == (w.reach.full[:, 3] == 0).sum()
     assert values["first quartile of Ravg, %"] < values["median of Ravg, %"] < values["third quartile of Ravg, %"]

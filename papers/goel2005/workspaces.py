@@ -40,22 +40,22 @@ TABLE: dict[tuple[float, float], tuple[tuple[float, ...], tuple[float, ...], tup
     (0.3, -0.4): ((33.9, 22.7, 35.6, 0), (49.68, 44.21, 60.98, 10.30), (100, 100, 100, 95.6)),
 }
 TOLERANCE = (0.7, 0.3, 1.0)  # of R100, Ravg, Rsens, percentage points, as the specification gives them
-# Over the whole lattice, arbitrary joint unless said: what, value, tolerance.
+# Over the whole lattice, arbitrary joint unless said.
 GRID = (
-    ("mean R100, %", 18.0, 0.2),
-    ("mean Ravg, %", 28.0, 0.3),
-    ("mean Rsens, %", 80.7, 0.9),
-    ("mean R100 of joint 1, %", 36.0, 0.4),
-    ("mean R100 of joint 2, %", 54.6, 0.6),
-    ("mean R100 of joint 3, %", 51.8, 0.6),
-    ("mean Ravg of joint 1, %", 56.3, 0.6),
-    ("mean Ravg of joint 2, %", 69.0, 0.7),
-    ("mean Ravg of joint 3, %", 69.6, 0.7),
-    ("first quartile of Ravg, %", 9.9, 0.2),
-    ("median of Ravg, %", 15.8, 0.3),
-    ("third quartile of Ravg, %", 34.9, 0.5),
-    ("starts with R100 = 100 %", 89, 5),
-    ("starts with R100 = 0", 731, 5),
+    ("mean R100, %", 18.0),
+    ("mean Ravg, %", 28.0),
+    ("mean Rsens, %", 80.7),
+    ("mean R100 of joint 1, %", 36.0),
+    ("mean R100 of joint 2, %", 54.6),
+    ("mean R100 of joint 3, %", 51.8),
+    ("mean Ravg of joint 1, %", 56.3),
+    ("mean Ravg of joint 2, %", 69.0),
+    ("mean Ravg of joint 3, %", 69.6),
+    ("first quartile of Ravg, %", 9.9),
+    ("median of Ravg, %", 15.8),
+    ("third quartile of Ravg, %", 34.9),
+    ("starts with R100 = 100 %", 89),
+    ("starts with R100 = 0", 731),
 )
 
 
@@ -115,7 +115,7 @@ def perfect(w: hf.Workspace) -> NDArray[np.bool_]:
 def grid_table(w: hf.Workspace) -> list[str]:
     """Means and counts over the lattice beside the specification."""
     lines = ["| over all starts | ours | specification | difference |", "|---|---|---|---|"]
-    for (what, expected, _), ours in zip(GRID, grid_values(w), strict=True):
+    for (what, expected), ours in zip(GRID, grid_values(w), strict=True):
         digits = 0 if what.startswith("starts") else 1
         gap = ours - expected
         lines.append(f"| {what} | {ours:.{digits}f} | {expected:.{digits}f} | {gap:+.{digits}f} |")
@@ -318,6 +318,10 @@ def result(folder: Path) -> Part:
         "up to 10 points of the part of the way within its range.",
         "",
         *grid_table(grid),
+        "",
+        "The two counts depend on which 36 configurations of each manifold are looked at: with other seeds, or 35 or 37 of "
+        "them, we "
+        "found 87 to 90 and 723 to 733.",
         "",
         *work(grid, seconds),
     ]
