@@ -97,7 +97,7 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
                             color=color,
                             markerfacecolor=face,
                             markersize=6,
-                            zorder=ORDER.index(kind),
+                            zorder=3 + ORDER.index(kind),
                         )
                 axes.plot(np.full(len(e.errors), e.angle + 5), e.errors, "_", color=INK, markersize=9, alpha=0.5)
             size = "m" if task == "position" else "m and rad"
