@@ -29,6 +29,14 @@ def test_figure_8(three):
     assert (one != other).all()
 
 
+def test_a_joint_that_the_task_does_not_notice():
+    """Three links and a wrist at the tool point: wherever the wrist stands, the stuck runs are at the one sink."""
+    arm = hf.Arm.from_dh([hf.DH(a=a, alpha=0.0) for a in (1.0, 1.0, 1.0, 0.0)])
+    law = hf.control.pseudoinverse(arm, task="planar")
+    found = hf.basins(law, [1.5, 1.5], locked=1, at=RAD(140), starts=40)
+    assert dict(found.shares)["sink 1"].value == 1.0
+
+
 def test_a_grid_where_no_start_arrives(three):
     found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(140), grid=8)
     assert found.shape == (8, 8)

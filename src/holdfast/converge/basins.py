@@ -134,7 +134,7 @@ def basins(
     points = _completed(system, points, runs)
     shape = None if grid is None else (grid, grid)
     lines = tuple(_boundaries(system, points)) if len(moving) == 2 else ()
-    return Basins(points, q0, _ends(points, runs), runs, confidence, lines, shape, moving)
+    return Basins(points, q0, _ends(system, points, runs), runs, confidence, lines, shape, moving)
 
 
 def _starts(
@@ -163,7 +163,7 @@ def _starts(
 
 def _completed(system: RestSystem, points: RestPoints, runs: Runs) -> RestPoints:
     """With points added at which runs came to rest though the search did not find them."""
-    stuck = runs.q_final[runs.code == Outcome.STUCK]
+    stuck = _finals(system, runs)[runs.code == Outcome.STUCK]
     new = distinct(system.law.arm, stuck, points.q, NEAR)
     if not len(new):
         return points
@@ -174,16 +174,23 @@ def _completed(system: RestSystem, points: RestPoints, runs: Runs) -> RestPoints
     )
 
 
-def _ends(points: RestPoints, runs: Runs) -> Indices:
+def _finals(system: RestSystem, runs: Runs) -> Array:
+    """(N, n) where the runs ended, joints that the task does not notice at 0, as in points of rest."""
+    q = runs.q_final.copy()
+    q[:, list(system.idle)] = 0.0
+    return q
+
+
+def _ends(system: RestSystem, points: RestPoints, runs: Runs) -> Indices:
     """(N,) see :class:`Basins`."""
     codes = {Outcome.CONVERGED: ARRIVED, Outcome.STUCK: STUCK, Outcome.MOVING: MOVING, Outcome.UNDECIDED: UNDECIDED}
     end = np.array([codes[Outcome(c)] for c in runs.code], dtype=np.int64)
-    free = without_limits(points.law.arm)
+    free, finals = without_limits(points.law.arm), _finals(system, runs)
     reached = points.kind == Kind.SOLUTION
     for outcome, alike in ((Outcome.CONVERGED, reached), (Outcome.STUCK, ~reached)):
         rows, among = np.flatnonzero(runs.code == outcome), np.flatnonzero(alike & ~points.continuum)
         if rows.size and among.size:
-            away, nearest = joint_space.nearest(free, points.q[among], runs.q_final[rows])
+            away, nearest = joint_space.nearest(free, points.q[among], finals[rows])
             end[rows[away < NEAR]] = among[nearest[away < NEAR]]
     return end
 
