@@ -10,6 +10,7 @@ from holdfast.converge import (
     ConvergenceMap,
     LawChoice,
     Recovery,
+    TargetMeasures,
     TolerantWorkspace,
     Workspace,
     basins,
@@ -19,6 +20,7 @@ from holdfast.converge import (
     reachable_when_locked,
     recover,
     stationary,
+    target_measures,
     tolerant_workspace,
     workspace,
 )
@@ -72,6 +74,7 @@ __all__ = [
     "Servos",
     "Status",
     "StoreError",
+    "TargetMeasures",
     "Task",
     "TaskError",
     "TolerantWorkspace",
@@ -103,6 +106,7 @@ __all__ = [
     "solve_ik",
     "stationary",
     "susceptibility",
+    "target_measures",
     "tolerant_workspace",
     "workspace",
 ]

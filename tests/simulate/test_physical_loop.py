@@ -112,7 +112,7 @@ def test_a_joint_that_locks_while_moving_passes_on_no_momentum_that_is_not_there
 def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, lock):
     run = hf.simulate_physics(law, home, goal, [lock], hf.Servos(bandwidth=20.0))
     assert (run.outcome, run.reason, run.agrees) == ("converged", "none", True)
-    assert run.path_distance < 1e-3
+    assert run.path_distance < (1e-3 if lock == 4 else 2e-3)  # a lock on the way is a blow
     assert run.terminal_distance < 1e-6
     assert run.terminal_turn < 1e-3
     k, at = lock if isinstance(lock, tuple) else (lock, 0.0)

@@ -17,6 +17,8 @@ def main(folder: str, code: str, trials: int) -> None:
         session = Session(records, code)
         for _ in range(trials):
             todo = session.next()
+            if todo is None:
+                return
             number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
             plant, mask = protocol.plants[todo.scenario], todo.tasks.healthy(protocol.scenarios[todo.scenario].failed)[0]
             q, rng = todo.tasks.q0[0], np.random.default_rng(number)

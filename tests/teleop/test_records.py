@@ -270,14 +270,16 @@ def test_arm_files_travel_with_the_experiment(tmp_path):
 
 
 @pytest.mark.parametrize("kills", [int(os.environ.get("HOLDFAST_KILLS", "4"))])
-def test_killed_at_any_moment(records, kills):
+def test_killed_at_any_moment(tmp_path, kills):
     """After kill -9, all that was acknowledged is there, the file is sound, and the session goes on."""
+    folder = tmp_path / "study"
+    Records.create(folder, read()).close()
     rng = np.random.default_rng()
     acknowledged: dict[tuple[int, int], str] = {}
     ended: set[int] = set()
     for _ in range(kills):
         with subprocess.Popen(
-            [sys.executable, str(PROGRAM), str(records.folder), "P1", "40"],
+            [sys.executable, str(PROGRAM), str(folder), "P1", "20"],
             stdout=subprocess.PIPE,
             text=True,
         ) as program:
@@ -294,7 +296,7 @@ def test_killed_at_any_moment(records, kills):
                 case [number, k, q] if len(q) == 48:
                     acknowledged[int(number), int(k)] = q
     assert len(acknowledged) > kills
-    with Records.open(records.folder) as again:  # checks that the file is sound
+    with Records.open(folder) as again:  # checks that the file is sound
         entries = again.entries("P1")
         trials = again.trials(entries)
         row = {e.id: i for i, e in enumerate(entries)}
@@ -302,4 +304,4 @@ def test_killed_at_any_moment(records, kills):
             assert trials.configurations(row[number])[k].tobytes().hex() == q
         assert {e.id for e in entries if e.end == End.ARRIVED} >= ended
         assert replay(again).differs == []
-        assert Session(again, "P1").next() is not None
+        assert Session(again, "P1").next() is not None or again.subject("P1").state == State.COMPLETED

@@ -37,7 +37,7 @@ def workspace(
         str,
         typer.Option(
             "--target",
-            help=f"{TARGET_HELP} With --map also a number of random places (random:200) or a lattice (grid:30).",
+            help=f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200).",
             show_default=False,
         ),
     ],
@@ -114,7 +114,10 @@ def workspace(
             "time_limit": time_limit,
             "seed": seed,
         }
-        _measures(made[0], target, options, out, json_)
+        if target.startswith(("grid", "random:")):
+            _over_targets(made[0], target, options, starts, configurations, out, json_)
+        else:
+            _measures(made[0], target, options, out, json_)
         return
     if procedure or whole or points != 10:
         raise InputError("--procedure, --whole and --points belong to the measures of a planar arm; leave them out, or --map")
@@ -146,6 +149,37 @@ def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, 
         print_json(summary(w))
     else:
         _print(w, files)
+
+
+def _over_targets(
+    law: Law,
+    target: str,
+    options: dict[str, Any],
+    starts: str | None,
+    configurations: int | None,
+    out: Path | None,
+    json_: bool,
+) -> None:
+    from rich.markup import escape
+
+    from holdfast.converge import target_measures
+    from holdfast.converge.target_measures import CONFIGURATIONS, POINTS, STARTS
+
+    options |= {
+        "starts": STARTS if starts is None else _places(starts),
+        "configurations": CONFIGURATIONS if configurations is None else configurations,
+        "points": min(options["points"], POINTS),
+    }
+    with progress_bar(json_, "targets") as progress:
+        found = target_measures(law, _places(target), progress=progress, **options)
+    files = [] if out is None else found.save(out)
+    if json_:
+        print_json({"targets": found.targets.points, "ends": found.ends, "percent": found.measures})
+        return
+    show = console()
+    for line in found.describe():
+        show.print(escape(line), soft_wrap=True)
+    print_written(show, files)
 
 
 def _print(w: Workspace, files: list[Path]) -> None:

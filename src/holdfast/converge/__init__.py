@@ -17,6 +17,7 @@ from holdfast.converge.recover_result import Ending, Leg, Recovery
 from holdfast.converge.recover_waypoints import Replay, check_waypoints, read_waypoints, write_waypoints
 from holdfast.converge.starts import Places
 from holdfast.converge.stationary import RestPoints, stationary
+from holdfast.converge.target_measures import TargetMeasures, target_measures
 from holdfast.converge.theorem import column_residual, is_stuck, null_components, stuck_subspace
 from holdfast.converge.tolerant_workspace import TolerantWorkspace, tolerant_workspace
 from holdfast.converge.workspace import Workspace, workspace
@@ -40,6 +41,7 @@ __all__ = [
     "RestPoints",
     "RowsGivenUp",
     "Segment",
+    "TargetMeasures",
     "TolerantWorkspace",
     "WhatIsLeft",
     "Workspace",
@@ -58,6 +60,7 @@ __all__ = [
     "recover",
     "stationary",
     "stuck_subspace",
+    "target_measures",
     "tolerant_workspace",
     "workspace",
     "write_waypoints",
