@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.teleop.analysis import Analysis, analyse
+from holdfast.teleop.entries import Kind
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.protocol import Protocol, read
-from holdfast.teleop.records import Kind, Records
+from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay
 from holdfast.teleop.selection import Binning, binning
 from holdfast.teleop.tables import computer_table, hand_paths, trial_table

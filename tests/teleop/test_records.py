@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from holdfast.teleop.entries import Kind, State
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.measures import measures
 from holdfast.teleop.protocol import Training, read
-from holdfast.teleop.records import Kind, Records, State
+from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay
 from holdfast.teleop.session import Session, training_tasks
 from holdfast.teleop.tables import computer_table, cycle_table, dictionary, export, trial_table

@@ -15,8 +15,9 @@ from holdfast.cli.options import console
 from holdfast.errors import InputError, StoreError
 
 if TYPE_CHECKING:
+    from holdfast.teleop.entries import Subject
     from holdfast.teleop.protocol import Protocol
-    from holdfast.teleop.records import Records, Subject
+    from holdfast.teleop.records import Records
 
 DIFFERS = 3  # exit code: it worked, and not every trial came out as it was recorded
 
@@ -191,7 +192,7 @@ def subjects(
                 f"deleted: subject {delete} and {count} recorded trials; exports and reports written before still hold them"
             )
         if drop is not None:
-            from holdfast.teleop.records import State
+            from holdfast.teleop.entries import State
 
             records.set_state(drop, State.DROPPED)
             typer.echo(f"dropped: subject {drop}; what was recorded stays")
@@ -248,7 +249,7 @@ def _table(*head: str) -> Any:
 
 
 def _print_experiment(records: Records) -> None:
-    from holdfast.teleop.records import Kind
+    from holdfast.teleop.entries import Kind
     from holdfast.teleop.trials import End
 
     out, protocol = console(), records.protocol

@@ -8,6 +8,7 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003.
 from holdfast.teleop.allocation import write_allocation
 from holdfast.teleop.bank_figure import bank_figure
 from holdfast.teleop.drive import Computer, Operator, Recorded, Rules, drive
+from holdfast.teleop.entries import Entry, Kind, State, Subject, Who
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.measures import CPM, MEASURES, Measure, cpm, measures
 from holdfast.teleop.operators import Person, SimulatedPeople, population, rate
@@ -16,7 +17,7 @@ from holdfast.teleop.plant import Plant
 from holdfast.teleop.point_task import SCENARIOS, PointTasks, Scenario
 from holdfast.teleop.protocol import Protocol, Training, training_limit
 from holdfast.teleop.protocol import read as read_protocol
-from holdfast.teleop.records import Entry, Kind, Records, State, Subject, Who
+from holdfast.teleop.records import Records
 from holdfast.teleop.replay import Replay, replay
 from holdfast.teleop.selection import Binning, Detour, binning, can_be_steered, most_disorienting, select, trapped
 from holdfast.teleop.session import Next, Session, training_tasks

@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from holdfast.errors import InputError
-from holdfast.teleop.drive import drive
+from holdfast.teleop.entries import Kind, State, Subject, Who
 from holdfast.teleop.operators import Person, SimulatedPeople, population, rate
 from holdfast.teleop.order import Indices
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records import Kind, Records, State, Subject, Who
+from holdfast.teleop.records import Records
 from holdfast.teleop.session import training_scenario, training_tasks
+from holdfast.teleop.tasks import drive_tasks
 from holdfast.teleop.trials import End, Trials
 
 
@@ -108,10 +109,8 @@ def _train(
 
 
 def _driven(protocol: Protocol, tasks: PointTasks, scenario: Indices, people: list[Person], seed: int) -> Trials:
-    failed = np.array([s.failed for s in protocol.scenarios])[scenario]
-    healthy = np.where(failed[:, None], tasks.healthy(True), 1.0)
     operator = SimulatedPeople(people, protocol.rate, protocol.stick, protocol.radius, seed)
-    return drive(protocol.plants, scenario, tasks.q0, tasks.target, healthy, operator, protocol.stick, protocol.rules)
+    return drive_tasks(protocol.plants, protocol.scenarios, scenario, tasks, operator, protocol.stick, protocol.rules)
 
 
 def _record(

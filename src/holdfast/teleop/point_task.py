@@ -73,10 +73,10 @@ class PointTasks:
     def __len__(self) -> int:
         return len(self.joint)
 
-    def healthy(self, failed: bool) -> Array:
-        """(N, n) 1, or 0 for a joint that is locked."""
+    def healthy(self, failed: bool | NDArray[np.bool_]) -> Array:
+        """(N, n) 1, or 0 for a joint that is locked; ``failed`` for all tasks, or (N,) for each."""
         mask = np.ones(self.q0.shape)
-        rows = np.flatnonzero(self.joint >= 0) if failed else np.empty(0, dtype=np.int64)
+        rows = np.flatnonzero((self.joint >= 0) & failed)
         mask[rows, self.joint[rows]] = 0.0
         return mask
 

@@ -11,9 +11,7 @@ import re
 import sqlite3
 from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
-from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +20,7 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError, StoreError
 from holdfast.teleop import protocol as protocols
+from holdfast.teleop.entries import ENTRY, SUBJECT, Entry, Kind, State, Subject, Who, blob, read_entry, read_subject
 from holdfast.teleop.order import next_row
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
@@ -57,95 +56,6 @@ CREATE TABLE events (
 );
 CREATE INDEX events_of ON events (trial);
 """
-
-
-_SUBJECT = "code, number, row, kind, state, since, answers, note"
-
-
-class Kind(StrEnum):
-    """What a trial is for."""
-
-    PILOT = "pilot"
-    TRAINING = "training"
-    TRIAL = "trial"
-
-
-class State(StrEnum):
-    """Where a subject's session stands."""
-
-    OPEN = "open"
-    COMPLETED = "completed"
-    DROPPED = "dropped"
-
-
-class Who(StrEnum):
-    """What kind of subject it is: simulated ones are told from people for ever."""
-
-    PERSON = "person"
-    SIMULATED = "simulated"
-    COMPUTER = "computer"
-
-
-@dataclass(frozen=True)
-class Subject:
-    """One subject.
-
-    Attributes:
-        code: As the laboratory calls it; no name.
-        number: Running number, from 0: with the protocol's seed it makes the order of the scenarios.
-        row: Of the balanced square.
-        kind: A person, or not.
-        state: Of the session.
-        since: When the subject was added, UTC, ISO 8601.
-        answers: What the subject answered besides the ratings, for example to the questions of the beginning.
-        note: The experimenter's.
-    """
-
-    code: str
-    number: int
-    row: int
-    kind: Who
-    state: State
-    since: str
-    answers: Mapping[str, Any]
-    note: str
-
-
-@dataclass(frozen=True)
-class Entry:
-    """One trial as it stands in the records, without its cycles.
-
-    Attributes:
-        id: Its number in the records.
-        subject: Code.
-        kind: What it is for.
-        position: In the session, from 0, counted for each kind.
-        task: Index from 0 of the protocol's task; -1 in training.
-        scenario: Index from 0 of the protocol's scenario.
-        joint: Index from 0 of the joint that the task has fail; -1 for none.
-        q0: (n,) start, rad and m.
-        target: (m,) m.
-        began: UTC, ISO 8601.
-        ended: Likewise; None for a trial that was broken off or is under way.
-        end: How it ended.
-        rating: Step from 0; None where there is none.
-        answers: To further questions after the trial.
-    """
-
-    id: int
-    subject: str
-    kind: Kind
-    position: int
-    task: int
-    scenario: int
-    joint: int
-    q0: Array
-    target: Array
-    began: str
-    ended: str | None
-    end: End
-    rating: int | None
-    answers: Mapping[str, Any]
 
 
 class Records:
@@ -282,16 +192,16 @@ class Records:
         Raises:
             InputError: There is none.
         """
-        row = self._db.execute(f"SELECT {_SUBJECT} FROM subjects WHERE code = ?", (code,)).fetchone()
+        row = self._db.execute(f"SELECT {SUBJECT} FROM subjects WHERE code = ?", (code,)).fetchone()
         if row is None:
             raise InputError(
                 f"there is no subject {code}; there are {', '.join(s.code for s in self.subjects()) or 'none yet'}"
             )
-        return _subject(row)
+        return read_subject(row)
 
     def subjects(self) -> list[Subject]:
         """All subjects, in the order in which they came."""
-        return [_subject(row) for row in self._db.execute(f"SELECT {_SUBJECT} FROM subjects ORDER BY number")]
+        return [read_subject(row) for row in self._db.execute(f"SELECT {SUBJECT} FROM subjects ORDER BY number")]
 
     def set_state(self, code: str, state: State) -> None:
         """A session is completed, dropped, or open again.
@@ -355,7 +265,7 @@ class Records:
         cursor = self._db.execute(
             "INSERT INTO trials (subject, kind, position, task, scenario, joint, q0, target, began) "
             "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            (subject, kind, position, task, scenario, int(tasks.joint[0]), _blob(tasks.q0[0]), _blob(tasks.target[0]), _now()),
+            (subject, kind, position, task, scenario, int(tasks.joint[0]), blob(tasks.q0[0]), blob(tasks.target[0]), _now()),
         )
         assert cursor.lastrowid is not None
         return cursor.lastrowid
@@ -378,7 +288,7 @@ class Records:
             raise InputError(f"{len(time)} cycles need commands ({len(time)}, {m}) and configurations ({len(time)}, {n})")
         if not (np.isfinite(velocity).all() and np.isfinite(q).all() and np.isfinite(time).all()):
             raise InputError("a cycle holds NaN or infinity; nothing was recorded")
-        rows = [(trial, first + i, float(time[i]), _blob(velocity[i]), _blob(q[i])) for i in range(len(time))]
+        rows = [(trial, first + i, float(time[i]), blob(velocity[i]), blob(q[i])) for i in range(len(time))]
         with self.together():
             found = self._db.execute("SELECT end FROM trials WHERE id = ?", (trial,)).fetchone()
             if found is None or found[0] is not None:
@@ -402,8 +312,8 @@ class Records:
                 raise InputError(f"trial {trial} does not exist or has ended already")
             count = int(self._value("SELECT COUNT(*) FROM cycles WHERE trial = ?", trial))
             # The last row has no command: it is where the arm stands at the end.
-            zero = _blob(np.zeros(self.protocol.rows.m))
-            self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, count, -1.0, zero, _blob(q_end)))
+            zero = blob(np.zeros(self.protocol.rows.m))
+            self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, count, -1.0, zero, blob(q_end)))
 
     def rate(self, trial: int, rating: int, answers: Mapping[str, Any] | None = None) -> None:
         """The rating of a trial, a step from 0, and answers to further questions.
@@ -432,9 +342,17 @@ class Records:
 
     def entries(self, subject: str | None = None, kind: Kind | None = None) -> list[Entry]:
         """The trials, of one subject or of one kind, in the order in which they began."""
-        columns = "id, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers"
         where = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
-        return [_entry(row) for row in self._db.execute(f"SELECT {columns} FROM trials {where} ORDER BY id", (subject, kind))]
+        return [read_entry(row) for row in self._db.execute(f"SELECT {ENTRY} FROM trials {where} ORDER BY id", (subject, kind))]
+
+    def tasks(self, entries: list[Entry]) -> PointTasks:
+        """What was to be done in some trials."""
+        n, m = self.protocol.arm.n, self.protocol.rows.m
+        return PointTasks(
+            np.array([e.q0 for e in entries]).reshape(-1, n),
+            np.array([e.target for e in entries]).reshape(-1, m),
+            np.array([e.joint for e in entries], dtype=np.int64),
+        )
 
     def trials(self, entries: list[Entry]) -> Trials:
         """What was recorded of some trials.
@@ -456,12 +374,10 @@ class Records:
         every_q, every_v, ends = np.concatenate(q), np.concatenate(velocity), np.array(q_end).reshape(-1, n)
         starts = np.array(first, dtype=np.int64)
         of = np.repeat(np.arange(len(entries)), np.diff(starts))
-        tasks = PointTasks(
-            ends, np.array([e.target for e in entries]).reshape(-1, m), np.array([e.joint for e in entries], dtype=np.int64)
-        )
+        tasks = self.tasks(entries)
         scenario = np.array([e.scenario for e in entries], dtype=np.int64)
-        failed = np.array([s.failed for s in self.protocol.scenarios])[scenario]
-        healthy = np.where(failed[:, None], tasks.healthy(True), 1.0).reshape(-1, n)
+        failed = np.array([s.failed for s in self.protocol.scenarios], dtype=bool)[scenario]
+        healthy = tasks.healthy(failed)
         actual = np.empty_like(every_v)
         for k, p in enumerate(plant):
             mine = np.flatnonzero(scenario[of] == k)
@@ -510,41 +426,6 @@ class Records:
     def _on_subject(self, code: str, column: str, value: str) -> None:
         self.subject(code)
         self._db.execute(f"UPDATE subjects SET {column} = ? WHERE code = ?", (value, code))
-
-
-def _subject(row: tuple[Any, ...]) -> Subject:
-    code, number, square_row, kind, state, since, answers, note = row
-    return Subject(code, number, square_row, Who(kind), State(state), since, json.loads(answers), note)
-
-
-def _entry(row: tuple[Any, ...]) -> Entry:
-    number, subject, kind, position, task, scenario, joint, q0, target, began, ended, end, rating, answers = row
-    how = End.BROKEN_OFF if end is None else End(end)
-    said: dict[str, Any] = json.loads(answers)
-    return Entry(
-        id=number,
-        subject=subject,
-        kind=Kind(kind),
-        position=position,
-        task=task,
-        scenario=scenario,
-        joint=joint,
-        q0=_array(q0),
-        target=_array(target),
-        began=began,
-        ended=ended,
-        end=how,
-        rating=rating,
-        answers=said,
-    )
-
-
-def _blob(values: Array) -> bytes:
-    return np.ascontiguousarray(values, dtype="<f8").tobytes()
-
-
-def _array(blob: bytes) -> Array:
-    return np.frombuffer(blob, dtype="<f8").astype(np.float64)
 
 
 def _now() -> str:

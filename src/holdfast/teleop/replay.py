@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.teleop.drive import Recorded, Rules, drive
-from holdfast.teleop.point_task import PointTasks
-from holdfast.teleop.records import Entry, Records
+from holdfast.teleop.drive import Recorded, Rules
+from holdfast.teleop.entries import Entry
+from holdfast.teleop.records import Records
+from holdfast.teleop.tasks import drive_tasks
 
 Array = NDArray[np.float64]
 
@@ -44,15 +45,11 @@ def replay(records: Records, entries: list[Entry] | None = None) -> Replay:
     """
     chosen = records.entries() if entries is None else entries
     protocol, trials = records.protocol, records.trials(chosen)
-    n, m = protocol.arm.n, protocol.rows.m
-    q0, target = (np.array([getattr(e, k) for e in chosen]).reshape(-1, w) for k, w in (("q0", n), ("target", m)))
-    tasks = PointTasks(q0, target, np.array([e.joint for e in chosen], dtype=np.int64))
     scenario = np.array([e.scenario for e in chosen], dtype=np.int64)
-    failed = np.array([s.failed for s in protocol.scenarios])[scenario].astype(bool)
-    healthy = np.where(failed[:, None], tasks.healthy(True), tasks.healthy(False))
     # The rules play no part: a trial is over when its record is.
     rules = Rules(radius=protocol.radius, at_rest=True, cycle_limit=int(trials.cycles.max(initial=1)), patience=10**9)
-    again = drive(protocol.plants, scenario, q0, target, healthy, Recorded(trials), None, rules)
+    tasks = records.tasks(chosen)
+    again = drive_tasks(protocol.plants, protocol.scenarios, scenario, tasks, Recorded(trials), None, rules)
     difference = np.full(len(chosen), np.inf)
     for i in range(len(chosen)):
         old, new = trials.configurations(i), again.configurations(i)

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from holdfast.teleop.entries import Entry, Kind, State
 from holdfast.teleop.order import Indices
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records import Entry, Kind, Records, State
+from holdfast.teleop.records import Records
 from holdfast.teleop.tasks import random_tasks
 from holdfast.teleop.trials import End
 
@@ -82,10 +83,9 @@ class Session:
         if self.subject.state == State.DROPPED:
             return None
         training = done(self.records.entries(code, Kind.TRAINING))
-        cycles = self._cycles(training)
         criterion = protocol.training
         trials = done(self.records.entries(code, Kind.TRIAL))
-        if not trials and not criterion.trained(cycles):
+        if not trials and not criterion.trained(self._cycles(training)):
             if len(training) >= criterion.most:
                 return None
             if self._training is None:

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, StoreError
-from holdfast.teleop.drive import Computer, Rules, drive
+from holdfast.teleop.drive import Computer, Rules
+from holdfast.teleop.entries import Entry, Kind, Subject, Who
 from holdfast.teleop.measures import MEASURES, RECORDED, measures
 from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records import Entry, Kind, Records, Subject, Who
+from holdfast.teleop.records import Records
 from holdfast.teleop.session import done
-from holdfast.teleop.tasks import TaskBank
+from holdfast.teleop.tasks import TaskBank, in_every_scenario
 from holdfast.teleop.trials import End, Trials
 
 if TYPE_CHECKING:
@@ -86,23 +87,14 @@ def computer_trials(protocol: Protocol) -> Trials:
     A trial is over after a way of 50 m at full speed, or when the hand has stood still for 2.5 m of it: 1000 and 50 of the
     paper's cycles.
     """
-    tasks, scenarios, limit = protocol.tasks, protocol.scenarios, protocol.stick.limit
+    limit = protocol.stick.limit
     rules = Rules(
         radius=protocol.radius,
         cycle_limit=int(np.ceil(_FARTHEST / limit)),
         still=_STILL * limit,
         patience=int(np.ceil(_PATIENCE / limit)),
     )
-    return drive(
-        protocol.plants,
-        np.repeat(np.arange(len(scenarios)), len(tasks)),
-        np.tile(tasks.q0, (len(scenarios), 1)),
-        np.tile(tasks.target, (len(scenarios), 1)),
-        np.concatenate([tasks.healthy(s.failed) for s in scenarios]),
-        Computer(),
-        protocol.stick,
-        rules,
-    )
+    return in_every_scenario(protocol.plants, protocol.scenarios, protocol.tasks, Computer(), protocol.stick, rules)
 
 
 def _facts(subject: Subject, entry: Entry) -> dict[str, Any]:

@@ -135,16 +135,37 @@ def run(
         InputError, TaskError: As the laws and :func:`holdfast.teleop.drive`.
     """
     plants = [Plant(s.make_law(arm, task)) for s in scenarios]
-    return drive(
-        plants,
-        np.repeat(np.arange(len(scenarios)), len(tasks)),
-        np.tile(tasks.q0, (len(scenarios), 1)),
-        np.tile(tasks.target, (len(scenarios), 1)),
-        np.concatenate([tasks.healthy(s.failed) for s in scenarios]),
-        Computer() if operator is None else operator,
-        Stick() if stick is None else stick,
-        rules,
-    )
+    hand = Stick() if stick is None else stick
+    return in_every_scenario(plants, scenarios, tasks, Computer() if operator is None else operator, hand, rules)
+
+
+def in_every_scenario(
+    plants: Sequence[Plant],
+    scenarios: Sequence[Scenario],
+    tasks: PointTasks,
+    operator: Operator,
+    stick: Stick,
+    rules: Rules | None,
+) -> Trials:
+    """Every task in every scenario, scenario by scenario; a plant for each scenario."""
+    count = len(tasks)
+    scenario = np.repeat(np.arange(len(scenarios)), count)
+    every = tasks.take(np.tile(np.arange(count), len(scenarios)))
+    return drive_tasks(plants, scenarios, scenario, every, operator, stick, rules)
+
+
+def drive_tasks(
+    plants: Sequence[Plant],
+    scenarios: Sequence[Scenario],
+    scenario: NDArray[np.int64],
+    tasks: PointTasks,
+    operator: Operator,
+    stick: Stick | None,
+    rules: Rules | None,
+) -> Trials:
+    """As :func:`holdfast.teleop.drive`, for N tasks under scenarios (N,), indices from 0; a plant for each scenario."""
+    failed = np.array([s.failed for s in scenarios], dtype=bool)[scenario]
+    return drive(plants, scenario, tasks.q0, tasks.target, tasks.healthy(failed), operator, stick, rules)
 
 
 @dataclass(frozen=True, eq=False)
