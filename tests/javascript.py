@@ -44,7 +44,7 @@ def run(script: str, numbers: np.ndarray, size: int, **files: str) -> np.ndarray
         arguments = [node(), "main.mjs", "input", "output"]
         done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
         assert done.returncode == 0, f"Node says: {done.stderr.strip()}"
-        assert not done.stdout and not done.stderr
+        assert not done.stdout + done.stderr
         return np.frombuffer((folder / "output").read_bytes(), dtype="<f8")
 
 

@@ -2,8 +2,8 @@
 
 Measured with Node 20 on one core of a shared machine: the paper's protocol (three links, two laws) makes 25 kB in less than a
 second; a control cycle of ten sub-steps takes 2 us under the pseudoinverse and 12 us under the failure-tolerant inverse. The
-seven-joint Panda, position task, makes 71 kB; 4 us and 35 to 60 us. Loading runs every law 300 times, 0.2 s (Panda 0.5 s), because
-code that has not run yet takes 0.5 ms (Panda 2 ms) a cycle.
+seven-joint Panda, position task, makes 71 kB; 4 us and 35 to 60 us. Loading runs every law 300 times, 0.2 s (Panda
+0.5 s), because code that has not run yet takes 0.5 ms (Panda 2 ms) a cycle.
 """
 
 from __future__ import annotations
