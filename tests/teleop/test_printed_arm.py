@@ -106,6 +106,7 @@ def test_control_steps_agree_with_python(which, rows, count, rng, flat4):
             assert not apart.any(), (scenario.law, off[apart], cond[apart])
             continue
         assert off.max() < 1e-6
+        assert apart.mean() < 0.01
         j, command = task_jacobian(study, q[apart]), v[apart]
         here, there = (peak_error(j, command, x[apart] - q[apart]) for x in (found[:, : arm.n], moved))
         np.testing.assert_allclose(here, there, rtol=1e-9)
@@ -145,10 +146,7 @@ def test_trials_of_the_computer_take_the_same_way():
         cycles = slice(trials.first[i], trials.first[i + 1])
         way = np.vstack([trials.x[cycles][1:], trials.x_end[i]])
         worst[i] = np.linalg.norm(found[cycles] - way, axis=1).max()
-    # One trial of the failed arm is unstable: driven without being watched, it makes any difference 50,000 times larger, also
-    # that between two backends of Python.
-    assert np.sort(worst)[-2] < 1e-6, np.sort(worst)[-5:]
-    assert worst.max() < 1e-3
+    assert worst.max() < 1e-6, np.sort(worst)[-5:]
 
 
 @pytest.mark.parametrize("which", ["planar-3r", "panda", "tilted", "mixed7"])
