@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.configurations import configurations as as_configurations
 from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
-from holdfast.converge.starts import Places, configurations_at, read_places
+from holdfast.converge.starts import Places, picked_at, read_places
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
 from holdfast.simulate import Outcome, simulate
@@ -209,15 +209,9 @@ def convergence_map(
 
 def _picked(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> Array:
     """(P, count, n) configurations of places, NaN where there are none."""
-    arm = law.arm
-    owner, found = configurations_at(arm, law.task, places.poses, count, seed)
-    q = np.full((len(places), count, arm.n), np.nan)
-    # Of several curves some points of each: a random choice of all.
-    order = np.lexsort([generator.random(len(owner)), owner])
-    owner, found = owner[order], found[order]
-    rank = np.arange(len(owner)) - np.searchsorted(owner, owner)
-    kept = rank < count
-    q[owner[kept], rank[kept]] = found[kept]
+    q = np.full((len(places), count, law.arm.n), np.nan)
+    owner, rank, found = picked_at(law.arm, law.task, places.poses, count, seed, generator)
+    q[owner, rank] = found
     return q
 
 
