@@ -194,7 +194,7 @@ def _over_targets(law: Law, target: str, options: dict[str, Any], out: Path | No
     show = console()
     for line in found.describe():
         show.print(escape(line), soft_wrap=True)
-    _print_means(show, "mean over the targets, percent (95 %)", found)
+    _print_means(show, "mean over the targets, percent", found)
     print_written(show, files)
 
 
@@ -212,11 +212,13 @@ def _print(w: Workspace, files: list[Path]) -> None:
         table.add_row(escape(joint.name), told or "no value")
     show.print(table)
     sampled = w.method == "sampled"
-    _print_means(show, "mean over the starts, percent" + (" (95 %)" if sampled else ""), w, sampled)
+    _print_means(show, "mean over the starts, percent", w, sampled)
     if sampled:
-        rows = Table("share of starts at 100 whatever the configuration, at most", *w.columns, box=None, pad_edge=False)
-        for name in ("R100", "F100") if w.ends.sum() else ("R100",):
-            rows.add_row(name, *[f"{number(100 * i.value)} %" for i in w.throughout(name)])
+        names = ["R100", "F100"] if w.ends.sum() else ["R100"]
+        rows = Table("joint", *(f"starts with {name} 100, percent" for name in names), box=None, pad_edge=False)
+        for column, shares in zip(w.columns, zip(*map(w.throughout, names), strict=True), strict=True):
+            rows.add_row(escape(column), *[_with_interval(100 * i.value, 100 * i.low, 100 * i.high) for i in shares])
+        show.print("where all configurations that were drawn do, an upper bound for all that there are:")
         show.print(rows)
     print_written(show, files)
 
@@ -227,14 +229,16 @@ def _print_means(show: Console, title: str, found: Workspace | TargetMeasures, i
     from rich.table import Table
 
     means, sure = found.means(), found.intervals()
-    table = Table(title, *means, box=None, pad_edge=False)
+    table = Table("joint", *means, box=None, pad_edge=False)
     for k, name in enumerate((*found.law.arm.joint_names, "any")):
-        cells = []
-        for word, values in means.items():
-            low, high = sure[word][k]
-            cells.append(number(values[k]) + (f" ({low:.1f} to {high:.1f})" if intervals and low == low else ""))
+        cells = [_with_interval(v[k], *sure[m][k]) if intervals else number(v[k]) for m, v in means.items()]
         table.add_row(escape(name), *cells)
+    show.print(title + (" (and 95 % interval):" if intervals else ":"))
     show.print(table)
+
+
+def _with_interval(value: float, low: float, high: float) -> str:
+    return number(value) if value != value else f"{value:.1f}\n{low:.1f} to {high:.1f}"
 
 
 def _map(laws: list[Law], options: dict[str, Any], out: Path | None, json_: bool) -> None:

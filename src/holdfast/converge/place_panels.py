@@ -63,7 +63,7 @@ def panels(
             first = next(iter(pairs.values()))[0]
             plane = replace(first, labels=words, mark=where, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
-            told = "; mean over the places in a cell" + ("" if axes is None else ", whatever their depth")
+            told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
         found[name] = place_maps(plane, shown, columns, label, caption + told)
     return found
 
