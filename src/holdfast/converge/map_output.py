@@ -32,6 +32,7 @@ def summary(m: ConvergenceMap) -> dict[str, Any]:
         "places_with_motions": int(m.known.any(axis=1).sum()),
         "motions": int(m.known.sum()),
         "seed": m.seed,
+        "undecided_runs": m.undecided(),
         "confidence": 0.95,
         "limits_passed_share": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
         "shares": shares,
