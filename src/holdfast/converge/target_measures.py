@@ -21,8 +21,9 @@ from holdfast.interval import check_confidence
 
 Array = NDArray[np.float64]
 
-LATTICE = ("grid:12", 20, 8, 2)  # targets, starts, configurations and points where targets are a lattice
-SAMPLE = (50, 20, 4, 2)  # and where they are sampled
+LATTICE: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
+SAMPLE: tuple[str | int, int] = (50, 4)  # and where they are sampled
+STARTS, POINTS = 20, 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +98,8 @@ class TargetMeasures:
         from holdfast.report.figures import save_png
 
         names = (*self.law.arm.joint_names, "any")
-        columns, values = list(ENDS), [self.ends]
+        columns: list[str] = list(ENDS)
+        values: list[NDArray[Any]] = [self.ends]
         for name, sure in self.target_intervals().items():
             values += [self.measures[name], sure[..., 0], sure[..., 1]]
             columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
@@ -152,18 +154,18 @@ def target_measures(
     """
     chosen = usual_method(law) if method is None else method
     usual = LATTICE if usual_method(law) == "brute" else SAMPLE
-    given = (targets, starts, configurations, points)
-    first, second, third, fourth = (u if x is None else x for u, x in zip(usual, given, strict=True))
+    each = usual[1] if configurations is None else configurations
+    failures = POINTS if points is None else points
     generator = np.random.default_rng(seed)
-    goals = read_places(law.arm, law.task, first, generator)
-    places = read_places(law.arm, law.task, second, generator)
-    begin = Beginnings(law, places, third, chosen, seed)
+    goals = read_places(law.arm, law.task, usual[0] if targets is None else targets, generator)
+    places = read_places(law.arm, law.task, STARTS if starts is None else starts, generator)
+    begin = Beginnings(law, places, each, chosen, seed)
     shape = len(goals), len(places)
     values = {name: np.full((*shape, law.arm.n + 1), np.nan) for name in NAMES}
     tried = np.zeros(shape, dtype=np.int64)
     ends = np.zeros((len(goals), len(ENDS)), dtype=np.int64)
     for k, pose in enumerate(goals.poses):
-        job = prepared(law, pose, third, fourth, chosen, seed=seed, **options)
+        job = prepared(law, pose, each, failures, chosen, seed=seed, **options)
         if job.reached:
             one = analysed(job, begin)
             for name, found in one.measures.items():

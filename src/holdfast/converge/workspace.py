@@ -35,8 +35,8 @@ from holdfast.study import Store
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
-LATTICE = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
-SAMPLE = (100, 8, 3)  # and where they are sampled
+LATTICE: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
+SAMPLE: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
 _CHUNK = 128  # starts analysed together and stored as one; no result depends on it
 
 
@@ -226,15 +226,16 @@ def workspace(
     """
     chosen = usual_method(law) if method is None else method
     usual = LATTICE if usual_method(law) == "brute" else SAMPLE
-    first, second, third = (u if x is None else x for u, x in zip(usual, (starts, configurations, points), strict=True))
-    places = read_places(law.arm, law.task, first, np.random.default_rng(seed))
-    job = prepared(law, target, second, third, chosen, cells, time_limit, tolerance, relative_to, sinks, seed)
+    each = usual[1] if configurations is None else configurations
+    failures = usual[2] if points is None else points
+    places = read_places(law.arm, law.task, usual[0] if starts is None else starts, np.random.default_rng(seed))
+    job = prepared(law, target, each, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed)
     if not job.reached:
         place = ", ".join(f"{x:g}" for x in job.pose[:3, 3])
         raise InputError(
             f"no configuration of '{law.arm.name}' was found at the target ({place}) m; choose one within its reach"
         )
-    return analysed(job, Beginnings(law, places, second, chosen, seed), store, progress)
+    return analysed(job, Beginnings(law, places, each, chosen, seed), store, progress)
 
 
 def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progress: Progress | None = None) -> Workspace:
