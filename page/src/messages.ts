@@ -56,7 +56,7 @@ export interface Rate {
 }
 
 /** Something happened in the page: dropped frames, a hidden tab, a lost pad. */
-export interface Event {
+export interface EventMessage {
   type: "event";
   seq: number;
   kind: string;
@@ -130,6 +130,6 @@ export interface Bye {
   reason: string;
 }
 
-export type FromPage = Hello | AnswersMessage | Begin | Cycles | EndMessage | Rate | Event;
+export type FromPage = Hello | AnswersMessage | Begin | Cycles | EndMessage | Rate | EventMessage;
 
 export type FromServer = Welcome | Ack | Refused | Pause | Bye;

@@ -102,7 +102,7 @@ class Rate(Message):
     answers: Answers
 
 
-class Event(Message):
+class EventMessage(Message):
     """Something happened in the page: dropped frames, a hidden tab, a lost pad."""
 
     type: Literal["event"]
@@ -115,10 +115,11 @@ class Event(Message):
 
 
 class TrainingTask(Message):
-    """A task of the training."""
+    """A task of the training; ``joint`` as in a trial: -1 unless every scenario of the protocol has a failure."""
 
     q0: list[float]
     target: list[float]
+    joint: int
 
 
 class PlannedTrial(Message):
@@ -190,7 +191,7 @@ class Bye(Message):
     reason: str
 
 
-Sequenced = AnswersMessage | Begin | Cycles | EndMessage | Rate | Event
+Sequenced = AnswersMessage | Begin | Cycles | EndMessage | Rate | EventMessage
 FromPage = Annotated[Hello | Sequenced, Field(discriminator="type")]
 FromServer = Annotated[Welcome | Ack | Refused | Pause | Bye, Field(discriminator="type")]
 

@@ -18,7 +18,7 @@ _FROM_PAGE = (
     messages.Cycles,
     messages.EndMessage,
     messages.Rate,
-    messages.Event,
+    messages.EventMessage,
 )
 _PARTS = (messages.TrainingTask, messages.PlannedTrial, messages.Plan, messages.Done)
 _FROM_SERVER = (messages.Welcome, messages.Ack, messages.Refused, messages.Pause, messages.Bye)
