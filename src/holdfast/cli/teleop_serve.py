@@ -15,7 +15,9 @@ _TLS = """Between computers use TLS, as browsers allow gamepads and passwords on
 
 
 def serve(
-    data: Annotated[Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new one begins it.", show_default=False)],
+    data: Annotated[
+        Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new one begins it.", show_default=False)
+    ],
     protocol: Annotated[
         str | None,
         typer.Option(
@@ -25,9 +27,12 @@ def serve(
         ),
     ] = None,
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="0 for any that is free.")] = 8000,
-    host: Annotated[str, typer.Option("--host", help="Address to listen at; others than this computer's need --token.")] = "127.0.0.1",
+    host: Annotated[
+        str, typer.Option("--host", help="Address to listen at; others than this computer's need --token.")
+    ] = "127.0.0.1",
     token: Annotated[
-        str | None, typer.Option("--token", help="Stations must show it: 12 letters, digits, - or _, or more.", show_default=False)
+        str | None,
+        typer.Option("--token", help="Stations must show it: 12 letters, digits, - or _, or more.", show_default=False),
     ] = None,
     texts: Annotated[
         Path | None, typer.Option("--texts", help="Translation of the page's texts (YAML).", show_default=False)

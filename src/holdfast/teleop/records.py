@@ -328,9 +328,7 @@ class Records:
 
     def progress(self) -> dict[tuple[str, Kind], int]:
         """How many trials of each kind every subject has done; not those that were broken off."""
-        query = (
-            "SELECT subject, kind, COUNT(DISTINCT position) FROM trials WHERE end IS NOT NULL AND end != ? GROUP BY subject, kind"
-        )
+        query = "SELECT subject, kind, COUNT(DISTINCT position) FROM trials WHERE end IS NOT NULL AND end != ? GROUP BY subject, kind"
         return {(code, Kind(kind)): count for code, kind, count in self._db.execute(query, (int(End.BROKEN_OFF),))}
 
     def tasks(self, entries: list[Entry]) -> PointTasks:

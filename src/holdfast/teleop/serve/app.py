@@ -22,12 +22,14 @@ from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.protocol import read as read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.records_file import FILE
-from holdfast.teleop.serve import experimenter, texts
+from holdfast.teleop.serve import experimenter
 from holdfast.teleop.serve.connection import session
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import LOOPBACK, Guard, Guarded
 from holdfast.teleop.serve.messages import MOST_BYTES
 from holdfast.teleop.serve.study import study
+from holdfast.teleop.serve.texts import ENGLISH
+from holdfast.teleop.serve.texts import read as read_texts
 
 STATIC = Path(__file__).with_name("static")
 _PAGE = "index.html"
@@ -58,7 +60,7 @@ class Options:
     texts: Path | None = None
     tlx: bool = False
     static: Path = STATIC
-    english: Path = texts.ENGLISH
+    english: Path = ENGLISH
 
 
 def prepare(folder: Path, protocol: str | None) -> Protocol:
@@ -93,7 +95,7 @@ def make_app(options: Options) -> ASGIApp:
     """
     from holdfast.teleop.printed_arm import arm_module
 
-    words = texts.read(options.texts, options.english)
+    words = read_texts(options.texts, options.english)
     files = _files(options.static)
     with Records.open(options.folder) as records:
         protocol = records.protocol
@@ -148,7 +150,9 @@ def _listening(host: str, port: int) -> socket.socket:
         listener.bind(address)
         listener.listen(128)
     except OSError as error:
-        raise StoreError(f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host") from error
+        raise StoreError(
+            f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host"
+        ) from error
     return listener
 
 

@@ -78,9 +78,7 @@ class Control:
         subject = await self.writer.do(lambda records: records.subject(code))
         # Not in the writer: it takes a while, and the others should not wait for it.
         await asyncio.to_thread(training_tasks, self.protocol, subject.number)
-        welcome = await self.writer.do(
-            lambda records: Station(records, code).welcome(entered.key, self.is_paused(code))
-        )
+        welcome = await self.writer.do(lambda records: Station(records, code).welcome(entered.key, self.is_paused(code)))
         self.changed()
         return welcome
 

@@ -53,14 +53,20 @@ class Guard:
             return "the request comes from a page of another host"
         path = scope["path"]
         if any(path == area or path.startswith(area + "/") for area in _EXPERIMENTER):
-            return None if self.is_experimenter(scope) else "the experimenter's key is missing or wrong; it is in the URL printed at the start"
+            return (
+                None
+                if self.is_experimenter(scope)
+                else "the experimenter's key is missing or wrong; it is in the URL printed at the start"
+            )
         if path in _STATION and not (self.has_token(scope) or self.is_experimenter(scope)):
             return "the token is missing or wrong; it is in the URL that the server printed at its start"
         return None
 
     def has_token(self, scope: Scope) -> bool:
         """The token is in the query, or in the cookie that the page was given with it."""
-        return self.token is None or any(_same(given, self.token) for given in (_query(scope, "token"), _cookie(scope, _cookie_name(self.token))))
+        return self.token is None or any(
+            _same(given, self.token) for given in (_query(scope, "token"), _cookie(scope, _cookie_name(self.token)))
+        )
 
     def is_experimenter(self, scope: Scope) -> bool:
         """The key is in the query. No cookie has it: a subject may sit at the browser that the experimenter used."""
@@ -80,7 +86,9 @@ def check_token(token: str) -> None:
         InputError: It is shorter than 12 characters, or has others than letters, digits, - and _.
     """
     if not _TOKEN.fullmatch(token):
-        raise InputError("the token must have 12 to 128 letters, digits, - and _; for example the output of 'openssl rand -hex 16'")
+        raise InputError(
+            "the token must have 12 to 128 letters, digits, - and _; for example the output of 'openssl rand -hex 16'"
+        )
 
 
 class Guarded:

@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from holdfast.errors import HoldfastError
 from holdfast.teleop.records import Records
@@ -25,6 +25,7 @@ _MOST = 512  # changes in one transaction
 
 _log = logging.getLogger(__name__)
 
+T = TypeVar("T")
 Job = tuple[Callable[[Records], Any], Callable[[Any], None]]
 
 
@@ -54,7 +55,7 @@ class Keeper:
         """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception."""
         self._jobs.put((job, answer))
 
-    async def do[T](self, job: Callable[[Records], T]) -> T:
+    async def do(self, job: Callable[[Records], T]) -> T:
         """The result of a job."""
         future: asyncio.Future[T] = self._loop.create_future()
 
