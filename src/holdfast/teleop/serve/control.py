@@ -55,9 +55,8 @@ class Control:
         self._fresh = loop.create_task(self.live.keep_fresh(self.subjects))
 
     async def begin(self) -> None:
-        """Compile what the first message would wait for, and replay what was not when the server was killed."""
+        """Compile what the first hello would wait for; and replay, in the time that comes, what was not before a kill."""
         await asyncio.to_thread(training_tasks, self.protocol, 0)
-        await self.reader.do(lambda records: records.protocol.plants)
         self.reader.put(_differing, self._flag)
 
     def close(self) -> None:
