@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -40,19 +41,26 @@ class Figures:
     p99: float
     longest: float
     memory: tuple[float, float, float]
+    busy: float
 
     def __str__(self) -> str:
         return (
             f"{self.stations} stations x {self.rate:g} messages/s for {self.seconds:g} s: {self.sent} cycles sent, {self.lost} lost, "
             f"{self.differing} trials differ when replayed; acknowledged after p50 {self.p50:.1f} ms, p99 {self.p99:.1f} ms, at "
             f"most {self.longest:.1f} ms; memory of the server {self.memory[0]:.0f} MiB at the beginning, {self.memory[1]:.0f} "
-            f"half-way, {self.memory[2]:.0f} at the end"
+            f"half-way, {self.memory[2]:.0f} at the end; it kept {self.busy:.2f} of a core busy"
         )
 
 
 def _memory(pid: int) -> float:
     lines = Path(f"/proc/{pid}/status").read_text().splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS")) / 1024
+
+
+def _cpu(pid: int) -> float:
+    """Seconds of processor time."""
+    user, system = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
 async def _station(url: str, protocol: Protocol, rate: float, seconds: float, trial: int, seed: int) -> tuple[int, list[float]]:
@@ -111,24 +119,27 @@ async def _station(url: str, protocol: Protocol, rate: float, seconds: float, tr
 
 async def _run(url: str, pid: int, protocol: Protocol, stations: int, rate: float, seconds: float, trial: int) -> tuple:
     memory: list[float] = []
+    cpu: list[float] = []
 
     async def watch() -> None:
         await asyncio.sleep(min(2.0, seconds / 4))
         memory.append(_memory(pid))
+        cpu.append(_cpu(pid))
         await asyncio.sleep(max(0.0, seconds / 2 - 2.0))
         memory.append(_memory(pid))
+        cpu.append(_cpu(pid))
 
     watching = asyncio.create_task(watch())
     results = await asyncio.gather(*(_station(url, protocol, rate, seconds, trial, k) for k in range(stations)))
     await watching
-    return results, (*memory, _memory(pid))
+    return results, (*memory, _memory(pid)), (cpu[1] - cpu[0]) / max(0.1, seconds / 2 - 2.0)
 
 
 def load(folder: Path, stations: int, rate: float, seconds: float) -> Figures:
     """Begin an experiment in a new folder, serve it, and let stations work."""
     trial = max(60, int(rate * seconds / 90))  # of the 100 training tasks
     training = Training(at_least=100, in_a_row=100, limit=55, most=100)
-    protocol = replace(read(), training=training)
+    protocol = replace(read(), training=training, scenarios=read().scenarios[:1])
     Records.create(folder / "study", protocol).close()
     static = folder / "static"
     static.mkdir()
@@ -140,7 +151,7 @@ def load(folder: Path, stations: int, rate: float, seconds: float) -> Figures:
             assert server.stdout is not None
             url = f"ws://127.0.0.1:{int(server.stdout.readline())}/session"
             _ = protocol.plants  # compiled before the clock starts
-            results, memory = asyncio.run(_run(url, server.pid, protocol, stations, rate, seconds, trial))
+            results, memory, busy = asyncio.run(_run(url, server.pid, protocol, stations, rate, seconds, trial))
         finally:
             server.terminate()
             server.wait()
@@ -150,7 +161,7 @@ def load(folder: Path, stations: int, rate: float, seconds: float) -> Figures:
         stored = sum(records.count(e) for e in records.entries())
         differing = len(records.events("replay differs"))
     p50, p99 = np.percentile(waited, [50, 99])
-    return Figures(stations, rate, seconds, sent, sent - stored, differing, p50, p99, waited.max(), memory)
+    return Figures(stations, rate, seconds, sent, sent - stored, differing, p50, p99, waited.max(), memory, busy)
 
 
 if __name__ == "__main__":

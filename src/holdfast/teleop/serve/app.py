@@ -149,6 +149,7 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
             http="h11",
             ws="websockets-sansio",
             ws_max_size=MOST_BYTES,
+            ws_per_message_deflate=False,  # small messages on a near line: packing them takes longer than sending them
             log_level="warning",
             access_log=False,
             server_header=False,
