@@ -198,7 +198,7 @@ def test_deleting_a_subject_leaves_nothing(records):
     keep, gone = records.add_subject("keep").code, records.add_subject("gone", answers={"age": "37-secret"}).code
     for code in (keep, gone):
         one_trial(records, code)
-    records.event("note", subject=gone, text="remark-secret")
+    records.event("note", subject=gone, data={"text": "remark-secret"})
     commands = records.trials(records.entries(gone)).velocity.copy()
     records.delete_subject(gone)
     assert [s.code for s in records.subjects()] == [keep]

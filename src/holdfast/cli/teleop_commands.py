@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli import teleop_tasks
+from holdfast.cli import teleop_serve, teleop_tasks
 from holdfast.cli.options import console
 from holdfast.errors import InputError, StoreError
 
@@ -45,7 +45,7 @@ def run(
     """
     if not simulated:
         raise InputError(
-            "people take part in 'holdfast teleop serve', which comes with the browser page; add --simulated for simulated ones"
+            "people take part in a browser: use 'holdfast teleop serve --data DIR'; add --simulated for simulated ones"
         )
     from holdfast.teleop.experiment import simulate_experiment
     from holdfast.teleop.protocol import read
@@ -220,6 +220,7 @@ def protocol_(
         typer.echo(f"written: {chosen.write(write)}")
 
 
+app.command()(teleop_serve.serve)
 app.command()(teleop_tasks.tasks)
 
 

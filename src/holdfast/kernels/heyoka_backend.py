@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import operator
-from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
@@ -130,7 +129,7 @@ def compile_program(program: Program) -> Any:
     negations: dict[int, Any] = {}  # id of "not condition" -> condition
     alive: list[Any] = []  # ids stay unique while their objects live
     angles: dict[int, tuple[Any, Any]] = {}  # id of x -> sin x, cos x
-    divisors = _shared_divisors(program)
+    divisors = program.shared_divisors()
     reciprocals: dict[int, Any] = {}
     one = hy.expression(1.0)
     for k, row in enumerate(program.instructions):
@@ -176,19 +175,6 @@ def compile_program(program: Program) -> Any:
         alive.append(result)
         work[row.output] = result
     return hy.cfunc(outputs, vars=x, batch_size=simd_lanes())
-
-
-def _shared_divisors(program: Program) -> dict[int, int]:
-    """Instructions that divide by something that others divide by too -> the instruction that made it."""
-    made: dict[int, int] = {}  # work slot -> instruction that wrote it last
-    divisor: dict[int, int] = {}
-    for k, row in enumerate(program.instructions):
-        if row.op in (ca.OP_DIV, ca.OP_INV):
-            divisor[k] = made[row.inputs[-1]]
-        if row.op != ca.OP_OUTPUT:
-            made[row.output] = k
-    uses = Counter(divisor.values())
-    return {k: d for k, d in divisor.items() if uses[d] > 1}
 
 
 def _choice(choices: dict[int, tuple[Any, Any]], negations: dict[int, Any], x: Any, y: Any) -> Any | None:

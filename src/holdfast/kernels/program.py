@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import struct
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -64,6 +65,18 @@ class Program:
             else:
                 rows.append(Instruction(op, out[0], tuple(inp)))
         return rows
+
+    def shared_divisors(self) -> dict[int, int]:
+        """Instructions that divide by something that others divide by too -> the instruction that made it."""
+        made: dict[int, int] = {}  # work slot -> instruction that wrote it last
+        divisor: dict[int, int] = {}
+        for k, row in enumerate(self.instructions):
+            if row.op in (ca.OP_DIV, ca.OP_INV):
+                divisor[k] = made[row.inputs[-1]]
+            if row.op != ca.OP_OUTPUT:
+                made[row.output] = k
+        uses = Counter(divisor.values())
+        return {k: d for k, d in divisor.items() if uses[d] > 1}
 
     @property
     def size(self) -> int:

@@ -103,9 +103,11 @@ def check_rows(task: Task) -> None:
         )
 
 
-@lru_cache(maxsize=16)
-def _compiled(law: Law, substeps: int) -> tuple[Kernel, int]:
-    """The kernel of a part of a cycle, and how often it is called for a whole one."""
+def substep(law: Law, substeps: int = SUBSTEPS) -> ca.Function:
+    """One explicit Euler step of a control cycle, as symbols: what :class:`Plant` compiles and what the page runs.
+
+    Takes q (n,), the velocity (m,), m/cycle, and healthy (n,), 1 or 0; gives the next q and the tool point's velocity (m,) now.
+    """
     arm, n = law.arm, law.arm.n
     q, v, healthy = kinematics.joint_symbols(arm), ca.SX.sym("v", law.task.m), ca.SX.sym("healthy", n)
     rates = healthy * law.rates(q, v)
@@ -113,12 +115,19 @@ def _compiled(law: Law, substeps: int) -> tuple[Kernel, int]:
     # A singular configuration makes the rates NaN, and the comparison false: the arm stands.
     moving = ca.sumsqr(moved) < 1e30
     actual = ca.DM(law.task.rows) @ kinematics.jacobian(arm, q) @ rates
-    once = ca.Function(
+    return ca.Function(
         "substep",
         [q, v, healthy],
         [ca.if_else(moving, moved, q), ca.if_else(moving, actual, ca.SX(law.task.m, 1))],
         {"cse": True},
     )
+
+
+@lru_cache(maxsize=16)
+def _compiled(law: Law, substeps: int) -> tuple[Kernel, int]:
+    """The kernel of a part of a cycle, and how often it is called for a whole one."""
+    once = substep(law, substeps)
+    q, v, healthy = once.sx_in()
     most = max(1, _UNROLLED // int(once.n_instructions()))
     times = max(k for k in range(1, substeps + 1) if substeps % k == 0 and k <= most)
     after, first = once(q, v, healthy)

@@ -6,56 +6,32 @@ most what came after. Subjects have codes, never names.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
+import secrets
 import sqlite3
 from collections.abc import Iterator, Mapping
-from contextlib import closing, contextmanager
-from datetime import UTC, datetime
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError, StoreError
-from holdfast.teleop import protocol as protocols
+from holdfast.errors import InputError
 from holdfast.teleop.entries import ENTRY, SUBJECT, Entry, Kind, State, Subject, Who, blob, read_entry, read_subject
 from holdfast.teleop.order import next_row
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
+from holdfast.teleop.records_file import connect, make, now
 from holdfast.teleop.trials import End, Trials
-from holdfast.versions import versions
 
 Array = NDArray[np.float64]
 
-FILE, PROTOCOL = "records.sqlite", "protocol.yaml"
-_FORMAT = 1
+_OUTERMOST = ("BEGIN IMMEDIATE", "COMMIT", "ROLLBACK")
+_NESTED = ("SAVEPOINT part", "RELEASE part", "ROLLBACK TO part", "RELEASE part")
 _CODE = re.compile("[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
-
-_SCHEMA = """
-CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE subjects (
-    code TEXT PRIMARY KEY, number INTEGER NOT NULL UNIQUE, row INTEGER NOT NULL, kind TEXT NOT NULL, state TEXT NOT NULL,
-    since TEXT NOT NULL, answers TEXT NOT NULL DEFAULT '{}', note TEXT NOT NULL DEFAULT ''
-) WITHOUT ROWID;
-CREATE TABLE trials (
-    id INTEGER PRIMARY KEY, subject TEXT NOT NULL REFERENCES subjects(code) ON DELETE CASCADE, kind TEXT NOT NULL,
-    position INTEGER NOT NULL, task INTEGER NOT NULL, scenario INTEGER NOT NULL, joint INTEGER NOT NULL, q0 BLOB NOT NULL,
-    target BLOB NOT NULL, began TEXT NOT NULL, ended TEXT, end INTEGER, rating INTEGER, answers TEXT NOT NULL DEFAULT '{}'
-);
-CREATE INDEX trials_of ON trials (subject, kind, position);
-CREATE TABLE cycles (
-    trial INTEGER NOT NULL REFERENCES trials(id) ON DELETE CASCADE, k INTEGER NOT NULL, time REAL NOT NULL,
-    velocity BLOB NOT NULL, q BLOB NOT NULL, PRIMARY KEY (trial, k)
-) WITHOUT ROWID;
-CREATE TABLE events (
-    id INTEGER PRIMARY KEY, trial INTEGER REFERENCES trials(id) ON DELETE CASCADE,
-    subject TEXT REFERENCES subjects(code) ON DELETE CASCADE, k INTEGER, at TEXT NOT NULL, kind TEXT NOT NULL,
-    data TEXT NOT NULL DEFAULT '{}'
-);
-CREATE INDEX events_of ON events (trial);
-"""
 
 
 class Records:
@@ -83,21 +59,8 @@ class Records:
         Raises:
             StoreError: The folder is not empty, or cannot be written.
         """
-        path = Path(folder)
-        if path.exists() and (not path.is_dir() or any(path.iterdir())):
-            raise StoreError(f"'{path}' exists and is not an empty folder; give a new one, or open the experiment in it")
-        try:
-            path.mkdir(parents=True, exist_ok=True)
-            kept = protocols.read(protocol.write(path / PROTOCOL))
-            with closing(sqlite3.connect(path / (FILE + ".new"), isolation_level=None)) as db:
-                db.executescript(_SCHEMA)
-                made_by = json.dumps(versions("holdfast", "numpy", "casadi", "heyoka"))
-                about = {"format": str(_FORMAT), "protocol": kept.text(), "versions": made_by, "began": _now()}
-                db.executemany("INSERT INTO about VALUES (?, ?)", about.items())
-            (path / (FILE + ".new")).rename(path / FILE)  # a folder with this file is whole
-        except (OSError, sqlite3.Error) as error:
-            raise StoreError(f"cannot write to '{path}': {error}; choose another folder") from error
-        return cls.open(path)
+        make(Path(folder), protocol)
+        return cls.open(folder)
 
     @classmethod
     def open(cls, folder: str | Path) -> Records:
@@ -106,33 +69,7 @@ class Records:
         Raises:
             StoreError: There is none, it is damaged, or of another format.
         """
-        path = Path(folder)
-        if not (path / FILE).is_file():
-            raise StoreError(f"'{path}' holds no experiment: there is no {FILE} in it; begin one in a new folder")
-        try:
-            db = sqlite3.connect(path / FILE, isolation_level=None, timeout=30.0)
-            db.execute("PRAGMA journal_mode = WAL")
-            db.execute("PRAGMA synchronous = FULL")
-            db.execute("PRAGMA foreign_keys = ON")
-            about = dict(db.execute("SELECT key, value FROM about"))
-            sound = db.execute("PRAGMA quick_check(1)").fetchone()[0]
-        except sqlite3.Error as error:
-            raise StoreError(
-                f"'{path / FILE}' is damaged or not a file of records ({error}); restore it from a copy"
-            ) from error
-        if sound != "ok":
-            raise StoreError(f"'{path / FILE}' is damaged ({sound}); restore it from a copy")
-        if about.get("format") != str(_FORMAT):
-            raise StoreError(
-                f"'{path / FILE}' has format {about.get('format')}; this holdfast reads {_FORMAT}: use the one that wrote it"
-            )
-        protocol = protocols.read(path / PROTOCOL)
-        if protocol.text() != about["protocol"]:
-            raise StoreError(
-                f"'{path / PROTOCOL}' is not the protocol that the experiment began with; undo the change, "
-                "or begin a new experiment with it"
-            )
-        return cls(path, db, protocol)
+        return cls(Path(folder), *connect(Path(folder)))
 
     def close(self) -> None:
         """Close the file."""
@@ -180,7 +117,7 @@ class Records:
             row = next_row(completed, open_, len(self.protocol.order()))
             self._db.execute(
                 "INSERT INTO subjects (code, number, row, kind, state, since, answers) VALUES (?, ?, ?, ?, ?, ?, ?)",
-                (code, number, row, kind, State.OPEN, _now(), json.dumps(dict(answers or {}))),
+                (code, number, row, kind, State.OPEN, now(), json.dumps(dict(answers or {}))),
             )
             # A number is never given twice, also where its subject was deleted.
             self._db.execute("INSERT OR REPLACE INTO about VALUES ('next', ?)", (str(number + 1),))
@@ -240,6 +177,34 @@ class Records:
         self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
         self._db.execute("VACUUM")
 
+    # ---- sessions of pages -----------------------------------------------------------------------------------------
+
+    def give_key(self, code: str) -> str:
+        """A new secret key to a subject's session, in place of an older one; only its hash is kept.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        self.subject(code)
+        key = secrets.token_urlsafe(24)
+        self._db.execute(
+            "INSERT INTO sessions VALUES (?, ?, 0) ON CONFLICT (subject) DO UPDATE SET key = excluded.key", (code, _hash(key))
+        )
+        return key
+
+    def key_holder(self, key: str) -> str | None:
+        """Code of the subject whose session has this key."""
+        row = self._db.execute("SELECT subject FROM sessions WHERE key = ?", (_hash(key),)).fetchone()
+        return None if row is None else str(row[0])
+
+    def last_seq(self, code: str) -> int:
+        """Number of the last message of a subject's page that is on record; 0 for none."""
+        return int(self._value("SELECT COALESCE((SELECT seq FROM sessions WHERE subject = ?), 0)", code))
+
+    def set_last_seq(self, code: str, seq: int) -> None:
+        """See :meth:`last_seq`; for one transaction with what the message changes."""
+        self._db.execute("UPDATE sessions SET seq = ? WHERE subject = ?", (seq, code))
+
     # ---- trials ----------------------------------------------------------------------------------------------------
 
     def begin_trial(self, subject: str, kind: Kind, position: int, scenario: int, tasks: PointTasks, task: int = -1) -> int:
@@ -265,7 +230,7 @@ class Records:
         cursor = self._db.execute(
             "INSERT INTO trials (subject, kind, position, task, scenario, joint, q0, target, began) "
             "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            (subject, kind, position, task, scenario, int(tasks.joint[0]), blob(tasks.q0[0]), blob(tasks.target[0]), _now()),
+            (subject, kind, position, task, scenario, int(tasks.joint[0]), blob(tasks.q0[0]), blob(tasks.target[0]), now()),
         )
         assert cursor.lastrowid is not None
         return cursor.lastrowid
@@ -306,7 +271,7 @@ class Records:
         """
         with self.together():
             changed = self._db.execute(
-                "UPDATE trials SET ended = ?, end = ? WHERE id = ? AND end IS NULL", (_now(), int(end), trial)
+                "UPDATE trials SET ended = ?, end = ? WHERE id = ? AND end IS NULL", (now(), int(end), trial)
             ).rowcount
             if changed != 1:
                 raise InputError(f"trial {trial} does not exist or has ended already")
@@ -329,9 +294,16 @@ class Records:
         if changed != 1:
             raise InputError(f"trial {trial} does not exist")
 
-    def event(self, kind: str, subject: str | None = None, trial: int | None = None, k: int | None = None, **data: Any) -> None:
+    def event(
+        self,
+        kind: str,
+        subject: str | None = None,
+        trial: int | None = None,
+        k: int | None = None,
+        data: Mapping[str, Any] | None = None,
+    ) -> None:
         """Something happened: a pause, a dropped frame, a lost connection, a note."""
-        row = (trial, subject, k, _now(), kind, json.dumps(data))
+        row = (trial, subject, k, now(), kind, json.dumps(dict(data or {})))
         self._db.execute("INSERT INTO events (trial, subject, k, at, kind, data) VALUES (?, ?, ?, ?, ?, ?)", row)
 
     def events(self) -> list[dict[str, Any]]:
@@ -344,6 +316,20 @@ class Records:
         """The trials, of one subject or of one kind, in the order in which they began."""
         where = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
         return [read_entry(row) for row in self._db.execute(f"SELECT {ENTRY} FROM trials {where} ORDER BY id", (subject, kind))]
+
+    def latest(self, subject: str) -> Entry | None:
+        """The trial that a subject began last."""
+        row = self._db.execute(f"SELECT {ENTRY} FROM trials WHERE subject = ? ORDER BY id DESC LIMIT 1", (subject,)).fetchone()
+        return None if row is None else read_entry(row)
+
+    def count(self, entry: Entry) -> int:
+        """Number of cycles of a trial."""
+        return int(self._value("SELECT COUNT(*) FROM cycles WHERE trial = ? AND time >= 0", entry.id))
+
+    def progress(self) -> dict[tuple[str, Kind], int]:
+        """How many trials of each kind every subject has done; not those that were broken off."""
+        query = "SELECT subject, kind, COUNT(DISTINCT position) FROM trials WHERE end IS NOT NULL AND end != ? GROUP BY subject, kind"
+        return {(code, Kind(kind)): count for code, kind, count in self._db.execute(query, (int(End.BROKEN_OFF),))}
 
     def tasks(self, entries: list[Entry]) -> PointTasks:
         """What was to be done in some trials."""
@@ -402,21 +388,25 @@ class Records:
 
     # ---- the file --------------------------------------------------------------------------------------------------
 
+    @property
+    def writing(self) -> bool:
+        """Inside :meth:`together`."""
+        return self._depth > 0
+
     @contextmanager
     def together(self) -> Iterator[None]:
         """All changes made inside, or none; they are acknowledged when the block ends."""
-        if self._depth:  # part of a larger change
-            yield
-            return
-        self._db.execute("BEGIN IMMEDIATE")
+        # Part of a larger change: undone by itself where it fails, and kept if the larger one is.
+        begin, keep, *undo = _NESTED if self._depth else _OUTERMOST
+        self._db.execute(begin)
         self._depth += 1
         try:
             yield
+            self._db.execute(keep)
         except BaseException:
-            self._db.execute("ROLLBACK")
+            for statement in undo if self._db.in_transaction else ():  # a full disk has ended it already
+                self._db.execute(statement)
             raise
-        else:
-            self._db.execute("COMMIT")
         finally:
             self._depth -= 1
 
@@ -428,5 +418,5 @@ class Records:
         self._db.execute(f"UPDATE subjects SET {column} = ? WHERE code = ?", (value, code))
 
 
-def _now() -> str:
-    return datetime.now(UTC).isoformat(timespec="milliseconds")
+def _hash(key: str) -> bytes:
+    return hashlib.sha256(key.encode()).digest()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -34,6 +35,7 @@ class Next:
     tasks: PointTasks
 
 
+@lru_cache(maxsize=256)  # a fifth of a second, and asked for at every trial of a training
 def training_tasks(protocol: Protocol, subject: int) -> PointTasks:
     """The training tasks of a subject, in order: random over the workspace, so far apart as the protocol says.
 
@@ -69,7 +71,6 @@ class Session:
 
     def __init__(self, records: Records, code: str) -> None:
         self.records, self.subject = records, records.subject(code)
-        self._training: PointTasks | None = None
         protocol = records.protocol
         self._order: Indices = protocol.session(self.subject.row, self.subject.number)
 
@@ -88,18 +89,17 @@ class Session:
         if not trials and not criterion.trained(self._cycles(training)):
             if len(training) >= criterion.most:
                 return None
-            if self._training is None:
-                self._training = training_tasks(protocol, self.subject.number)
             k = len(training)
-            return Next(Kind.TRAINING, k, -1, training_scenario(protocol), self._training.take(np.array([k])))
+            task = training_tasks(protocol, self.subject.number).take(np.array([k]))
+            return Next(Kind.TRAINING, k, -1, training_scenario(protocol), task)
         position = len(trials)
         if position >= len(self._order):
             if self.subject.state != State.COMPLETED:
                 self.records.set_state(code, State.COMPLETED)
                 self.subject = self.records.subject(code)
             return None
-        task, scenario = (int(v) for v in self._order[position])
-        return Next(Kind.TRIAL, position, task, scenario, protocol.tasks.take(np.array([task])))
+        number, scenario = (int(v) for v in self._order[position])
+        return Next(Kind.TRIAL, position, number, scenario, protocol.tasks.take(np.array([number])))
 
     def progress(self) -> str:
         """One phrase for people."""
@@ -107,8 +107,7 @@ class Session:
         return f"{trained} training tasks, {trials} of {len(self._order)} trials"
 
     def _cycles(self, entries: list[Entry]) -> list[float]:
-        trials = self.records.trials(entries)
-        return [float(c) for c in np.where(trials.arrived, trials.cycles, np.nan)]
+        return [float(self.records.count(e)) if e.end == End.ARRIVED else np.nan for e in entries]
 
 
 def done(entries: list[Entry]) -> list[Entry]:

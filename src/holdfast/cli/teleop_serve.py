@@ -1,0 +1,71 @@
+"""``holdfast teleop serve``: people take part, in a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from holdfast.errors import HoldfastError, InputError
+
+_TLS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
+  caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
+(start this command with --host 127.0.0.1 --token then; the proxy must hand on the Host header, as Caddy does)"""
+
+
+def serve(
+    data: Annotated[
+        Path, typer.Option("--data", metavar="DIR", help="Folder of the experiment; a new one begins it.", show_default=False)
+    ],
+    protocol: Annotated[
+        str | None,
+        typer.Option(
+            "--protocol",
+            help="goel2003, goel2003-smooth, or a file (YAML), for a new folder. Default: goel2003.",
+            show_default=False,
+        ),
+    ] = None,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="0 for any that is free.")] = 8000,
+    host: Annotated[
+        str, typer.Option("--host", help="Address to listen at; others than this computer's need --token.")
+    ] = "127.0.0.1",
+    token: Annotated[
+        str | None,
+        typer.Option("--token", help="Stations must show it: 12 letters, digits, - or _, or more.", show_default=False),
+    ] = None,
+    texts: Annotated[
+        Path | None, typer.Option("--texts", help="Translation of the page's texts (YAML).", show_default=False)
+    ] = None,
+    tlx: Annotated[bool, typer.Option("--tlx", help="Ask for the NASA task load index.")] = False,
+) -> None:
+    """Run an experiment with people: serves the page of the stations and that of the experimenter. Ctrl-C ends it.
+
+    Example: holdfast teleop serve --data study
+    """
+    try:
+        from holdfast.teleop.serve import app
+    except ModuleNotFoundError as error:
+        if error.name not in ("starlette", "uvicorn", "websockets"):
+            raise
+        raise HoldfastError(f"the server needs {error.name}; pip install 'holdfast[teleop]'") from None
+    from holdfast.teleop.serve.guard import Guard, check_token
+
+    if token is not None:
+        check_token(token)
+    loopback = app.is_loopback(host)
+    if not loopback and token is None:
+        raise InputError(f"--host {host} lets other computers in; add --token with a secret of 12 letters and digits or more")
+    app.prepare(data, protocol)
+    options = app.Options(data, Guard(token=token, loopback=loopback and token is None), texts, tlx)
+
+    def ready(at: int) -> None:
+        name = "[::1]" if host == "::1" else host
+        base = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::') else name}:{at}"
+        typer.echo(f"station:      {base}/{'' if token is None else f'?token={token}'}")
+        typer.echo(f"experimenter: {base}/experimenter?key={options.guard.key}")
+        if not loopback:
+            typer.echo(_TLS.format(host=host, port=at))
+        typer.echo(f"records:      {data}; Ctrl-C ends the server, and what was acknowledged is on the disk")
+
+    app.serve(options, host, port, ready)

@@ -1,0 +1,179 @@
+"""The application: pages, the experiment as JSON, the arm as JavaScript, and the WebSocket of the stations."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import socket
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import uvicorn
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp
+
+from holdfast.errors import InputError, StoreError
+from holdfast.teleop.protocol import Protocol
+from holdfast.teleop.protocol import read as read_protocol
+from holdfast.teleop.records import Records
+from holdfast.teleop.records_file import FILE
+from holdfast.teleop.serve import experimenter
+from holdfast.teleop.serve.connection import session
+from holdfast.teleop.serve.control import Control
+from holdfast.teleop.serve.guard import LOOPBACK, Guard, Guarded
+from holdfast.teleop.serve.messages import MOST_BYTES
+from holdfast.teleop.serve.study import study
+from holdfast.teleop.serve.texts import ENGLISH
+from holdfast.teleop.serve.texts import read as read_texts
+
+STATIC = Path(__file__).with_name("static")
+_PAGE = "index.html"
+_TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".json": "application/json",
+    ".svg": "image/svg+xml",
+}
+
+
+@dataclass(frozen=True)
+class Options:
+    """How an experiment is served.
+
+    Attributes:
+        folder: Of the experiment.
+        guard: Token, key, hosts.
+        texts: A translation; None for English.
+        tlx: Ask for the NASA task load index.
+        static: Where the built page is.
+        english: Which texts there are.
+    """
+
+    folder: Path
+    guard: Guard = field(default_factory=Guard)
+    texts: Path | None = None
+    tlx: bool = False
+    static: Path = STATIC
+    english: Path = ENGLISH
+
+
+def prepare(folder: Path, protocol: str | None) -> Protocol:
+    """Open the experiment in a folder, or begin one in a new folder.
+
+    Args:
+        folder: Of the experiment.
+        protocol: Name or file; None: that of the experiment, or the paper's for a new one.
+
+    Raises:
+        StoreError: The folder is neither empty nor an experiment.
+        InputError: The experiment in it has another protocol.
+    """
+    if not (folder / FILE).is_file():
+        with Records.create(folder, read_protocol() if protocol is None else read_protocol(protocol)) as records:
+            return records.protocol
+    with Records.open(folder) as records:
+        if protocol is not None and read_protocol(protocol).text() != records.protocol.text():
+            raise InputError(
+                f"'{folder}' holds an experiment with another protocol than '{protocol}'; leave --protocol out, "
+                "or give a new folder"
+            )
+        return records.protocol
+
+
+def make_app(options: Options) -> ASGIApp:
+    """The application.
+
+    Raises:
+        StoreError: The built page is missing, or the folder holds no experiment.
+        InputError: Texts that cannot be used.
+    """
+    from holdfast.teleop.printed_arm import arm_module
+
+    words = read_texts(options.texts, options.english)
+    files = _files(options.static)
+    with Records.open(options.folder) as records:
+        protocol = records.protocol
+    files["/study.json"] = _file(json.dumps(study(protocol, words, options.tlx)).encode(), ".json")
+    files["/arm.js"] = _file(arm_module(protocol).encode(), ".js")
+
+    @asynccontextmanager
+    async def lifespan(app: Starlette) -> AsyncIterator[None]:
+        control = Control(options.folder, asyncio.get_running_loop())
+        app.state.control = control
+        try:
+            yield
+        finally:
+            await asyncio.to_thread(control.close)
+
+    routes = [
+        *(Route(path, answer, methods=["GET"]) for path, answer in files.items()),
+        *experimenter.routes(options.guard),
+        WebSocketRoute("/session", session),
+    ]
+    return Guarded(Starlette(routes=routes, lifespan=lifespan), options.guard)
+
+
+def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Callable[[int], None] | None = None) -> None:
+    """Serve until interrupted.
+
+    Args:
+        options: What.
+        host: To listen at.
+        port: Likewise; 0 for any that is free.
+        ready: Is told the port before the first request.
+
+    Raises:
+        StoreError: The port is taken, or this computer has no such address; and as :func:`make_app`.
+    """
+    app = make_app(options)
+    with _listening(host, port) as listener:
+        config = uvicorn.Config(
+            app, log_level="warning", access_log=False, ws="websockets-sansio", ws_max_size=MOST_BYTES, server_header=False
+        )
+        if ready is not None:
+            ready(listener.getsockname()[1])
+        with suppress(KeyboardInterrupt):
+            uvicorn.Server(config).run(sockets=[listener])
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    try:
+        family, kind, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+        listener = socket.socket(family, kind)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address)
+        listener.listen(128)
+    except OSError as error:
+        raise StoreError(
+            f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host"
+        ) from error
+    return listener
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this computer can ask there."""
+    return host in (*LOOPBACK, "::1")
+
+
+def _files(folder: Path) -> dict[str, Callable[[Request], Response]]:
+    """Every built file by its exact path: no path of a URL reaches the file system."""
+    if not (folder / _PAGE).is_file():
+        raise StoreError(
+            f"the built page is not in this installation ('{folder / _PAGE}' is missing); install holdfast again, "
+            "or build it from the sources"
+        )
+    found = {f"/{f.name}": _file(f.read_bytes(), f.suffix) for f in sorted(folder.iterdir()) if f.suffix in _TYPES}
+    found["/"] = found.pop(f"/{_PAGE}")
+    # The experimenter's page has its route, which asks for the key.
+    found.pop("/experimenter.html", None)
+    return found
+
+
+def _file(content: bytes, suffix: str) -> Callable[[Request], Response]:
+    return lambda _: Response(content, headers={"content-type": _TYPES[suffix]})

@@ -1,0 +1,257 @@
+"""What runs while the server runs: the records' threads, the pages that are connected, and what the experimenter may do."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.errors import InputError
+from holdfast.teleop.entries import Entry, Kind, State
+from holdfast.teleop.records import Records
+from holdfast.teleop.replay import replay
+from holdfast.teleop.serve.live import Live
+from holdfast.teleop.serve.messages import Cycles, Hello, Refused, Sequenced, Welcome
+from holdfast.teleop.serve.messages import Bye as ByeMessage
+from holdfast.teleop.serve.station import Entered, Station, Taken, enter
+from holdfast.teleop.serve.writer import Keeper
+from holdfast.teleop.session import training_tasks
+from holdfast.teleop.trials import End
+
+if TYPE_CHECKING:
+    from holdfast.teleop.serve.connection import Connection
+
+SAME = 1e-6  # rad and m: a replayed trial that differs by more is flagged
+DIFFERS = "replay differs"
+
+
+class Control:
+    """The server's state and the experimenter's hands; for use inside the event loop only.
+
+    Args:
+        folder: Of the experiment.
+        loop: The event loop.
+
+    Attributes:
+        writer: Owns the records that are written.
+        reader: Owns a connection of its own, for what takes longer and changes nothing.
+        live: What is watched.
+        protocol: Of the experiment.
+
+    Raises:
+        StoreError: The folder cannot be opened.
+    """
+
+    def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop) -> None:
+        self.writer = Keeper(folder, loop, writes=True)
+        self.reader = Keeper(folder, loop, writes=False)
+        self.live = Live()
+        self.protocol = self.writer.protocol
+        self._pages: dict[str, Connection] = {}
+        self._all_paused = False
+        self._paused: set[str] = set()
+        self._failed = [s.failed for s in self.protocol.scenarios]
+        self.reader.put(_differing, self._flag)  # what was not replayed when the server was killed
+        self._fresh = loop.create_task(self.live.keep_fresh(self.subjects))
+
+    def close(self) -> None:
+        """Write what is under way, and close the files."""
+        self._fresh.cancel()
+        self.reader.close()
+        self.writer.close()
+
+    # ---- pages -----------------------------------------------------------------------------------------------------
+
+    async def enter(self, page: Connection, hello: Hello) -> Welcome | Refused | ByeMessage:
+        """A page says hello; if it is let in it holds the session, and who held it before is told."""
+        entered = await self.writer.do(lambda records: enter(records, hello))
+        if not isinstance(entered, Entered):
+            return entered
+        code = entered.code
+        before = self._pages.get(code)
+        self._pages[code] = page
+        page.code = code
+        if before is not None and before is not page:
+            before.bye("the session goes on in another page")
+        subject = await self.writer.do(lambda records: records.subject(code))
+        # Not in the writer: it takes a while, and the others should not wait for it.
+        await asyncio.to_thread(training_tasks, self.protocol, subject.number)
+        welcome = await self.writer.do(lambda records: Station(records, code).welcome(entered.key, self.is_paused(code)))
+        self.changed()
+        return welcome
+
+    def take(self, page: Connection, message: Sequenced) -> None:
+        """A message of a page that holds a session; the page is given the reply."""
+        code = page.code
+        assert code is not None
+
+        def taken(result: Any) -> None:
+            page.answered(result.reply if isinstance(result, Taken) else result)
+            if isinstance(result, Taken):
+                self._after(code, message, result)
+
+        self.writer.put(lambda records: Station(records, code).take(message), taken)
+
+    def leave(self, page: Connection) -> None:
+        """A connection is over."""
+        if page.code is not None and self._pages.get(page.code) is page:
+            del self._pages[page.code]
+            self.live.forget(page.code)
+            self.changed()
+
+    def _after(self, code: str, message: Sequenced, taken: Taken) -> None:
+        if taken.reply.type != "ack":
+            return
+        if taken.finished is not None:
+            number = taken.finished
+            self.reader.put(lambda records: _differing(records, number), self._flag)
+        if isinstance(message, Cycles):
+            if self.live.watched and taken.entry is not None:
+                self.live.publish(self._cycle(message, taken.entry), topic=code)
+        else:
+            self.changed()
+
+    def _cycle(self, message: Cycles, entry: Entry) -> dict[str, Any]:
+        healthy = [1] * len(entry.q0)
+        if entry.joint >= 0 and self._failed[entry.scenario]:
+            healthy[entry.joint] = 0
+        return {
+            "type": "cycle",
+            "subject": entry.subject,
+            "kind": entry.kind.value,
+            "position": entry.position,
+            "scenario": entry.scenario,
+            "q": message.q[-1],
+            "velocity": message.velocity[-1],
+            "target": entry.target.tolist(),
+            "healthy": healthy,
+        }
+
+    def _flag(self, differing: Any) -> None:
+        """Note trials that do not come out as the page had them."""
+        if isinstance(differing, Exception) or not differing:
+            return
+
+        def note(records: Records) -> None:
+            there = {e["trial"] for e in records.events() if e["kind"] == DIFFERS}
+            for entry, data in differing:
+                if entry.id not in there:
+                    records.event(DIFFERS, entry.subject, entry.id, None, data)
+
+        self.writer.put(note, lambda _: self.changed())
+
+    # ---- the experimenter ------------------------------------------------------------------------------------------
+
+    def changed(self) -> None:
+        """Something that the list of subjects shows is not as it was."""
+        self.live.stale()
+
+    def is_paused(self, code: str) -> bool:
+        """Whether a subject's session waits."""
+        return self._all_paused or code in self._paused
+
+    async def pause(self, subject: str | None, paused: bool) -> None:
+        """Let a session, or all of them, wait after the trial under way, or go on.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        if subject is None:
+            self._all_paused = paused
+            if not paused:
+                self._paused.clear()
+        else:
+            await self.writer.do(lambda records: records.subject(subject))
+            (self._paused.add if paused else self._paused.discard)(subject)
+        kind = "paused" if paused else "goes on"
+        await self.writer.do(lambda records: records.event(kind, subject, None, None, {"by": "experimenter"}))
+        for code, page in self._pages.items():
+            if subject in (None, code):
+                page.pause(self.is_paused(code))
+        self.changed()
+
+    async def note(self, subject: str, note: str) -> None:
+        """Write a note about a subject, in place of an earlier one.
+
+        Raises:
+            InputError: There is no such subject, or the note is longer than 10,000 characters.
+        """
+        if len(note) > 10_000:
+            raise InputError("a note has at most 10,000 characters")
+        await self.writer.do(lambda records: records.set_note(subject, note))
+        self.changed()
+
+    async def drop(self, subject: str) -> None:
+        """End a subject's session for good; what was recorded stays.
+
+        Raises:
+            InputError: There is no such subject.
+        """
+        await self.writer.do(lambda records: records.set_state(subject, State.DROPPED))
+        if (page := self._pages.get(subject)) is not None:
+            page.bye(f"the session of {subject} was ended by the experimenter")
+        self.changed()
+
+    async def new_key(self, subject: str) -> str:
+        """A key with which another page goes on with a session; the key before it is worth nothing from now on.
+
+        Raises:
+            InputError: There is no such subject, or the session is over.
+        """
+
+        def give(records: Records) -> str:
+            if records.subject(subject).state == State.DROPPED:
+                raise InputError(f"the session of {subject} was ended; it cannot go on")
+            return records.give_key(subject)
+
+        key = await self.writer.do(give)
+        if (page := self._pages.get(subject)) is not None:
+            page.bye("the session goes on in another page")
+        self.changed()
+        return key
+
+    async def subjects(self) -> list[dict[str, Any]]:
+        """Where every subject's session stands, as JSON takes it."""
+        rows = await self.reader.do(lambda records: (records.subjects(), records.progress(), _flagged(records)))
+        subjects, progress, flagged = rows
+        total = len(self.protocol.tasks) * len(self.protocol.scenarios)
+        return [
+            {
+                "subject": s.code,
+                "kind": s.kind.value,
+                "state": s.state.value,
+                "since": s.since,
+                "note": s.note,
+                "row": s.row,
+                "training": progress.get((s.code, Kind.TRAINING), 0),
+                "trials": progress.get((s.code, Kind.TRIAL), 0),
+                "of": total,
+                "connected": s.code in self._pages,
+                "paused": self.is_paused(s.code),
+                "differing": flagged.get(s.code, 0),
+            }
+            for s in subjects
+        ]
+
+
+def _flagged(records: Records) -> dict[str, int]:
+    found = [e["subject"] for e in records.events() if e["kind"] == DIFFERS]
+    return {code: found.count(code) for code in set(found)}
+
+
+def _differing(records: Records, number: int | None = None) -> list[tuple[Entry, dict[str, Any]]]:
+    """Finished trials, all or one, that do not come out as recorded when the Python kernel is given their commands."""
+    entries = [e for e in records.entries() if e.ended is not None and number in (None, e.id)]
+    if not entries:
+        return []
+    result, trials = replay(records, entries), records.trials(entries)
+    away = np.linalg.norm(trials.x_end - trials.target, axis=1)
+    out: list[tuple[Entry, dict[str, Any]]] = []
+    for entry, difference, distance in zip(entries, result.difference.tolist(), away.tolist(), strict=True):
+        outside = entry.end == End.ARRIVED and distance > records.protocol.radius + SAME
+        if not difference <= SAME or outside:
+            # JSON has no infinity: a trial with another number of cycles has no difference.
+            out.append((entry, {"difference": difference if np.isfinite(difference) else None, "outside": outside}))
+    return out

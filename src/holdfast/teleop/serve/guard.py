@@ -1,0 +1,185 @@
+"""Who may ask: the right host and origin, the token, the experimenter's key; and how much, how fast."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import secrets
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qs, urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from holdfast.errors import InputError
+
+LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
+_HOST = re.compile(r"(?:[A-Za-z0-9.-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
+_TOKEN = re.compile("[A-Za-z0-9_-]{12,128}")
+_STATION = ("/", "/study.json", "/arm.js", "/session")
+_EXPERIMENTER = ("/experimenter", "/live")
+
+
+@dataclass(frozen=True)
+class Guard:
+    """What a request must show.
+
+    Attributes:
+        token: That pages of stations must have; None for none: only where nobody but this computer can ask.
+        key: The experimenter's.
+        loopback: Only names of this computer are right in the Host header.
+    """
+
+    token: str | None = None
+    key: str = field(default_factory=lambda: secrets.token_urlsafe(18))
+    loopback: bool = True
+
+    def fault(self, scope: Scope) -> str | None:
+        """What is wrong with a request; None for nothing."""
+        headers = Headers(scope=scope)
+        hosts = headers.getlist("host")
+        host = hosts[0] if len(hosts) == 1 else ""
+        if not _HOST.fullmatch(host) or (self.loopback and re.sub(r":\d+$", "", host) not in LOOPBACK):
+            return "the request names another host"
+        origin = headers.get("origin")
+        unsafe = scope["type"] == "websocket" or scope["method"] not in ("GET", "HEAD")
+        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+            return "the request comes from a page of another host"
+        if origin is None and unsafe and headers.get("sec-fetch-site", "same-origin") != "same-origin":
+            return "the request comes from a page of another host"
+        path = scope["path"]
+        if any(path == area or path.startswith(area + "/") for area in _EXPERIMENTER):
+            return (
+                None
+                if self.is_experimenter(scope)
+                else "the experimenter's key is missing or wrong; it is in the URL printed at the start"
+            )
+        if path in _STATION and not (self.has_token(scope) or self.is_experimenter(scope)):
+            return "the token is missing or wrong; it is in the URL that the server printed at its start"
+        return None
+
+    def has_token(self, scope: Scope) -> bool:
+        """The token is in the query, or in the cookie that the page was given with it."""
+        return self.token is None or any(
+            _same(given, self.token) for given in (_query(scope, "token"), _cookie(scope, _cookie_name(self.token)))
+        )
+
+    def is_experimenter(self, scope: Scope) -> bool:
+        """The key is in the query. No cookie has it: a subject may sit at the browser that the experimenter used."""
+        return _same(_query(scope, "key"), self.key)
+
+    def cookie(self, scope: Scope) -> str | None:
+        """What the answer leaves in the browser, so that the page's own requests are let in."""
+        if self.token is None or scope["path"] != "/":
+            return None
+        return f"{_cookie_name(self.token)}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+
+
+def check_token(token: str) -> None:
+    """Refuse a token that can be guessed, or that does not fit into a URL.
+
+    Raises:
+        InputError: It is shorter than 12 characters, or has others than letters, digits, - and _.
+    """
+    if not _TOKEN.fullmatch(token):
+        raise InputError(
+            "the token must have 12 to 128 letters, digits, - and _; for example the output of 'openssl rand -hex 16'"
+        )
+
+
+class Guarded:
+    """An application behind a guard: refuses what is wrong, and puts the headers on what is right."""
+
+    def __init__(self, app: ASGIApp, guard: Guard) -> None:
+        self._app, self._guard = app, guard
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """As ASGI has it."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        fault = self._guard.fault(scope)
+        if fault is not None and scope["type"] == "websocket":
+            await receive()
+            await send({"type": "websocket.close", "code": 1008, "reason": fault})
+            return
+        if scope["type"] == "websocket":
+            await self._app(scope, receive, send)
+            return
+
+        async def with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, value in _headers(Headers(scope=scope).get("host", ""), fault is None).items():
+                    headers[name] = value
+                cookie = self._guard.cookie(scope) if fault is None else None
+                if cookie is not None:
+                    headers["set-cookie"] = cookie
+            await send(message)
+
+        if fault is None:
+            await self._app(scope, receive, with_headers)
+        else:
+            await PlainTextResponse(f"Refused: {fault}.\n", status_code=403)(scope, receive, with_headers)
+
+
+def _headers(host: str, known: bool) -> dict[str, str]:
+    sockets = f" ws://{host} wss://{host}" if known else ""
+    policy = f"default-src 'self'; connect-src 'self'{sockets}; frame-ancestors 'none'; base-uri 'none'; object-src 'none'"
+    return {
+        "content-security-policy": policy,
+        "x-content-type-options": "nosniff",
+        "referrer-policy": "no-referrer",
+        "cross-origin-resource-policy": "same-origin",
+        "cache-control": "no-store",
+    }
+
+
+class Bucket:
+    """How many messages may pass: so many a second for ever, and so many at once after a pause.
+
+    Args:
+        rate: Messages per second.
+        burst: At once.
+        clock: Seconds.
+    """
+
+    def __init__(self, rate: float = 200.0, burst: float = 2000.0, clock: Callable[[], float] = time.monotonic) -> None:
+        self._rate, self._burst, self._clock = rate, burst, clock
+        self._left, self._at = burst, clock()
+
+    def wait(self) -> float:
+        """Take one; the seconds that it must wait."""
+        at = self._clock()
+        self._left = min(self._burst, self._left + (at - self._at) * self._rate) - 1
+        self._at = at
+        return max(0.0, -self._left / self._rate)
+
+
+def _same(given: str | None, secret: str) -> bool:
+    return given is not None and secrets.compare_digest(given.encode(), secret.encode())
+
+
+def _query(scope: Scope, name: str) -> str | None:
+    try:
+        values = parse_qs(scope["query_string"].decode("latin-1"), max_num_fields=20).get(name)
+    except ValueError:
+        return None
+    return values[0] if values else None
+
+
+def _cookie(scope: Scope, name: str) -> str | None:
+    try:
+        jar = SimpleCookie(Headers(scope=scope).get("cookie", ""))
+    except CookieError:
+        return None
+    return jar[name].value if name in jar else None
+
+
+def _cookie_name(token: str) -> str:
+    # Cookies know no ports: two servers of one computer need two names.
+    return f"holdfast-{hashlib.sha256(token.encode()).hexdigest()[:12]}"

@@ -1,0 +1,137 @@
+"""Threads that own the records: one that writes, one that reads at leisure.
+
+The writer collects the changes that came within a few milliseconds, applies each in a savepoint of its own inside one
+transaction, commits once, and only then answers: what has been answered is on the disk, and one ``fsync`` serves all stations.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import queue
+import sqlite3
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any, TypeVar
+
+from holdfast.errors import HoldfastError
+from holdfast.teleop.records import Records
+
+_GATHER = 0.003  # s that the first change of a transaction waits for others
+_MOST = 512  # changes in one transaction
+
+_log = logging.getLogger(__name__)
+
+T = TypeVar("T")
+Job = tuple[Callable[[Records], Any], Callable[[Any], None]]
+
+
+class Keeper:
+    """A thread that owns the records of a folder, and does what it is given, in order.
+
+    Answers are given in the event loop, and where a job failed the answer is the exception.
+
+    Args:
+        folder: Of the experiment.
+        loop: The event loop.
+        writes: Jobs change the records, and are committed together; else they only read, one by one.
+
+    Raises:
+        StoreError: The folder cannot be opened.
+    """
+
+    def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop, writes: bool) -> None:
+        self._folder, self._loop, self._writes = folder, loop, writes
+        self._jobs: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
+        self._thread = threading.Thread(target=self._live, name="holdfast-writer" if writes else "holdfast-reader", daemon=True)
+        self._opened: Future[Records] = Future()
+        self._thread.start()
+        self.protocol = self._opened.result().protocol
+
+    def put(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
+        """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception."""
+        self._jobs.put((job, answer))
+
+    async def do(self, job: Callable[[Records], T]) -> T:
+        """The result of a job."""
+        future: asyncio.Future[T] = self._loop.create_future()
+
+        def answer(result: Any) -> None:
+            if future.cancelled():
+                return
+            if isinstance(result, Exception):
+                future.set_exception(result)
+            else:
+                future.set_result(result)
+
+        self.put(job, answer)
+        return await future
+
+    def close(self) -> None:
+        """Do what was given so far, and close the file."""
+        self._jobs.put(None)
+        self._thread.join()
+
+    # ---- in the thread ---------------------------------------------------------------------------------------------
+
+    def _live(self) -> None:
+        try:
+            records = Records.open(self._folder)
+        except Exception as error:
+            self._opened.set_exception(error)
+            return
+        with records:
+            self._opened.set_result(records)
+            while self._work(records):
+                pass
+
+    def _work(self, records: Records) -> bool:
+        """One transaction; False when there will be no more."""
+        jobs: list[Job] = []
+        job = self._jobs.get()
+        until = time.monotonic() + _GATHER
+        while job is not None:
+            jobs.append(job)
+            left = until - time.monotonic()
+            if not self._writes or len(jobs) == _MOST or left <= 0:
+                break
+            try:
+                job = self._jobs.get(timeout=left)
+            except queue.Empty:
+                break
+        if jobs:
+            results = self._committed(records, jobs) if self._writes else [_result(jobs[0][0], records)]
+            answers = [answer for _, answer in jobs]
+            # The loop may have stopped: then nobody waits for an answer.
+            if not self._loop.is_closed():
+                self._loop.call_soon_threadsafe(_answer, answers, results)
+        return job is not None
+
+    def _committed(self, records: Records, jobs: list[Job]) -> list[Any]:
+        try:
+            with records.together():
+                return [_result(job, records) for job, _ in jobs]
+        except sqlite3.Error as error:  # a full disk, a lock that somebody else does not let go of: none of it happened
+            _log.error("the records cannot be written: %s", error)
+            return [error] * len(jobs)
+
+
+def _result(job: Callable[[Records], Any], records: Records) -> Any:
+    try:
+        if records.writing:
+            with records.together():
+                return job(records)
+        return job(records)
+    except HoldfastError as error:
+        return error
+    except Exception as error:
+        _log.exception("a job of the records failed")
+        return error
+
+
+def _answer(answers: list[Callable[[Any], None]], results: list[Any]) -> None:
+    for answer, result in zip(answers, results, strict=True):
+        answer(result)
