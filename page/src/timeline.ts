@@ -21,7 +21,7 @@ export async function runSession(station: Station): Promise<void> {
   await session.jsPsych.run(session.timeline());
 }
 
-type Node = Parameters<ReturnType<typeof initJsPsych>["run"]>[0] & object;
+type Node = Extract<Parameters<ReturnType<typeof initJsPsych>["run"]>[0], unknown[]>[number];
 
 class Session {
   readonly jsPsych;

@@ -9,7 +9,7 @@ export function point(view: View, points: ArrayLike<number>, offset: number): [n
   return [along(view.rows[0]), along(view.rows[1])];
 }
 
-/** A vector of the task's rows: of two rows the view's own axes, of three the base frame's. */
+/** A vector of the task's rows: of one or two rows the view's own axes, of three the base frame's. */
 export function task(view: View, v: ArrayLike<number>): [number, number] {
-  return v.length === 2 ? [v[0], v[1]] : point(view, v, 0);
+  return v.length < 3 ? [v[0], v[1] ?? 0] : point(view, v, 0);
 }

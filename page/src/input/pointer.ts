@@ -34,9 +34,9 @@ export class Pointer implements Device {
   read(out: Float64Array): void {
     out.fill(0);
     for (const { view, right, up } of this.drawn.values()) {
-      if (out.length === 2) {
+      if (out.length < 3) {
         out[0] += right;
-        out[1] += up;
+        if (out.length === 2) out[1] += up;
       } else {
         for (let i = 0; i < out.length; i++) out[i] += right * view.rows[0][i] + up * view.rows[1][i];
       }
