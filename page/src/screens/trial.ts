@@ -136,7 +136,6 @@ class Trial {
     if (spec.record !== null) station.send({ type: "begin", ...spec.record });
     this.frames = new Frames();
     this.enter("running", station.texts.get("trial_running"));
-    this.abort.focus({ preventScroll: true });
     station.clock.start(station.study.rate, (time) => this.cycle(time));
   }
 
