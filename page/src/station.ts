@@ -12,7 +12,7 @@ import { Frame } from "./screens/frame";
 import { Stick } from "./stick";
 import type { Storage } from "./storage";
 import type { Study } from "./study";
-import { Texts } from "./texts";
+import { sentence, Texts } from "./texts";
 
 /** Where the session stands. */
 export interface Progress {
@@ -161,7 +161,7 @@ export class Station {
   private stop(reason: string | null): void {
     this.stopped = true;
     this.clock.stop();
-    this.frame.stop(reason ?? this.texts.get("elsewhere"));
+    this.frame.stop(reason === null ? this.texts.get("elsewhere") : sentence(reason));
   }
 
   private keep(): void {
