@@ -221,6 +221,7 @@ def protocol_(
 
 
 app.command()(teleop_serve.serve)
+app.command()(teleop_serve.texts)
 app.command()(teleop_tasks.tasks)
 
 

@@ -45,12 +45,11 @@ def serve(
     """
     try:
         from holdfast.teleop.serve import app
+        from holdfast.teleop.serve.guard import Guard, check_token
     except ModuleNotFoundError as error:
         if error.name not in ("starlette", "uvicorn", "websockets"):
             raise
         raise HoldfastError(f"the server needs {error.name}; pip install 'holdfast[teleop]'") from None
-    from holdfast.teleop.serve.guard import Guard, check_token
-
     if token is not None:
         check_token(token)
     loopback = app.is_loopback(host)
@@ -69,3 +68,22 @@ def serve(
         typer.echo(f"records:      {data}; Ctrl-C ends the server, and what was acknowledged is on the disk")
 
     app.serve(options, host, port, ready)
+
+
+def texts(
+    write: Annotated[
+        Path | None, typer.Option("--write", help="Copy them to this file, to translate.", show_default=False)
+    ] = None,
+) -> None:
+    """The texts of the page, to translate: 'holdfast teleop serve --texts FILE' takes the file.
+
+    Example: holdfast teleop texts --write de.yaml
+    """
+    from holdfast.teleop.serve import texts as of_page
+
+    if write is not None:
+        typer.echo(f"written: {of_page.copy(write)}")
+        return
+    words = of_page.read()
+    forms = ", ".join(str(form["name"]) for form in words.forms)
+    typer.echo(f"{len(words.strings)} texts in English; forms: {forms}")

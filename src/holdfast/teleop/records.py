@@ -306,10 +306,10 @@ class Records:
         row = (trial, subject, k, now(), kind, json.dumps(dict(data or {})))
         self._db.execute("INSERT INTO events (trial, subject, k, at, kind, data) VALUES (?, ?, ?, ?, ?, ?)", row)
 
-    def events(self) -> list[dict[str, Any]]:
-        """All events, in the order in which they came."""
+    def events(self, kind: str | None = None) -> list[dict[str, Any]]:
+        """All events, or those of one kind, in the order in which they came."""
         names = ("trial", "subject", "k", "at", "kind", "data")
-        rows = self._db.execute(f"SELECT {', '.join(names)} FROM events ORDER BY id")
+        rows = self._db.execute(f"SELECT {', '.join(names)} FROM events WHERE ?1 IS NULL OR kind = ?1 ORDER BY id", (kind,))
         return [dict(zip(names, row, strict=True)) | {"data": json.loads(row[-1])} for row in rows]
 
     def entries(self, subject: str | None = None, kind: Kind | None = None) -> list[Entry]:
@@ -328,7 +328,7 @@ class Records:
 
     def progress(self) -> dict[tuple[str, Kind], int]:
         """How many trials of each kind every subject has done; not those that were broken off."""
-        query = "SELECT subject, kind, COUNT(DISTINCT position) FROM trials WHERE end IS NOT NULL AND end != ? GROUP BY subject, kind"
+        query = "SELECT subject, kind, COUNT(DISTINCT position) FROM trials WHERE end != ? GROUP BY subject, kind"
         return {(code, Kind(kind)): count for code, kind, count in self._db.execute(query, (int(End.BROKEN_OFF),))}
 
     def tasks(self, entries: list[Entry]) -> PointTasks:

@@ -106,6 +106,7 @@ def make_app(options: Options) -> ASGIApp:
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
         control = Control(options.folder, asyncio.get_running_loop())
         app.state.control = control
+        await control.begin()
         try:
             yield
         finally:
@@ -116,7 +117,9 @@ def make_app(options: Options) -> ASGIApp:
         *experimenter.routes(options.guard),
         WebSocketRoute("/session", session),
     ]
-    return Guarded(Starlette(routes=routes, lifespan=lifespan), options.guard)
+    app = Starlette(routes=routes, lifespan=lifespan)
+    app.router.redirect_slashes = False
+    return Guarded(app, options.guard)
 
 
 def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Callable[[int], None] | None = None) -> None:
@@ -134,7 +137,15 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
     app = make_app(options)
     with _listening(host, port) as listener:
         config = uvicorn.Config(
-            app, log_level="warning", access_log=False, ws="websockets-sansio", ws_max_size=MOST_BYTES, server_header=False
+            app,
+            loop="asyncio",
+            http="h11",
+            ws="websockets-sansio",
+            ws_max_size=MOST_BYTES,
+            log_level="warning",
+            access_log=False,
+            server_header=False,
+            timeout_graceful_shutdown=5,
         )
         if ready is not None:
             ready(listener.getsockname()[1])

@@ -34,7 +34,7 @@ class Connection:
         self._socket, self._control = socket, control
         self._bucket = Bucket()
         self._room = asyncio.Semaphore(_UNANSWERED)
-        self._out: deque[tuple[Message, bool]] = deque()
+        self._out: deque[tuple[Message | None, bool]] = deque()
         self._news = asyncio.Event()
         self._barred = False
         self.code: str | None = None
@@ -47,12 +47,13 @@ class Connection:
             await asyncio.wait((reading, sending), return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._barred = True
-            self._control.leave(self)
             for task in (reading, sending):
                 task.cancel()
-            for result in await asyncio.gather(reading, sending, return_exceptions=True):
-                if isinstance(result, Exception) and not isinstance(result, (WebSocketDisconnect, RuntimeError, OSError)):
-                    raise result
+            results = await asyncio.gather(reading, sending, return_exceptions=True)
+            self._control.leave(self)
+        for result in results:
+            if isinstance(result, Exception):
+                raise result
 
     # ---- told by the server ----------------------------------------------------------------------------------------
 
@@ -60,7 +61,7 @@ class Connection:
         """The reply to a message, in the order of the messages; an exception: it could not be written."""
         if isinstance(reply, Exception):
             self._barred = True
-            self._put(_CLOSE, counts=True)
+            self._put(None, counts=True)
         else:
             self._put(reply, counts=True)
             self._barred = self._barred or isinstance(reply, Bye)
@@ -76,13 +77,13 @@ class Connection:
 
     # ---- inside ----------------------------------------------------------------------------------------------------
 
-    def _put(self, message: Message, counts: bool = False) -> None:
+    def _put(self, message: Message | None, counts: bool = False) -> None:
         self._out.append((message, counts))
         self._news.set()
 
     async def _read(self) -> None:
         await asyncio.wait_for(self._greet(), _GREETING)
-        while not self._barred:
+        while True:
             text = await self._text()
             await self._room.acquire()
             if self._barred:
@@ -125,8 +126,8 @@ class Connection:
         message = await self._socket.receive()
         if message["type"] == "websocket.disconnect":
             raise WebSocketDisconnect(message.get("code", 1006))
-        text = message.get("text")
-        return message.get("bytes", b"") if text is None else text
+        text: str | bytes | None = message.get("text")
+        return message["bytes"] if text is None else text
 
     async def _send(self) -> None:
         while True:
@@ -139,7 +140,7 @@ class Connection:
                 while isinstance(message, Ack) and self._out and isinstance(self._out[0][0], Ack):
                     message, _ = self._out.popleft()
                     answered += 1
-                if message is _CLOSE:
+                if message is None:
                     await self._socket.close(1011, "the records cannot be written")
                     return
                 await self._socket.send_text(message.model_dump_json())
@@ -151,10 +152,8 @@ class Connection:
                     return
 
 
-_CLOSE = Bye(reason="")
-
-
 async def session(socket: WebSocket) -> None:
     """The route ``/session``."""
+    # A page that is gone, or was silent; and records that cannot be written, which the log tells of.
     with suppress(WebSocketDisconnect, TimeoutError, HoldfastError):
         await Connection(socket, socket.app.state.control).run()

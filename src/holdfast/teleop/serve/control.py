@@ -13,8 +13,7 @@ from holdfast.teleop.entries import Entry, Kind, State
 from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay
 from holdfast.teleop.serve.live import Live
-from holdfast.teleop.serve.messages import Cycles, Hello, Refused, Sequenced, Welcome
-from holdfast.teleop.serve.messages import Bye as ByeMessage
+from holdfast.teleop.serve.messages import Bye, Cycles, Hello, Refused, Sequenced, Welcome
 from holdfast.teleop.serve.station import Entered, Station, Taken, enter
 from holdfast.teleop.serve.writer import Keeper
 from holdfast.teleop.session import training_tasks
@@ -53,8 +52,13 @@ class Control:
         self._all_paused = False
         self._paused: set[str] = set()
         self._failed = [s.failed for s in self.protocol.scenarios]
-        self.reader.put(_differing, self._flag)  # what was not replayed when the server was killed
         self._fresh = loop.create_task(self.live.keep_fresh(self.subjects))
+
+    async def begin(self) -> None:
+        """Compile what the first message would wait for, and replay what was not when the server was killed."""
+        await asyncio.to_thread(training_tasks, self.protocol, 0)
+        await self.reader.do(lambda records: records.protocol.plants)
+        self.reader.put(_differing, self._flag)
 
     def close(self) -> None:
         """Write what is under way, and close the files."""
@@ -64,7 +68,7 @@ class Control:
 
     # ---- pages -----------------------------------------------------------------------------------------------------
 
-    async def enter(self, page: Connection, hello: Hello) -> Welcome | Refused | ByeMessage:
+    async def enter(self, page: Connection, hello: Hello) -> Welcome | Refused | Bye:
         """A page says hello; if it is let in it holds the session, and who held it before is told."""
         entered = await self.writer.do(lambda records: enter(records, hello))
         if not isinstance(entered, Entered):
@@ -135,7 +139,7 @@ class Control:
             return
 
         def note(records: Records) -> None:
-            there = {e["trial"] for e in records.events() if e["kind"] == DIFFERS}
+            there = {e["trial"] for e in records.events(DIFFERS)}
             for entry, data in differing:
                 if entry.id not in there:
                     records.event(DIFFERS, entry.subject, entry.id, None, data)
@@ -237,7 +241,7 @@ class Control:
 
 
 def _flagged(records: Records) -> dict[str, int]:
-    found = [e["subject"] for e in records.events() if e["kind"] == DIFFERS]
+    found = [e["subject"] for e in records.events(DIFFERS)]
     return {code: found.count(code) for code in set(found)}
 
 

@@ -22,6 +22,7 @@ from holdfast.teleop.trials import End
 
 _ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
 _ROUNDING = 1e-9  # of the stick's limit
+_MOST_ANSWERS = 1000
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ class Station:
 
     def welcome(self, key: str, paused: bool) -> Welcome:
         """The answer to a hello."""
-        records, protocol = self.records, self.records.protocol
+        records = self.records
         with records.together():
             subject = records.subject(self.code)
             training, trials = (done(records.entries(self.code, kind)) for kind in (Kind.TRAINING, Kind.TRIAL))
@@ -154,6 +155,8 @@ class Station:
         subject = self.records.subject(self.code)
         said = {f"{message.form}.{key}": value for key, value in message.answers.items()}
         earlier = {key: value for key, value in subject.answers.items() if key.split(".")[0] != message.form}
+        if len(earlier) + len(said) > _MOST_ANSWERS:
+            raise InputError(f"a subject has at most {_MOST_ANSWERS} answers")
         self.records.set_answers(self.code, {**earlier, message.form: now(), **said})
         self.records.event("answers", self.code, None, None, {"form": message.form, **said})
         return None
@@ -195,6 +198,7 @@ class Station:
         if message.end == "time" and self.records.count(trial) != protocol.cycle_limit:
             raise InputError("the time of this trial is not over")
         self.records.finish(trial.id, _ENDS[message.end], np.array(message.q))
+        Session(self.records, self.code).next()  # after the last one the session is completed
         return trial.id
 
     @_apply.register

@@ -49,7 +49,7 @@ def _interface(model: type[BaseModel]) -> str:
 def _type(annotation: Any) -> str:
     """A Python annotation in TypeScript."""
     if annotation in _PLAIN:
-        return _PLAIN[annotation]
+        return str(_PLAIN[annotation])
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         return _type(arguments[0])
@@ -63,7 +63,7 @@ def _type(annotation: Any) -> str:
     if origin is dict:
         return f"Record<{_type(arguments[0])}, {_type(arguments[1])}>"
     assert issubclass(annotation, BaseModel), annotation
-    return annotation.__name__
+    return str(annotation.__name__)
 
 
 if __name__ == "__main__":

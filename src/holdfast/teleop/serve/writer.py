@@ -17,7 +17,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, TypeVar
 
-from holdfast.errors import HoldfastError
+from holdfast.errors import HoldfastError, StoreError
 from holdfast.teleop.records import Records
 
 _GATHER = 0.003  # s that the first change of a transaction waits for others
@@ -116,7 +116,7 @@ class Keeper:
                 return [_result(job, records) for job, _ in jobs]
         except sqlite3.Error as error:  # a full disk, a lock that somebody else does not let go of: none of it happened
             _log.error("the records cannot be written: %s", error)
-            return [error] * len(jobs)
+            return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)
 
 
 def _result(job: Callable[[Records], Any], records: Records) -> Any:
