@@ -69,7 +69,7 @@ class Setup {
         "section",
         { class: "card wide setup", "data-testid": "setup" },
         h("div", { class: "prose" }, h("h1", {}, texts.get("setup_title")), ...paragraphs(texts.get("setup_text"))),
-        h("div", { class: "columns" }, h("div", { class: "options" }, ...options), h("div", { class: "try" }, ...this.velocities.elements, this.how)),
+        h("div", { class: "columns" }, h("div", { class: "options" }, ...options), h("div", { class: "try", "data-views": this.station.study.views.length }, ...this.velocities.elements, this.how)),
         h("div", { class: "buttons" }, this.next, this.calibrate),
       ),
     );
