@@ -13,7 +13,7 @@ export function showJoin(element: HTMLElement, station: Station): Promise<void> 
       "data-testid": "code",
       maxlength: 40,
       autocomplete: "off",
-      spellcheck: false,
+      spellcheck: "false",
       pattern: "[A-Za-z0-9][A-Za-z0-9_-]*",
     });
     const complaint = h("p", { class: "complaint", role: "alert", "data-testid": "join-refused" });
