@@ -1,0 +1,49 @@
+/** What is to be done, with a picture of the two windows as they are in a trial. */
+
+import { h } from "../dom";
+import type { Station } from "../station";
+import { showPage } from "./page";
+import { ArmWindows, VelocityWindows } from "./windows";
+
+/** Of the stick, in the picture. */
+const EXAMPLE = 0.7;
+
+export async function showInstructions(element: HTMLElement, station: Station): Promise<void> {
+  const { texts, plan, arm, device } = station;
+  const next = [{ testid: "instructions-next", label: texts.get("go_on") }];
+  const values = {
+    start: texts.get(`start_${device?.kind ?? "keys"}`),
+    steer: texts.get(`steer_${device?.kind ?? "keys"}`),
+  };
+  const views = station.study.views.length;
+  const page = (part: number, more: string[], figure?: HTMLElement): Promise<string> => {
+    const title = texts.get(`instructions_${part}_title`);
+    const text = [`instructions_${part}_text`, ...more].map((key) => texts.get(key, values).trim()).join("\n\n");
+    station.frame.progress(title);
+    return showPage(element, station, { testid: `instructions-${part}`, title, text, choices: next, figure });
+  };
+
+  const { q0, target } = plan.training[0] ?? { q0: [], target: [] };
+  const q = Float64Array.from(q0);
+  const start = new Float64Array(arm.axes);
+  arm.position(q, start);
+  const arms = new ArmWindows(station);
+  const velocities = new VelocityWindows(station);
+  const way = target.map((v, i) => v - start[i]);
+  const size = Math.hypot(...way) || 1;
+  const command = way.map((v) => (EXAMPLE * station.stick.limit * v) / size);
+  let shown = true;
+  const draw = (): void => {
+    arms.draw(q, { start, target });
+    velocities.draw(command);
+    if (shown) requestAnimationFrame(draw);
+  };
+  requestAnimationFrame(draw);
+  const more = [
+    ...(station.study.reach === null ? [] : ["instructions_reach"]),
+    ...(views > 1 ? ["instructions_views"] : []),
+  ];
+  await page(1, more, h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements));
+  shown = false;
+  await page(2, []);
+}
