@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 WORKERS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types docs bench clean lock
+.PHONY: help demo test lint types docs page bench clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -30,7 +30,14 @@ demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its re
 	rm -rf demo
 	$(BIN)/holdfast assess pa10-9dof --poses 2000 --seed 1 --out demo
 
-test: lint types  ## Set up, then run lint, types and tests.
+page/node_modules/.package-lock.json: page/package.json page/package-lock.json
+	cd page && npm ci --no-audit --no-fund --silent
+	@touch $@
+
+page: page/node_modules/.package-lock.json  ## Build the experiment's page into the package; needs Node 20.
+	cd page && npm run build
+
+test: lint types page/node_modules/.package-lock.json  ## Set up, then run lint, types and tests; needs Node 20 and Chromium.
 	$(BIN)/python -m pytest -n $(WORKERS)
 
 lint: $(VENV)/test.stamp
@@ -58,4 +65,4 @@ lock:  ## Write requirements.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock
 
 clean:  ## Remove what the commands made.
-	rm -rf $(VENV) $(VENV)-bench demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache
+	rm -rf $(VENV) $(VENV)-bench page/node_modules demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache
