@@ -63,10 +63,11 @@ export interface EventMessage {
   data: Record<string, string | number | boolean>;
 }
 
-/** A task of the training. */
+/** A task of the training; ``joint`` as in a trial: -1 unless every scenario of the protocol has a failure. */
 export interface TrainingTask {
   q0: number[];
   target: number[];
+  joint: number;
 }
 
 /** A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``task`` and ``scenario`` count from 0. */

@@ -1,0 +1,35 @@
+/** The control clock: calls back at a fixed rate, whatever the display does. */
+
+import { Schedule, type Tick } from "./schedule";
+
+export class Clock {
+  private readonly worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+  private schedule: Schedule | null = null;
+
+  /** Begin: the first cycle comes at once; times are seconds since then. */
+  start(rate: number, onCycle: (time: number, tick: Tick) => void): void {
+    this.stop();
+    this.worker.onmessage = (): void => {
+      const now = performance.now() / 1000;
+      // Time zero is the first wake-up, so that the worker's clock and this one need not agree.
+      this.schedule ??= new Schedule(now, rate);
+      const tick = this.schedule.wake(now);
+      if (tick !== null) onCycle(now - this.schedule.start, tick);
+    };
+    this.worker.postMessage(rate);
+  }
+
+  /** End, and say how it went. */
+  stop(): Schedule | null {
+    const done = this.schedule;
+    this.worker.onmessage = null;
+    this.worker.postMessage(null);
+    this.schedule = null;
+    return done;
+  }
+
+  /** Seconds since the first cycle. */
+  get now(): number {
+    return this.schedule === null ? 0 : performance.now() / 1000 - this.schedule.start;
+  }
+}

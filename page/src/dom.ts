@@ -1,0 +1,42 @@
+/** Elements, built without markup: nothing that comes from a file is ever read as HTML. */
+
+type Child = Node | string | null | undefined;
+
+interface Properties {
+  id?: string;
+  class?: string;
+  /** Called on a click, or on the keyboard's equivalent. */
+  onclick?: (event: MouseEvent) => void;
+  /** Any other attribute. */
+  [name: string]: unknown;
+}
+
+/** An element with properties and children. `true` sets an empty attribute, `false` and null set none. */
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  properties: Properties = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name === "onclick") element.addEventListener("click", value as EventListener);
+    else if (value === true) element.setAttribute(name, "");
+    else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, String(value));
+  }
+  for (const child of children) if (child !== null && child !== undefined) element.append(child);
+  return element;
+}
+
+/** Paragraphs of a text, parted by empty lines. */
+export function paragraphs(text: string): HTMLParagraphElement[] {
+  return text
+    .trim()
+    .split(/\n\s*\n/)
+    .filter((part) => part.length)
+    .map((part) => h("p", {}, part.trim()));
+}
+
+/** A button with an id that tests and experimenters can rely on. */
+export function button(id: string, label: string, onclick: () => void, kind = "primary"): HTMLButtonElement {
+  return h("button", { type: "button", class: kind, "data-testid": id, onclick }, label);
+}

@@ -1,0 +1,42 @@
+/** The page's beginning: what the address says, what the server says, and then the session. */
+
+import { loadArm } from "./arm";
+import { Robot } from "./input/robot";
+import { Station } from "./station";
+import { Storage } from "./storage";
+import { loadStudy } from "./study";
+import { runSession } from "./timeline";
+import "./station.css";
+
+async function main(): Promise<void> {
+  const asked = new URLSearchParams(location.search);
+  const robot = asked.get("robot");
+  const passed = new URLSearchParams();
+  for (const name of ["token", "robot"]) {
+    const value = asked.get(name);
+    if (value !== null) passed.set(name, value);
+  }
+  const address = (path: string): string => {
+    const url = new URL(path, location.href);
+    const token = asked.get("token");
+    if (token !== null) url.searchParams.set("token", token);
+    return url.href;
+  };
+  const [study, arm] = await Promise.all([loadStudy(address("study.json")), loadArm(address("arm.js"))]);
+  const begin = `${location.pathname}${passed.size ? `?${passed}` : ""}`;
+  const session = address("session").replace(/^http/, "ws");
+  const seed = robot === null ? null : Number(robot) || 0;
+  const storage = new Storage(robot === null ? "" : `.robot${seed}`);
+  const station = new Station(study, arm, storage, { session, begin }, seed, asked.get("session"));
+  // A key in the address would stay in the browser's history.
+  if (asked.has("session")) history.replaceState(null, "", begin);
+  if (seed !== null) station.device = new Robot(seed, study.axes, study.stick.limit, study.rate, study.radius);
+  await runSession(station);
+}
+
+main().catch((error: unknown) => {
+  const line = document.createElement("p");
+  line.className = "failure";
+  line.textContent = `This page cannot start: ${error instanceof Error ? error.message : String(error)}. Reload it, or ask the experimenter.`;
+  document.getElementById("app")?.append(line);
+});

@@ -1,0 +1,80 @@
+/**
+ * Messages that are not yet on the server's disk, in order. Each has a number, counted per session; a message that was sent
+ * once keeps its number and its content, so that it can be sent again after a lost connection and be told apart.
+ */
+
+import { MOST_CYCLES, type AnswersMessage, type Begin, type Cycles, type EndMessage, type EventMessage, type Rate } from "./messages";
+
+export type Numbered = AnswersMessage | Begin | Cycles | EndMessage | EventMessage | Rate;
+type Unnumbered<M> = M extends Numbered ? Omit<M, "seq"> : never;
+export type Body = Unnumbered<Numbered>;
+
+/** Messages under way at once; what comes after them waits, and cycles that wait are put together. */
+const WINDOW = 64;
+
+export class Outbox {
+  private queue: Numbered[];
+  private next: number;
+  /** Up to this number they were sent at least once, on any connection. */
+  private touched: number;
+  /** Up to this number they were sent on this connection. */
+  private sent = 0;
+
+  constructor(queue: Numbered[] = []) {
+    this.queue = queue;
+    this.touched = queue.length ? queue[queue.length - 1].seq : 0;
+    this.next = this.touched + 1;
+  }
+
+  get waiting(): readonly Numbered[] {
+    return this.queue;
+  }
+
+  push(body: Body): void {
+    if (body.type !== "cycles" || !this.appended(body)) this.queue.push({ ...body, seq: this.next++ } as Numbered);
+  }
+
+  /** What is to be sent now. */
+  due(): Numbered[] {
+    const found = this.queue.slice(0, WINDOW).filter((m) => m.seq > this.sent);
+    if (found.length) {
+      this.sent = found[found.length - 1].seq;
+      this.touched = Math.max(this.touched, this.sent);
+    }
+    return found;
+  }
+
+  /** Everything up to a number is on the disk. */
+  acknowledged(seq: number): void {
+    this.queue = this.queue.filter((m) => m.seq > seq);
+  }
+
+  /**
+   * A new connection, with a server that has everything up to `last`.
+   *
+   * @returns false where its record and this queue do not fit: somebody else went on with the session, or the record is older
+   */
+  connected(last: number): boolean {
+    this.acknowledged(last);
+    this.sent = last;
+    return last === (this.queue.length ? this.queue[0].seq : this.next) - 1;
+  }
+
+  /** Throw away what waits; the session goes on after `last`. */
+  clear(last: number): void {
+    this.queue = [];
+    this.next = last + 1;
+    this.touched = this.sent = last;
+  }
+
+  /** Cycles join those of the last message where that was never sent. */
+  private appended(body: Extract<Body, { type: "cycles" }>): boolean {
+    const last = this.queue[this.queue.length - 1];
+    if (last?.type !== "cycles" || last.seq <= this.touched) return false;
+    if (last.first + last.time.length !== body.first || last.time.length + body.time.length > MOST_CYCLES) return false;
+    last.time.push(...body.time);
+    last.velocity.push(...body.velocity);
+    last.q.push(...body.q);
+    return true;
+  }
+}

@@ -1,0 +1,83 @@
+/** What is around every screen: a line with progress and connection, and what covers the page while it is paused or over. */
+
+import { h, paragraphs } from "../dom";
+import type { Texts } from "../texts";
+
+export class Frame {
+  /** Where jsPsych shows its screens. */
+  readonly stage = h("main", { id: "stage", "data-testid": "stage" });
+  private readonly where = h("span", { class: "where", "data-testid": "progress" });
+  private readonly who = h("span", { class: "who", "data-testid": "subject" });
+  private readonly line = h("span", { class: "line", role: "status", "data-testid": "connection", "data-online": "none" });
+  private readonly cover = h("div", { class: "cover", role: "alertdialog", "aria-live": "assertive", hidden: true });
+  private paused = false;
+  private busy = false;
+  private over = false;
+
+  constructor(
+    private readonly texts: Texts,
+    name: string,
+  ) {
+    document.documentElement.lang = texts.get("language");
+    document.title = texts.get("title");
+    const top = h("header", {}, h("span", { class: "name" }, name), this.where, this.who, this.line);
+    document.getElementById("app")?.replaceChildren(top, this.stage, this.cover);
+  }
+
+  progress(text: string): void {
+    this.where.textContent = text;
+  }
+
+  subject(code: string): void {
+    this.who.textContent = this.texts.get("subject", { code });
+  }
+
+  online(yes: boolean, waiting: number): void {
+    this.line.dataset.online = String(yes);
+    this.line.textContent = yes ? this.texts.get("online") : this.texts.get("offline", { waiting });
+  }
+
+  waiting(count: number): void {
+    this.line.dataset.waiting = String(count);
+    if (this.line.dataset.online === "false") this.line.textContent = this.texts.get("offline", { waiting: count });
+  }
+
+  /** The experimenter pauses the session; a trial under way goes on. */
+  pause(yes: boolean): void {
+    this.paused = yes;
+    this.update();
+  }
+
+  /** A trial is under way, or is being rated: no pause now. */
+  set occupied(yes: boolean) {
+    this.busy = yes;
+    this.update();
+  }
+
+  get isPaused(): boolean {
+    return this.paused && !this.busy;
+  }
+
+  /** The session cannot go on in this page. */
+  stop(reason: string): void {
+    this.over = true;
+    this.show("stopped", this.texts.get("stopped_title"), reason);
+  }
+
+  private update(): void {
+    if (this.over) return;
+    if (this.isPaused) this.show("paused", this.texts.get("paused_title"), this.texts.get("paused_text"));
+    else this.hide();
+  }
+
+  private show(testid: string, title: string, text: string): void {
+    this.cover.replaceChildren(h("div", { class: "card", "data-testid": testid }, h("h1", {}, title), ...paragraphs(text)));
+    this.cover.hidden = false;
+    this.stage.inert = true;
+  }
+
+  private hide(): void {
+    this.cover.hidden = true;
+    this.stage.inert = false;
+  }
+}

@@ -1,0 +1,43 @@
+/** What is to be done, with a picture of the two windows as they are in a trial. */
+
+import { h } from "../dom";
+import type { Station } from "../station";
+import { showPage } from "./page";
+import { ArmWindows, extent, VelocityWindows } from "./windows";
+
+/** Of the stick, in the picture. */
+const EXAMPLE = 0.7;
+
+export async function showInstructions(element: HTMLElement, station: Station): Promise<void> {
+  const { texts, plan, arm, device } = station;
+  const next = [{ testid: "instructions-next", label: texts.get("go_on") }];
+  const values = { start: texts.get(`start_${device?.kind ?? "keys"}`), steer: texts.get(`steer_${device?.kind ?? "keys"}`) };
+  const page = (part: number, figure?: HTMLElement): Promise<string> =>
+    showPage(element, station, {
+      testid: `instructions-${part}`,
+      title: texts.get(`instructions_${part}_title`),
+      text: texts.get(`instructions_${part}_text`, values),
+      choices: next,
+      figure,
+    });
+
+  const { q0, target } = plan.training[0] ?? { q0: [], target: [] };
+  const q = Float64Array.from(q0);
+  const start = new Float64Array(arm.axes);
+  arm.position(q, start);
+  const arms = new ArmWindows(station, extent(station, q));
+  const velocities = new VelocityWindows(station);
+  const way = target.map((v, i) => v - start[i]);
+  const size = Math.hypot(...way) || 1;
+  const command = way.map((v) => (EXAMPLE * station.stick.limit * v) / size);
+  let shown = true;
+  const draw = (): void => {
+    arms.draw(q, { start, target });
+    velocities.draw(command);
+    if (shown) requestAnimationFrame(draw);
+  };
+  requestAnimationFrame(draw);
+  await page(1, h("div", { class: "figure" }, ...arms.elements, ...velocities.elements));
+  shown = false;
+  await page(2);
+}

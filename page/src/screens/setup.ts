@@ -1,0 +1,152 @@
+/** Choose what holds the stick, see it move, and calibrate a gamepad. */
+
+import { button, h, paragraphs } from "../dom";
+import type { Calibration } from "../input/calibration";
+import type { Device } from "../input/device";
+import { Pad, pads } from "../input/gamepad";
+import { Keys } from "../input/keys";
+import { Pointer } from "../input/pointer";
+import type { Station } from "../station";
+import { Wizard } from "./wizard";
+import { VelocityWindows } from "./windows";
+
+type Kind = "gamepad" | "pointer" | "keys";
+const KINDS: Kind[] = ["gamepad", "pointer", "keys"];
+
+/** Resolved when the person goes on; the station has its device then. */
+export function showSetup(element: HTMLElement, station: Station): Promise<void> {
+  return new Promise((resolve) => new Setup(element, station, resolve).show());
+}
+
+class Setup {
+  private kind: Kind = "pointer";
+  /** The person has chosen: a gamepad that turns up changes nothing any more. */
+  private chosen = false;
+  private wizard: Wizard | null = null;
+  private over = false;
+  private readonly velocities: VelocityWindows;
+  private readonly deflection: Float64Array;
+  private readonly command: Float64Array;
+  private readonly found = h("p", { class: "found", "aria-live": "polite", "data-testid": "gamepad-found" });
+  private readonly how = h("p", { class: "message", "aria-live": "polite", "data-testid": "setup-message" });
+  private readonly inputs: HTMLInputElement[];
+  private readonly next: HTMLButtonElement;
+  private readonly calibrate: HTMLButtonElement;
+
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly station: Station,
+    private readonly resolve: () => void,
+  ) {
+    const { texts, arm } = station;
+    this.velocities = new VelocityWindows(station);
+    this.deflection = new Float64Array(arm.axes);
+    this.command = new Float64Array(arm.axes);
+    this.inputs = KINDS.map((kind) => {
+      const input = h("input", { type: "radio", name: "device", value: kind, id: `device-${kind}`, "data-testid": `device-${kind}` });
+      input.addEventListener("change", () => {
+        this.chosen = true;
+        this.choose(kind);
+      });
+      return input;
+    });
+    this.next = button("setup-continue", texts.get("setup_continue"), () => this.done());
+    this.calibrate = button("calibrate", texts.get("setup_calibrate"), () => this.calibrated(), "second");
+  }
+
+  show(): void {
+    const { texts } = this.station;
+    const options = KINDS.map((kind, i) =>
+      h(
+        "label",
+        { class: "option", for: `device-${kind}` },
+        this.inputs[i],
+        h("span", {}, h("b", {}, texts.get(`device_${kind}`)), h("small", {}, texts.get(`device_${kind}_help`)), kind === "gamepad" ? this.found : null),
+      ),
+    );
+    this.element.replaceChildren(
+      h(
+        "section",
+        { class: "card wide setup", "data-testid": "setup" },
+        h("div", { class: "prose" }, h("h1", {}, texts.get("setup_title")), ...paragraphs(texts.get("setup_text"))),
+        h("div", { class: "columns" }, h("div", { class: "options" }, ...options), h("div", { class: "try" }, ...this.velocities.elements, this.how)),
+        h("div", { class: "buttons" }, this.next, this.calibrate),
+      ),
+    );
+    this.choose(pads().length ? "gamepad" : "pointer");
+    this.next.focus({ preventScroll: true });
+    const frame = (): void => {
+      if (this.over) return;
+      this.look();
+      requestAnimationFrame(frame);
+    };
+    frame();
+    this.station.auto(() => this.done());
+  }
+
+  private choose(kind: Kind): void {
+    const { station } = this;
+    this.kind = kind;
+    this.wizard = null;
+    this.inputs[KINDS.indexOf(kind)].checked = true;
+    if (station.robot === null) {
+      station.device?.release();
+      station.device = this.device(kind);
+    }
+    this.velocities.attach(station);
+    this.how.textContent = station.texts.get(`try_${kind}`);
+    this.calibrate.hidden = kind !== "gamepad";
+  }
+
+  private device(kind: Kind): Device | null {
+    if (kind === "pointer") return new Pointer();
+    if (kind === "keys") return new Keys();
+    const [pad] = pads();
+    if (pad === undefined) return null;
+    const own = this.station.storage.device<Calibration>(pad.id);
+    const axes = this.station.arm.axes;
+    return new Pad(pad.id, axes, own !== null && own.axes.length === axes ? own : undefined);
+  }
+
+  private look(): void {
+    const { station } = this;
+    const { texts } = station;
+    const [pad] = pads();
+    const seen = pad === undefined ? texts.get("gamepad_none") : texts.get("gamepad_found", { id: pad.id });
+    if (this.found.textContent !== seen) this.found.textContent = seen;
+    if (pad !== undefined && this.kind !== "gamepad" && !this.chosen) this.choose("gamepad");
+    if (pad !== undefined && this.kind === "gamepad" && station.device === null) this.choose("gamepad");
+    this.next.disabled = this.wizard !== null || station.device === null || station.device.lost();
+    this.calibrate.disabled = this.next.disabled;
+    if (this.wizard !== null && pad !== undefined) this.step(pad);
+    if (station.device === null) this.deflection.fill(0);
+    else station.device.read(this.deflection);
+    station.stick.velocity(this.deflection, this.command);
+    this.velocities.draw(this.command);
+  }
+
+  private calibrated(): void {
+    this.wizard = new Wizard(this.station.arm.axes);
+  }
+
+  private step(pad: Gamepad): void {
+    const { station, wizard } = this;
+    if (wizard === null || !(station.device instanceof Pad)) return;
+    const said = station.texts.get(wizard.look(pad.axes, pad.buttons.map((b) => b.pressed), performance.now() / 1000));
+    if (this.how.textContent !== said) this.how.textContent = said;
+    if (wizard.result === null) return;
+    station.device.calibration = wizard.result;
+    station.storage.keepDevice(pad.id, wizard.result);
+    this.wizard = null;
+    this.how.textContent = station.texts.get("calibrate_done");
+    this.next.disabled = false;
+    this.next.focus({ preventScroll: true });
+  }
+
+  private done(): void {
+    if (this.over || this.station.device === null) return;
+    this.over = true;
+    this.station.device.detach?.();
+    this.resolve();
+  }
+}

@@ -1,0 +1,161 @@
+/** Everything that the screens share. */
+
+import type { Arm } from "./arm";
+import { Clock } from "./clock";
+import { Connection } from "./connection";
+import type { Device } from "./input/device";
+import { FORMAT, type Hello, type Plan, type Welcome } from "./messages";
+import { Outbox, type Body } from "./outbox";
+import { Random } from "./random";
+import type { Rules } from "./run";
+import { Frame } from "./screens/frame";
+import { Stick } from "./stick";
+import type { Storage } from "./storage";
+import type { Study } from "./study";
+import { Texts } from "./texts";
+
+/** Where the session stands. */
+export interface Progress {
+  /** Cycles of each training task; null where it was not completed. */
+  training: (number | null)[];
+  /** How many are done. */
+  trials: number;
+  answered: Set<string>;
+  /** The last trial has no rating yet. */
+  unrated: boolean;
+  /** The server has nothing more to be done. */
+  over: boolean;
+}
+
+export interface Addresses {
+  session: string;
+  /** Where the next subject begins. */
+  begin: string;
+}
+
+export class Station {
+  readonly texts: Texts;
+  readonly stick: Stick;
+  readonly rules: Rules;
+  readonly clock = new Clock();
+  readonly frame: Frame;
+  /** Of a dry run; null with a person. */
+  readonly robot: Random | null;
+  device: Device | null = null;
+  plan: Plan = { training: [], trials: [] };
+  progress: Progress = { training: [], trials: 0, answered: new Set(), unrated: false, over: false };
+  subject = "";
+  private session: string | null = null;
+  private readonly outbox: Outbox;
+  private readonly connection: Connection;
+  /** When the connection was lost, ms. */
+  private lostAt: number | null = null;
+  private ended = false;
+
+  constructor(
+    readonly study: Study,
+    readonly arm: Arm,
+    readonly storage: Storage,
+    readonly addresses: Addresses,
+    readonly robotSeed: number | null,
+    /** A session that this page was told to go on with. */
+    handed: string | null,
+  ) {
+    this.texts = new Texts(study.texts);
+    this.stick = new Stick(study.stick.limit, study.stick.dead_zone);
+    this.rules = { radius: study.radius, cycleLimit: study.cycle_limit };
+    this.robot = robotSeed === null ? null : new Random(robotSeed);
+    this.frame = new Frame(this.texts, study.name);
+    const kept = storage.kept;
+    this.session = handed ?? kept?.session ?? null;
+    this.outbox = new Outbox(kept !== null && kept.session === this.session ? kept.outbox : []);
+    this.connection = new Connection(addresses.session, this.outbox, {
+      online: (yes) => this.online(yes),
+      paused: (yes) => this.frame.pause(yes),
+      over: (reason) => this.stop(reason),
+    });
+    window.addEventListener("pagehide", () => this.keep());
+    // A page that the browser had put aside has lost its connection and its trial: begin anew.
+    window.addEventListener("pageshow", (event) => event.persisted && location.reload());
+  }
+
+  /** Whether there is a session to go on with. */
+  get resumable(): boolean {
+    return this.session !== null;
+  }
+
+  /** Forget the session of an earlier visit. */
+  forget(): void {
+    this.storage.kept = null;
+    this.session = null;
+    this.outbox.clear(0);
+  }
+
+  /** Take part: with the session of an earlier visit, or as a new subject. Rejected where the server refuses. */
+  async join(code: string | null): Promise<void> {
+    const kind = this.robot === null ? "person" : "simulated";
+    const hello: Hello = { type: "hello", format: FORMAT, session: this.session, code, kind };
+    const welcome = await this.connection.join(hello);
+    this.take(welcome);
+    this.keep();
+  }
+
+  send(body: Body): void {
+    this.connection.send(body);
+    this.frame.waiting(this.outbox.waiting.length);
+  }
+
+  event(kind: string, data: Record<string, string | number | boolean> = {}): void {
+    this.send({ type: "event", kind, data });
+  }
+
+  answer(form: string, answers: Record<string, string | number | boolean>): void {
+    this.progress.answered.add(form);
+    this.send({ type: "answers", form, answers });
+  }
+
+  /** The session is over: nothing is kept for a later visit once everything is on the server's disk. */
+  finish(): void {
+    this.ended = true;
+    if (!this.outbox.waiting.length) this.storage.kept = null;
+    else this.keep();
+  }
+
+  /** In a dry run, do after a moment what a person would do. */
+  auto(action: () => void, seconds = 0.25): void {
+    if (this.robot !== null) setTimeout(action, 1000 * seconds);
+  }
+
+  private take(welcome: Welcome): void {
+    this.session = welcome.session;
+    this.subject = welcome.subject;
+    this.plan = welcome.plan;
+    const { training, trials } = welcome.done;
+    const { unrated, over } = welcome;
+    this.progress = { training: [...training], trials, answered: new Set(welcome.answered), unrated, over };
+    this.frame.subject(welcome.subject);
+  }
+
+  private online(yes: boolean): void {
+    this.frame.online(yes, this.outbox.waiting.length);
+    if (!yes && this.subject !== "") this.lostAt ??= performance.now();
+    if (yes && this.lostAt !== null) {
+      const seconds = (performance.now() - this.lostAt) / 1000;
+      this.lostAt = null;
+      this.event("offline", { seconds, waiting: this.outbox.waiting.length });
+    }
+  }
+
+  private stop(reason: string | null): void {
+    this.ended = true;
+    this.clock.stop();
+    this.frame.stop(reason ?? this.texts.get("elsewhere"));
+  }
+
+  private keep(): void {
+    if (this.session === null || this.subject === "") return;
+    const outbox = [...this.outbox.waiting];
+    if (this.ended && !outbox.length) return;
+    this.storage.kept = { session: this.session, subject: this.subject, outbox };
+  }
+}

@@ -1,0 +1,52 @@
+/** What a station keeps between visits: the session, what was not sent, and the sticks that were calibrated. */
+
+import type { Numbered } from "./outbox";
+
+export interface Kept {
+  session: string;
+  subject: string;
+  outbox: Numbered[];
+}
+
+export class Storage {
+  /** @param suffix keeps stations apart that share a browser */
+  constructor(private readonly suffix: string) {}
+
+  get kept(): Kept | null {
+    return this.read<Kept>("session");
+  }
+
+  set kept(value: Kept | null) {
+    this.write("session", value);
+  }
+
+  device<T>(id: string): T | null {
+    return this.read<T>(`device.${id}`);
+  }
+
+  keepDevice(id: string, value: unknown): void {
+    this.write(`device.${id}`, value);
+  }
+
+  private read<T>(name: string): T | null {
+    try {
+      const text = localStorage.getItem(this.name(name));
+      return text === null ? null : (JSON.parse(text) as T);
+    } catch {
+      return null; // storage is forbidden, or holds something else: the same as nothing
+    }
+  }
+
+  private write(name: string, value: unknown): void {
+    try {
+      if (value === null) localStorage.removeItem(this.name(name));
+      else localStorage.setItem(this.name(name), JSON.stringify(value));
+    } catch {
+      // Storage is forbidden or full: the session goes on, only a closed tab cannot be resumed on its own.
+    }
+  }
+
+  private name(name: string): string {
+    return `holdfast.${name}${this.suffix}`;
+  }
+}

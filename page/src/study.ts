@@ -1,0 +1,71 @@
+/** What the server says about the experiment. */
+
+import type { Criterion } from "./training";
+
+/** A projection of points of the base frame on two axes of the screen: to the right, and up. */
+export interface View {
+  label: string;
+  rows: [number[], number[]];
+}
+
+export interface Option {
+  value: string;
+  label: string;
+}
+
+export interface Question {
+  name: string;
+  /** One of the options; a box that must be ticked; a step of a scale; a number; a line of text. */
+  kind: "choice" | "check" | "scale" | "number" | "text";
+  label: string;
+  help?: string;
+  optional?: boolean;
+  options?: Option[];
+  /** Of a scale or number. */
+  from?: number;
+  to?: number;
+  step?: number;
+  low?: string;
+  high?: string;
+}
+
+export interface Form {
+  name: string;
+  title: string;
+  text: string;
+  questions: Question[];
+  submit: string;
+  /** Label of a button that ends the session; none if not given. */
+  decline?: string;
+}
+
+export interface Study {
+  format: 1;
+  name: string;
+  joints: number;
+  axes: number;
+  /** Control cycles per second. */
+  rate: number;
+  /** m/cycle. */
+  stick: { limit: number; dead_zone: number };
+  /** Of the target circle, m. */
+  radius: number;
+  cycle_limit: number | null;
+  rating: string[];
+  training: Criterion;
+  law_of: number[];
+  training_scenario: number;
+  /** Radius of the workspace's boundary, m; null where none is drawn. */
+  reach: number | null;
+  centre: number[];
+  views: View[];
+  texts: Record<string, string>;
+  forms: Form[];
+  tlx: boolean;
+}
+
+export async function loadStudy(address: string): Promise<Study> {
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error(`${address}: ${answer.status} ${answer.statusText}`);
+  return (await answer.json()) as Study;
+}

@@ -1,0 +1,11 @@
+/** All words that people read come from the server, in the laboratory's language. */
+
+export class Texts {
+  constructor(private readonly texts: Record<string, string>) {}
+
+  /** The text of a key, with `{name}` replaced. A key that is missing shows itself. */
+  get(key: string, values: Record<string, string | number> = {}): string {
+    const text = this.texts[key] ?? key;
+    return text.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
+  }
+}

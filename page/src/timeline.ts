@@ -1,0 +1,260 @@
+/** The session as a jsPsych timeline. What was done in an earlier visit is left out. */
+
+import { initJsPsych } from "jspsych";
+import { ScreenPlugin, trialPlugin } from "./plugins";
+import { showForm } from "./screens/form";
+import { showInstructions } from "./screens/instructions";
+import { showJoin } from "./screens/join";
+import { showPage, type Page } from "./screens/page";
+import { showRating } from "./screens/rating";
+import { showSetup } from "./screens/setup";
+import type { Outcome, TrialSpec } from "./screens/trial";
+import type { Station } from "./station";
+import { inARow, trained } from "./training";
+
+/** A break is offered after so many trials. */
+const BREAK_EVERY = 24;
+const PRACTICE = 2;
+
+export async function runSession(station: Station): Promise<void> {
+  const session = new Session(station);
+  await session.jsPsych.run(session.timeline());
+}
+
+type Node = Extract<Parameters<ReturnType<typeof initJsPsych>["run"]>[0], unknown[]>[number];
+
+class Session {
+  readonly jsPsych;
+  private readonly trial;
+  /** Why the session ends before its time; null if it does not. */
+  private early: "declined" | "untrained" | null = null;
+  /** Practice tasks done, and whether another one follows. */
+  private practised = 0;
+  private practising = true;
+  private note = "";
+  private outcome: Outcome = { end: "arrived", cycles: 0 };
+
+  constructor(private readonly station: Station) {
+    this.jsPsych = initJsPsych({ display_element: station.frame.stage });
+    this.trial = trialPlugin(station);
+  }
+
+  timeline(): Node[] {
+    const { station } = this;
+    return [
+      this.screen((e) => showSetup(e, station)),
+      this.screen((e) => showJoin(e, station)),
+      this.screen(async () => this.joined()),
+      this.form("consent", "declined"),
+      this.form("demographics"),
+      this.instructions(),
+      this.practice(),
+      this.training(),
+      this.trials(),
+      this.tlx(),
+      this.screen((e) => this.debriefing(e)),
+    ];
+  }
+
+  // ---- the parts of the session ------------------------------------------------------------------------------------
+
+  private joined(): void {
+    const { station } = this;
+    station.event("input", station.device?.about() ?? {});
+    if (station.progress.over && this.more) this.early = "untrained";
+  }
+
+  private form(name: string, onDecline: "declined" | null = null): Node {
+    const { station } = this;
+    const form = station.study.forms.find((f) => f.name === name);
+    const show = async (e: HTMLElement): Promise<void> => {
+      if (form === undefined) return;
+      station.frame.progress(form.title);
+      const answers = await showForm(e, station, form);
+      if (answers !== null) return station.answer(name, answers);
+      this.early = onDecline;
+      station.event("declined", { form: name });
+    };
+    return this.when(() => form !== undefined && this.early === null && !station.progress.answered.has(name), [this.screen(show)]);
+  }
+
+  private instructions(): Node {
+    const { station } = this;
+    return this.when(() => this.untouched, [
+      this.screen((e) => {
+        station.frame.progress(station.texts.get("instructions_title"));
+        return showInstructions(e, station);
+      }),
+    ]);
+  }
+
+  /** On training tasks from the end of the plan, which hardly anybody gets to; nothing is recorded. */
+  private practice(): Node {
+    const { texts } = this.station;
+    const choices = [
+      { testid: "practice-done", label: texts.get("practice_done") },
+      { testid: "practice-more", label: texts.get("practice_more") },
+    ];
+    const ask = this.screen(async (e) => {
+      this.practising = (await this.page(e, "practice", choices)) === "practice-more";
+    });
+    const task = this.task(
+      () => this.practiceTask(),
+      () => void (this.practised += 1),
+    );
+    const loop = {
+      timeline: [task, this.when(() => this.practised >= PRACTICE, [ask])],
+      loop_function: () => this.practising,
+    };
+    return this.when(() => this.untouched, [loop]);
+  }
+
+  private training(): Node {
+    const { station } = this;
+    const intro = this.when(() => station.progress.training.length === 0, [
+      this.screen((e) => this.page(e, "training_intro", [this.choice("training-begin", "go_on")])),
+    ]);
+    const task = this.task(() => this.trainingTask(), (o) => this.trainingDone(o));
+    const loop = { timeline: [task], loop_function: () => !this.isTrained && this.early === null };
+    return this.when(() => !this.isTrained && this.early === null, [intro, loop]);
+  }
+
+  private trials(): Node {
+    const { station } = this;
+    const intro = this.when(() => station.progress.trials === 0, [
+      this.screen((e) => this.page(e, "trials_intro", [this.choice("trials-begin", "go_on")])),
+    ]);
+    const pending = this.when(() => station.progress.unrated, [this.rating()]);
+    const task = this.task(() => this.trialTask(), (o) => this.trialDone(o));
+    const rest = this.when(() => this.more && station.progress.trials % BREAK_EVERY === 0, [
+      this.screen((e) => this.page(e, "break", [this.choice("break-over", "break_over")])),
+    ]);
+    const loop = { timeline: [task, this.rating(), rest], loop_function: () => this.more };
+    return this.when(() => this.early === null, [pending, this.when(() => this.more, [intro, loop])]);
+  }
+
+  private tlx(): Node {
+    return this.when(() => this.station.study.tlx && this.early === null, [this.form("tlx")]);
+  }
+
+  private async debriefing(element: HTMLElement): Promise<void> {
+    const { station } = this;
+    station.frame.progress("");
+    station.finish();
+    await this.page(element, this.early ?? "debriefing", [this.choice("next-subject", "next_subject")]);
+    station.finish();
+    location.assign(station.addresses.begin);
+  }
+
+  // ---- tasks -------------------------------------------------------------------------------------------------------
+
+  private practiceTask(): TrialSpec {
+    const { plan, texts, study } = this.station;
+    const { q0, target, joint } = plan.training[plan.training.length - 1 - (this.practised % plan.training.length)];
+    const law = study.law_of[study.training_scenario];
+    return { title: texts.get("practice_progress"), task: { law, q0, target, joint }, record: null, hints: true, note: "" };
+  }
+
+  private trainingTask(): TrialSpec {
+    const { plan, progress, texts, study } = this.station;
+    const position = progress.training.length;
+    const { q0, target, joint } = plan.training[position];
+    const title = texts.get("training_progress", {
+      number: position + 1,
+      in_a_row: inARow(study.training, progress.training),
+      wanted: study.training.in_a_row,
+      at_least: study.training.at_least,
+    });
+    const law = study.law_of[study.training_scenario];
+    return { title, task: { law, q0, target, joint }, record: { kind: "training", position }, hints: false, note: this.note };
+  }
+
+  private trainingDone({ end, cycles }: Outcome): void {
+    const { progress, study, texts } = this.station;
+    progress.training.push(end === "arrived" ? cycles : null);
+    const seconds = (c: number): string => (c / study.rate).toFixed(1);
+    const key = end !== "arrived" ? "training_missed" : cycles <= study.training.limit ? "training_good" : "training_slow";
+    this.note = texts.get(key, { seconds: seconds(cycles), limit: seconds(study.training.limit) });
+    if (!this.isTrained && progress.training.length >= study.training.most) this.early = "untrained";
+  }
+
+  private trialTask(): TrialSpec {
+    const { plan, progress, texts, study } = this.station;
+    const position = progress.trials;
+    const { scenario, q0, target, joint } = plan.trials[position];
+    const title = texts.get("trial_progress", { number: position + 1, count: plan.trials.length });
+    return { title, task: { law: study.law_of[scenario], q0, target, joint }, record: { kind: "trial", position }, hints: false, note: "" };
+  }
+
+  private trialDone(outcome: Outcome): void {
+    this.outcome = outcome;
+    this.station.progress.trials += 1;
+    this.station.progress.unrated = true;
+    this.station.frame.occupied = true;
+  }
+
+  private rating(): Node {
+    const { station } = this;
+    return this.screen(async (e) => {
+      const rating = await showRating(e, station, this.felt());
+      station.progress.unrated = false;
+      station.send({ type: "rate", rating, answers: {} });
+      station.frame.occupied = false;
+    });
+  }
+
+  /** What a dry run says about a trial: the longer, the worse. */
+  private felt(): number {
+    const steps = this.station.study.rating.length;
+    if (this.outcome.end !== "arrived") return steps - 1;
+    const seconds = this.outcome.cycles / this.station.study.rate;
+    return Math.min(steps - 1, Math.floor(seconds / 10));
+  }
+
+  // ---- small things ------------------------------------------------------------------------------------------------
+
+  private get isTrained(): boolean {
+    const { progress, study } = this.station;
+    return progress.trials > 0 || trained(study.training, progress.training);
+  }
+
+  /** Nothing of training or trials was done yet. */
+  private get untouched(): boolean {
+    const { progress } = this.station;
+    return this.early === null && progress.trials === 0 && progress.training.length === 0;
+  }
+
+  private get more(): boolean {
+    return this.early === null && this.station.progress.trials < this.station.plan.trials.length;
+  }
+
+  private choice(testid: string, key: string): Page["choices"][number] {
+    return { testid, label: this.station.texts.get(key) };
+  }
+
+  private page(element: HTMLElement, key: string, choices: Page["choices"]): Promise<string> {
+    const { texts, study } = this.station;
+    const { at_least, in_a_row, limit } = study.training;
+    const values = {
+      at_least,
+      in_a_row,
+      seconds: (limit / study.rate).toFixed(1),
+      done: this.station.progress.trials,
+      count: this.station.plan.trials.length,
+    };
+    const [title, text] = [texts.get(`${key}_title`), texts.get(`${key}_text`, values)];
+    return showPage(element, this.station, { testid: key.replace("_", "-"), title, text, choices });
+  }
+
+  private screen(show: (element: HTMLElement) => Promise<unknown>): Node {
+    return { type: ScreenPlugin, show };
+  }
+
+  private task(spec: () => TrialSpec, done: (outcome: Outcome) => void = () => {}): Node {
+    return { type: this.trial, spec, on_finish: (data: Outcome) => done(data) };
+  }
+
+  private when(condition: () => boolean, timeline: Node[]): Node {
+    return { timeline, conditional_function: condition };
+  }
+}

@@ -1,0 +1,25 @@
+/** When a subject has practised enough: `holdfast.teleop.Training`. */
+
+export interface Criterion {
+  at_least: number;
+  in_a_row: number;
+  limit: number;
+  most: number;
+}
+
+/** @param cycles completion times in order, in cycles; null for a task that was not completed */
+export function trained(criterion: Criterion, cycles: readonly (number | null)[]): boolean {
+  const done = cycles.filter((c) => c !== null).length;
+  return done >= criterion.at_least && inARow(criterion, cycles) >= criterion.in_a_row;
+}
+
+/** How many of the last tasks, one after the other, were completed within the limit. */
+export function inARow(criterion: Criterion, cycles: readonly (number | null)[]): number {
+  let count = 0;
+  for (let k = cycles.length - 1; k >= 0; k--) {
+    const c = cycles[k];
+    if (c === null || c > criterion.limit) break;
+    count += 1;
+  }
+  return count;
+}

@@ -1,0 +1,1 @@
+(function(){let e;function t(t){let n=performance.now(),r=0,i=()=>{self.postMessage(r),r=Math.max(r+1,Math.floor((performance.now()-n)/1e3*t)),e=setTimeout(i,n+r*1e3/t-performance.now())};i()}self.onmessage=n=>{clearTimeout(e),n.data!==null&&t(n.data)}})();
