@@ -34,6 +34,7 @@ class Control:
         loop: The event loop.
 
     Attributes:
+        folder: Of the experiment.
         writer: Owns the records that are written.
         reader: Owns a connection of its own, for what takes longer and changes nothing.
         live: What is watched.
@@ -44,6 +45,7 @@ class Control:
     """
 
     def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop) -> None:
+        self.folder = folder
         self.writer = Keeper(folder, loop, writes=True)
         self.reader = Keeper(folder, loop, writes=False)
         self.live = Live()
