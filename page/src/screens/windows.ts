@@ -5,12 +5,15 @@ import { VelocityWindow } from "../draw/velocity_window";
 import { h } from "../dom";
 import type { Station } from "../station";
 
+/** What the windows need to know: they are drawn for the experimenter too. */
+export type Drawn = Pick<Station, "study" | "texts" | "arm">;
+
 function titled(title: string, content: HTMLElement, kind: string): HTMLElement {
   return h("figure", { class: `window ${kind}` }, h("figcaption", {}, title), content);
 }
 
 /** "Your command", or "Your command: x, y" where there are several views. */
-function caption(station: Station, key: string, label: string): string {
+function caption(station: Drawn, key: string, label: string): string {
   const name = station.texts.get(key);
   return station.study.views.length > 1 ? `${name}: ${label}` : name;
 }
@@ -19,7 +22,7 @@ export class VelocityWindows {
   readonly elements: HTMLElement[];
   private readonly windows: VelocityWindow[];
 
-  constructor(station: Station) {
+  constructor(station: Drawn) {
     const { study, texts } = station;
     const { limit, dead_zone } = study.stick;
     const name = texts.get("velocity_window_says");
@@ -45,7 +48,7 @@ export class ArmWindows {
   private readonly points: Float64Array;
 
   constructor(
-    private readonly station: Station,
+    private readonly station: Drawn,
     extent: number,
   ) {
     const { study, texts, arm } = station;
@@ -65,7 +68,7 @@ export class ArmWindows {
 }
 
 /** Half of what must be seen, m: the workspace, or the arm stretched out where its boundary is not known. */
-export function extent(station: Station, q: Float64Array): number {
+export function extent(station: Drawn, q: Float64Array): number {
   const { study, arm } = station;
   if (study.reach !== null) return study.reach;
   const points = new Float64Array(3 * arm.markers);
