@@ -36,12 +36,10 @@ export class Panel {
       { class: "content", hidden: true },
       h("div", { class: "heading" }, this.title, this.details),
       live.element,
-      h("div", { class: "buttons" }, this.pause, this.handOver, this.drop),
+      h("div", { class: "buttons" }, this.pause, this.handOver, this.drop, this.said),
       this.link,
-      this.said,
       h("label", { for: "note" }, texts.note, h("span", { class: "help" }, ` ${texts.noteHelp}`)),
-      this.note,
-      h("div", { class: "buttons" }, save),
+      h("div", { class: "entry" }, this.note, save),
     );
     this.element = h("section", { class: "panel", "data-testid": "panel" }, this.empty, this.content);
   }
@@ -60,7 +58,8 @@ export class Panel {
     if (other || this.note.value === this.known) this.note.value = s.note;
     this.known = s.note;
     this.title.textContent = texts.subject(s.subject);
-    this.details.textContent = texts.details(s.row + 1, new Date(s.since).toLocaleString());
+    const since = new Date(s.since).toLocaleString([], { dateStyle: "short", timeStyle: "short" });
+    this.details.textContent = texts.details(s.row + 1, since);
     this.pause.textContent = s.paused ? texts.resume : texts.pause;
     this.pause.disabled = allPaused || s.state !== "open";
     this.handOver.disabled = s.state === "dropped";
@@ -102,7 +101,7 @@ export class Panel {
       field.select();
       void navigator.clipboard?.writeText(url).then(() => this.say(texts.copied));
     }, "second");
-    this.link.replaceChildren(h("label", { for: "resume-url" }, texts.handedOver(subject)), h("div", {}, field, copy));
+    this.link.replaceChildren(h("label", { for: "resume-url" }, texts.handedOver(subject)), h("div", { class: "entry" }, field, copy));
     this.link.hidden = false;
     field.select();
   }

@@ -3,7 +3,7 @@
 export const texts = {
   title: "Experimenter",
   online: "connected",
-  offline: "no connection to the server; trying again",
+  offline: "no connection to the server; trying again (one that was started anew has printed a new address)",
   folder: "Everything is written to",
   station: "Stations open",
   pauseAll: "Pause all",
@@ -34,7 +34,7 @@ export const texts = {
   differsHelp: "Trials that do not come out as the page had them when the server drives the arm with their commands.",
   choose: "Choose a subject in the table to watch and to act.",
   subject: (code: string) => `Subject ${code}`,
-  details: (row: number, since: string) => `row ${row} of the balanced square, since ${since}`,
+  details: (row: number, since: string) => `row ${row} of the square, since ${since}`,
   under: (what: string, number: number, scenario: string, locked: string, seconds: string) =>
     `${what} ${number}: ${scenario}${locked}, ${seconds} s`,
   locked: (joint: string) => ` (${joint} locked)`,
