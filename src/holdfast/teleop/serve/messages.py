@@ -43,7 +43,7 @@ class Hello(Message):
     """The first message of a connection: a new session, or one that goes on."""
 
     type: Literal["hello"]
-    format: int
+    format: Count
     session: Key | None
     code: Code | None
     kind: Literal["person", "simulated"]

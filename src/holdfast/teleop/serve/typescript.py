@@ -63,7 +63,7 @@ def _type(annotation: Any) -> str:
     if origin is dict:
         return f"Record<{_type(arguments[0])}, {_type(arguments[1])}>"
     assert issubclass(annotation, BaseModel), annotation
-    return annotation.__name__
+    return str(annotation.__name__)
 
 
 if __name__ == "__main__":
