@@ -5,10 +5,6 @@ import { texts } from "./texts";
 
 export function confirmed(title: string, text: string, yes: string): Promise<boolean> {
   return new Promise((resolve) => {
-    const close = (answer: boolean): void => {
-      dialog.remove();
-      resolve(answer);
-    };
     const dialog = h(
       "dialog",
       { "data-testid": "confirm", "aria-labelledby": "question" },
@@ -17,11 +13,15 @@ export function confirmed(title: string, text: string, yes: string): Promise<boo
       h(
         "div",
         { class: "buttons" },
-        button("confirm-no", texts.cancel, () => close(false), "second"),
-        button("confirm-yes", yes, () => close(true), "danger"),
+        button("confirm-no", texts.cancel, () => dialog.close(), "second"),
+        button("confirm-yes", yes, () => dialog.close("yes"), "danger"),
       ),
     );
-    dialog.addEventListener("cancel", () => close(false));
+    // Closed first, then removed: the focus goes back to where it was.
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      resolve(dialog.returnValue === "yes");
+    });
     document.body.append(dialog);
     dialog.showModal();
   });
