@@ -11,6 +11,7 @@ import urllib.request
 import zipfile
 from dataclasses import replace
 from pathlib import Path
+from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
@@ -264,11 +265,13 @@ def test_a_session_goes_on_in_another_page(http, protocol, station, rng):
     client.trial("training", 0, rng)
     client.settle()
     url = post(http, "resume", subject=code)["url"]
-    base, _, key = url.partition("&session=")
-    assert base == f"{http}/?token={TOKEN}"
+    address, _, query = url.partition("?")
+    said = parse_qs(query)
+    assert (address, said["token"]) == (f"{http}/", [TOKEN])
+    assert "robot" in said  # the station is a simulated one
     assert "another page" in client.receive().reason
     other = Client(client.url, protocol)
-    other.key = key
+    (other.key,) = said["session"]
     welcome = other.connect()
     assert (welcome.subject, welcome.seq, welcome.done.training) == (code, client.seq, [None])
     other.socket.close()

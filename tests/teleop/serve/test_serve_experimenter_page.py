@@ -31,23 +31,45 @@ def browser():
         opened.close()
 
 
-@pytest.fixture
-def served(tmp_path):
-    """(folder, address) of an experiment with short ways."""
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    """(folder, address) of an experiment with a long training of short ways."""
+    folder = tmp_path_factory.mktemp("served") / "study"
     whole = read()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
-    training = replace(whole.training, at_least=1, in_a_row=1, most=6, distance=0.4)
-    Records.create(tmp_path / "study", replace(few, training=training)).close()
-    command = [sys.executable, str(PROGRAM), str(tmp_path / "study"), str(STATIC), str(ENGLISH)]
+    training = replace(whole.training, at_least=40, in_a_row=1, distance=0.4)
+    Records.create(folder, replace(few, training=training)).close()
+    command = [sys.executable, str(PROGRAM), str(folder), str(STATIC), str(ENGLISH)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        yield tmp_path / "study", f"http://127.0.0.1:{int(process.stdout.readline())}"
+        yield folder, f"http://127.0.0.1:{int(process.stdout.readline())}"
         process.kill()
 
 
-def test_an_experiment_is_watched_and_led(browser, served):
+@pytest.fixture
+def context(browser):
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as made:
+        made.set_default_timeout(120_000)
+        yield made
+
+
+def test_addresses_of_what_opens_in_a_tab(context, served):
+    _, base = served
+    page = context.new_page()
+    page.goto(f"{base}/experimenter?key={KEY}")
+    at = page.get_by_test_id
+    assert at("export").get_attribute("href") == f"{base}/experimenter/export.zip?key={KEY}"
+    at("report-missing").select_option("mixed")
+    assert at("report").get_attribute("href") == f"{base}/experimenter/report?missing=mixed&key={KEY}"
+    at("robot-seed").fill("7")
+    assert at("dry-run").get_attribute("href") == f"{base}/?robot=7"
+    for link in ("export", "report", "dry-run"):
+        assert at(link).get_attribute("rel") == "noopener"
+    page.goto(f"{base}/experimenter?key=wrong")
+    assert "key is missing or wrong" in page.text_content("body")
+
+
+def test_an_experiment_is_watched_and_led(context, served):
     folder, base = served
-    context = browser.new_context(viewport={"width": 1280, "height": 720})
-    context.set_default_timeout(60_000)
     asked, troubles = [], []
     context.on("request", lambda request: asked.append(request.url))
     context.on("weberror", lambda error: troubles.append(str(error.error)))
@@ -96,18 +118,16 @@ def test_an_experiment_is_watched_and_led(browser, served):
 
     # The session goes on in another page, which still has to be let go on.
     at("resume").click()
-    page.screenshot(path="/tmp/h4_t1.png")
     at("confirm-no").click()
     assert at("resume-url").count() == 0
     at("resume").click()
     at("confirm-yes").click()
     robot.get_by_test_id("stopped").wait_for()
     robot.goto(at("resume-url").input_value())
-    robot.get_by_test_id("continue").or_(robot.get_by_test_id("stage")).first.wait_for()
+    robot.get_by_test_id("paused").wait_for()
     at("pause-one").click()
-    page.locator("[data-testid=row-S01][data-paused=false]").wait_for()
+    page.locator("[data-testid=row-S01][data-steering=true]").wait_for()
 
-    page.screenshot(path="/tmp/h4_t2.png"); robot.screenshot(path="/tmp/h4_t3.png")
     # The end, by keyboard only.
     at("drop").focus()
     page.keyboard.press("Enter")
@@ -124,21 +144,3 @@ def test_an_experiment_is_watched_and_led(browser, served):
 
     assert troubles == []
     assert {url.split("/")[2] for url in asked} == {base.split("/")[2]}
-    context.close()
-
-
-def test_addresses_of_what_opens_in_a_tab(browser, served):
-    folder, base = served
-    page = browser.new_page()
-    page.goto(f"{base}/experimenter?key={KEY}")
-    at = page.get_by_test_id
-    assert at("export").get_attribute("href") == f"{base}/experimenter/export.zip?key={KEY}"
-    at("report-missing").select_option("mixed")
-    assert at("report").get_attribute("href") == f"{base}/experimenter/report?missing=mixed&key={KEY}"
-    at("robot-seed").fill("7")
-    assert at("dry-run").get_attribute("href") == f"{base}/?robot=7"
-    for link in ("export", "report", "dry-run"):
-        assert at(link).get_attribute("rel") == "noopener"
-    page.goto(f"{base}/experimenter?key=wrong")
-    assert "key is missing or wrong" in page.text_content("body")
-    page.close()

@@ -19,6 +19,7 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from holdfast.errors import HoldfastError, InputError
+from holdfast.teleop.entries import Who
 from holdfast.teleop.serve.apart import apart
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import Guard
@@ -44,7 +45,7 @@ class Note(Message):
     note: Annotated[str, Field(max_length=10_000)]
 
 
-class Who(Message):
+class Chosen(Message):
     """A subject."""
 
     subject: Code
@@ -119,15 +120,19 @@ class _Served:
 
     async def drop(self, request: Request) -> Response:
         """End a subject's session for good."""
-        asked = await _posted(request, Who)
+        asked = await _posted(request, Chosen)
         await _control(request).drop(asked.subject)
         return JSONResponse({})
 
     async def resume(self, request: Request) -> Response:
         """An address that goes on with a session in another page."""
-        asked = await _posted(request, Who)
-        key = await _control(request).new_key(asked.subject)
-        return JSONResponse({"url": self._station(request, session=key)})
+        asked = await _posted(request, Chosen)
+        control = _control(request)
+        key = await control.new_key(asked.subject)
+        subject = await control.reader.do(lambda records: records.subject(asked.subject))
+        # A dry run goes on as one.
+        robot = {"robot": str(subject.number)} if subject.kind == Who.SIMULATED else {}
+        return JSONResponse({"url": self._station(request, session=key, **robot)})
 
     async def export(self, request: Request) -> Response:
         """All tables, zipped."""
