@@ -75,8 +75,8 @@ async function main(): Promise<void> {
     loadArm(server.address("/arm.js")),
   ]);
   document.title = `${texts.title}: ${study.name}`;
-  const failure = h("p", { class: "said", role: "alert", "data-testid": "failure", "data-bad": true });
-  const top = new Top(server, about, study.name, (error) => (failure.textContent = error.message));
+  const failure = h("p", { class: "said", role: "alert", "data-testid": "failure", "data-bad": "true" });
+  const top = new Top(server, about, study.name, (said) => (failure.textContent = said));
   const panel = new Panel(server, new LiveView(study, arm, about));
   const table = new Table((code) => page.choose(code));
   const page = new Page(top, table, panel, about);

@@ -7,8 +7,7 @@ import { texts } from "./texts";
 /** Of what a subject does just now. */
 function now(s: Subject, steering: boolean): string {
   if (s.state !== "open") return texts.states[s.state];
-  const where = steering ? texts.steering : s.connected ? texts.connected : texts.notConnected;
-  return s.paused ? `${where}, ${texts.paused}` : where;
+  return steering ? texts.steering : s.connected ? texts.connected : texts.notConnected;
 }
 
 class Row {
@@ -16,10 +15,11 @@ class Row {
   readonly button: HTMLButtonElement;
   private readonly kind = h("span", { class: "kind" });
   private readonly now = h("span", { class: "now" });
+  private readonly paused = h("span", { class: "paused" }, texts.paused);
   private readonly training = h("td", { class: "number" });
   private readonly bar = h("progress", {});
   private readonly trials = h("span", {});
-  private readonly replay = h("td", { title: texts.differsHelp });
+  private readonly replay = h("td", { class: "replay", title: texts.differsHelp });
   private readonly row = h("td", { class: "number" });
   private readonly note = h("td", { class: "note" });
 
@@ -34,7 +34,7 @@ class Row {
       "tr",
       { "data-testid": `row-${code}` },
       h("th", { scope: "row" }, this.button, this.kind),
-      h("td", {}, this.now),
+      h("td", { class: "state" }, this.now, this.paused),
       this.training,
       h("td", { class: "trials" }, this.bar, this.trials),
       this.replay,
@@ -55,6 +55,7 @@ class Row {
     this.button.setAttribute("aria-pressed", String(chosen));
     this.kind.textContent = s.kind === "person" ? "" : texts.simulated;
     this.now.textContent = now(s, steering);
+    this.paused.hidden = !s.paused || s.state !== "open";
     this.training.textContent = String(s.training);
     this.bar.max = s.of;
     this.bar.value = s.trials;

@@ -3,7 +3,8 @@
 export const texts = {
   title: "Experimenter",
   online: "connected",
-  offline: "no connection to the server; trying again (one that was started anew has printed a new address)",
+  offline: "no connection to the server, trying again",
+  offlineHelp: "A server that was started anew has printed a new address of this page.",
   folder: "Everything is written to",
   station: "Stations open",
   pauseAll: "Pause all",

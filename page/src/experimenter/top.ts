@@ -16,11 +16,14 @@ export class Top {
   private readonly pause: HTMLButtonElement;
   private readonly banner = h("p", { class: "banner", role: "status", "data-testid": "all-paused", hidden: true }, texts.allPaused);
 
-  constructor(server: Server, about: About, name: string, failed: (error: Error) => void) {
+  constructor(server: Server, about: About, name: string, say: (text: string) => void) {
     this.pause = button(
       "pause-all",
       texts.pauseAll,
-      () => void server.post("pause", { subject: null, paused: !this.paused }).catch(failed),
+      () => {
+        say("");
+        server.post("pause", { subject: null, paused: !this.paused }).catch((error: Error) => say(error.message));
+      },
       "second",
     );
     this.element = h(
@@ -50,6 +53,7 @@ export class Top {
   online(yes: boolean): void {
     this.line.dataset.online = String(yes);
     this.line.textContent = yes ? texts.online : texts.offline;
+    this.line.title = yes ? "" : texts.offlineHelp;
   }
 
   show(paused: boolean): void {
