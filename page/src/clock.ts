@@ -1,20 +1,22 @@
 /** The control clock: calls back at a fixed rate, whatever the display does. */
 
-import { Schedule, type Tick } from "./schedule";
+import { Schedule } from "./schedule";
 
 export class Clock {
   private readonly worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
   private schedule: Schedule | null = null;
 
   /** Begin: the first cycle comes at once; times are seconds since then. */
-  start(rate: number, onCycle: (time: number, tick: Tick) => void): void {
+  start(rate: number, onCycle: (time: number) => void): void {
     this.stop();
     this.worker.onmessage = (): void => {
       const now = performance.now() / 1000;
       // Time zero is the first wake-up, so that the worker's clock and this one need not agree.
       this.schedule ??= new Schedule(now, rate);
+      const { start } = this.schedule;
       const tick = this.schedule.wake(now);
-      if (tick !== null) onCycle(now - this.schedule.start, tick);
+      // The first of several cycles may end the trial, and stop this clock.
+      for (let i = 0; i < (tick?.cycles ?? 0) && this.schedule !== null; i++) onCycle(now - start);
     };
     this.worker.postMessage(rate);
   }

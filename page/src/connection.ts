@@ -14,6 +14,8 @@ export interface Listener {
   /** The connection is there, or is not. */
   online(yes: boolean): void;
   paused(yes: boolean): void;
+  /** Something more is on the server's disk. */
+  acknowledged(): void;
   /** The session cannot go on here; null: somebody else went on with it. */
   over(reason: string | null): void;
 }
@@ -98,6 +100,7 @@ export class Connection {
       case "ack":
         this.outbox.acknowledged(message.seq);
         this.flush();
+        this.listener.acknowledged();
         if (this.joining && !this.outbox.waiting.length) this.ask();
         return;
       case "refused":
@@ -130,6 +133,7 @@ export class Connection {
     if (seq !== null && seq <= last) {
       this.outbox.acknowledged(last);
       this.flush();
+      this.listener.acknowledged();
     } else if (!this.joining) {
       this.end(reason);
     } else if (seq !== null) {

@@ -1,20 +1,28 @@
 /**
- * Arithmetic of the control clock, without a clock. Cycle k is due at `start + k / rate`. A wake-up counts for the cycle it is
- * nearest to; cycles that nobody woke up for are missed, and not made up for: the arm would leap.
+ * Arithmetic of the control clock, without a clock. Cycle k is due at `start + k / rate`. A wake-up that comes late does the
+ * cycles that are due meanwhile, as many as a person would not notice; the others are missed, so that the arm never leaps.
  */
 
 export interface Tick {
-  /** Seconds after the cycle was due; negative before. */
-  late: number;
-  /** Cycles left out since the last one. */
+  /** Cycles to be done now. */
+  cycles: number;
+  /** Cycles left out before them. */
   missed: number;
 }
 
+/** A wake-up may come so much before its time, of a period. */
+const EARLY = 0.25;
+/** Cycles of so many seconds are made up for. */
+const MADE_UP = 0.1;
+/** A cycle is late from so many seconds on. */
+const LATE = 0.01;
+
 export class Schedule {
   private last = -1;
+  private readonly most: number;
   /** Cycles left out so far. */
   missed = 0;
-  /** Cycles done later than a quarter of a period after they were due. */
+  /** Wake-ups that came late. */
   late = 0;
   /** The latest of all, s. */
   worst = 0;
@@ -26,21 +34,22 @@ export class Schedule {
   constructor(
     readonly start: number,
     readonly rate: number,
-  ) {}
+  ) {
+    this.most = Math.max(1, Math.floor(MADE_UP * rate));
+  }
 
-  /** What a wake-up at a time, s, is for; null: nothing, that cycle has been done. */
+  /** What is to be done at a time, s; null: nothing yet. */
   wake(now: number): Tick | null {
-    const slot = Math.round((now - this.start) * this.rate);
-    if (slot <= this.last) return null;
-    const missed = slot - this.last - 1;
-    const late = now - this.start - slot / this.rate;
+    const slot = Math.floor((now - this.start) * this.rate + EARLY);
+    const due = slot - this.last;
+    if (due <= 0) return null;
+    const behind = now - this.start - (this.last + 1) / this.rate;
+    const cycles = Math.min(due, this.most);
     this.last = slot;
-    this.missed += missed;
-    // A cycle after missed ones is late by them too.
-    const behind = late + missed / this.rate;
-    if (behind > 0.25 / this.rate) this.late += 1;
+    this.missed += due - cycles;
+    if (behind > LATE) this.late += 1;
     this.worst = Math.max(this.worst, behind);
-    return { late, missed };
+    return { cycles, missed: due - cycles };
   }
 }
 

@@ -12,7 +12,7 @@ import { Frame } from "./screens/frame";
 import { Stick } from "./stick";
 import type { Storage } from "./storage";
 import type { Study } from "./study";
-import { Texts } from "./texts";
+import { sentence, Texts } from "./texts";
 
 /** Where the session stands. */
 export interface Progress {
@@ -50,7 +50,10 @@ export class Station {
   private readonly connection: Connection;
   /** When the connection was lost, ms. */
   private lostAt: number | null = null;
-  private ended = false;
+  /** Called when nothing waits any more, once the session is over. */
+  private finished: (() => void) | null = null;
+  /** The session cannot go on in this page. */
+  private stopped = false;
 
   constructor(
     readonly study: Study,
@@ -72,6 +75,7 @@ export class Station {
     this.connection = new Connection(addresses.session, this.outbox, {
       online: (yes) => this.online(yes),
       paused: (yes) => this.frame.pause(yes),
+      acknowledged: () => this.acknowledged(),
       over: (reason) => this.stop(reason),
     });
     window.addEventListener("pagehide", () => this.keep());
@@ -114,11 +118,12 @@ export class Station {
     this.send({ type: "answers", form, answers });
   }
 
-  /** The session is over: nothing is kept for a later visit once everything is on the server's disk. */
-  finish(): void {
-    this.ended = true;
-    if (!this.outbox.waiting.length) this.storage.kept = null;
-    else this.keep();
+  /** The session is over: nothing is kept for a later visit. Resolved when everything is on the server's disk. */
+  finish(): Promise<void> {
+    return new Promise((resolve) => {
+      this.finished = resolve;
+      this.acknowledged();
+    });
   }
 
   /** In a dry run, do after a moment what a person would do. */
@@ -146,16 +151,24 @@ export class Station {
     }
   }
 
+  private acknowledged(): void {
+    this.frame.waiting(this.outbox.waiting.length);
+    if (this.finished === null || this.outbox.waiting.length) return;
+    this.storage.kept = null;
+    this.finished();
+  }
+
   private stop(reason: string | null): void {
-    this.ended = true;
+    this.stopped = true;
     this.clock.stop();
-    this.frame.stop(reason ?? this.texts.get("elsewhere"));
+    this.frame.stop(reason === null ? this.texts.get("elsewhere") : sentence(reason));
   }
 
   private keep(): void {
-    if (this.session === null || this.subject === "") return;
     const outbox = [...this.outbox.waiting];
-    if (this.ended && !outbox.length) return;
+    // Where somebody else went on with the session, what is kept is theirs.
+    if (this.session === null || this.subject === "" || this.stopped) return;
+    if (this.finished !== null && !outbox.length) return;
     this.storage.kept = { session: this.session, subject: this.subject, outbox };
   }
 }

@@ -9,3 +9,8 @@ export class Texts {
     return text.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
   }
 }
+
+/** The server's reason for something, which is written like an error message, as a sentence. */
+export function sentence(reason: string): string {
+  return `${reason.charAt(0).toUpperCase()}${reason.slice(1)}${/[.!?]$/.test(reason) ? "" : "."}`;
+}

@@ -82,7 +82,7 @@ class Session {
     const { station } = this;
     return this.when(() => this.untouched, [
       this.screen((e) => {
-        station.frame.progress(station.texts.get("instructions_title"));
+        station.frame.progress(station.texts.get("instructions_1_title"));
         return showInstructions(e, station);
       }),
     ]);
@@ -140,9 +140,9 @@ class Session {
   private async debriefing(element: HTMLElement): Promise<void> {
     const { station } = this;
     station.frame.progress("");
-    station.finish();
-    await this.page(element, this.early ?? "debriefing", [this.choice("next-subject", "next_subject")]);
-    station.finish();
+    const stored = station.finish();
+    await this.page(element, this.early ?? "debriefing", [this.choice("next-subject", "next_subject")], true);
+    await stored;
     location.assign(station.addresses.begin);
   }
 
@@ -232,7 +232,7 @@ class Session {
     return { testid, label: this.station.texts.get(key) };
   }
 
-  private page(element: HTMLElement, key: string, choices: Page["choices"]): Promise<string> {
+  private page(element: HTMLElement, key: string, choices: Page["choices"], last = false): Promise<string> {
     const { texts, study } = this.station;
     const { at_least, in_a_row, limit } = study.training;
     const values = {
@@ -243,7 +243,7 @@ class Session {
       count: this.station.plan.trials.length,
     };
     const [title, text] = [texts.get(`${key}_title`), texts.get(`${key}_text`, values)];
-    return showPage(element, this.station, { testid: key.replace("_", "-"), title, text, choices });
+    return showPage(element, this.station, { testid: key.replace("_", "-"), title, text, choices, last });
   }
 
   private screen(show: (element: HTMLElement) => Promise<unknown>): Node {

@@ -20,6 +20,7 @@ export class ArmWindow {
 
   /**
    * @param reach radius of the workspace's boundary, m; null where none is drawn
+   * @param centre what is in the middle, m, along the view's axes
    * @param extent half of what must be seen, m
    */
   constructor(
@@ -27,7 +28,7 @@ export class ArmWindow {
     label: string,
     private readonly view: View,
     private readonly reach: number | null,
-    private readonly centre: number[],
+    private readonly centre: [number, number],
     private readonly extent: number,
   ) {
     this.surface = new Surface(testid, label);
@@ -37,7 +38,7 @@ export class ArmWindow {
     const c = this.surface.begin();
     const { width, height } = this.surface;
     const scale = Math.min(width, height) / 2 / (1.06 * this.extent);
-    const [cx, cy] = task(this.view, this.centre);
+    const [cx, cy] = this.centre;
     const place = ([x, y]: [number, number]): [number, number] => [(x - cx) * scale, (y - cy) * scale];
     const [start, target] = [scene.start, scene.target].map((v) => place(task(this.view, v)));
     const chain: [number, number][] = [];

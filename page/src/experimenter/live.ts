@@ -2,7 +2,7 @@
 
 import type { Arm } from "../arm";
 import { h } from "../dom";
-import { ArmWindows, extent, VelocityWindows } from "../screens/windows";
+import { ArmWindows, VelocityWindows } from "../screens/windows";
 import type { Study } from "../study";
 import { Texts } from "../texts";
 import type { About, Cycle } from "./server";
@@ -23,10 +23,10 @@ export class LiveView {
     private readonly arm: Arm,
     private readonly about: About,
   ) {
-    const drawn = { study, arm, texts: new Texts(texts.window) };
+    const drawn = { study, arm, texts: new Texts(texts.window), plan: about.plan };
     this.start = new Float64Array(arm.axes);
     this.q = new Float64Array(arm.joints);
-    this.arms = new ArmWindows(drawn, extent(drawn, this.q));
+    this.arms = new ArmWindows(drawn);
     this.velocities = new VelocityWindows(drawn);
     this.windows = h("div", { class: "windows" }, ...this.arms.elements, ...this.velocities.elements);
     this.element = h("div", { class: "live", "data-testid": "live" }, this.what, this.windows);

@@ -35,6 +35,8 @@ export interface About {
   station: string;
   scenarios: string[];
   joints: string[];
+  /** Tasks of a session, for what the windows show. */
+  plan: { training: { q0: number[]; target: number[] }[]; trials: { q0: number[]; target: number[] }[] };
 }
 
 /** A control cycle of a trial under way. */

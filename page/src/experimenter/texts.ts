@@ -43,6 +43,8 @@ export const texts = {
   last: "The last that was seen:",
   window: {
     arm_window: "Arm",
+    view_1: "from above",
+    view_2: "from the side",
     velocity_window: "Command",
     arm_window_says: "The arm, its start and its target",
     velocity_window_says: "The commanded velocity, its limit and its dead zone",

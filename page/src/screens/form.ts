@@ -51,7 +51,7 @@ function collect(fields: Field[], station: Station): Record<string, Answer> | nu
   for (const f of fields) {
     const answer = f.read();
     const missing = (answer === null || (f.question.kind === "check" && answer === false)) && !f.question.optional;
-    complain(f, missing ? station.texts.get("answer_missing") : "");
+    complain(f, missing ? station.texts.get(f.question.kind === "check" ? "answer_tick" : "answer_missing") : "");
     if (missing) first ??= f.element;
     else if (answer !== null) answers[f.question.name] = answer;
   }

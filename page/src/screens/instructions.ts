@@ -3,7 +3,7 @@
 import { h } from "../dom";
 import type { Station } from "../station";
 import { showPage } from "./page";
-import { ArmWindows, extent, VelocityWindows } from "./windows";
+import { ArmWindows, VelocityWindows } from "./windows";
 
 /** Of the stick, in the picture. */
 const EXAMPLE = 0.7;
@@ -12,11 +12,12 @@ export async function showInstructions(element: HTMLElement, station: Station): 
   const { texts, plan, arm, device } = station;
   const next = [{ testid: "instructions-next", label: texts.get("go_on") }];
   const values = { start: texts.get(`start_${device?.kind ?? "keys"}`), steer: texts.get(`steer_${device?.kind ?? "keys"}`) };
-  const page = (part: number, figure?: HTMLElement): Promise<string> =>
+  const views = station.study.views.length;
+  const page = (part: number, more: string[], figure?: HTMLElement): Promise<string> =>
     showPage(element, station, {
       testid: `instructions-${part}`,
       title: texts.get(`instructions_${part}_title`),
-      text: texts.get(`instructions_${part}_text`, values),
+      text: [`instructions_${part}_text`, ...more].map((key) => texts.get(key, values).trim()).join("\n\n"),
       choices: next,
       figure,
     });
@@ -25,7 +26,7 @@ export async function showInstructions(element: HTMLElement, station: Station): 
   const q = Float64Array.from(q0);
   const start = new Float64Array(arm.axes);
   arm.position(q, start);
-  const arms = new ArmWindows(station, extent(station, q));
+  const arms = new ArmWindows(station);
   const velocities = new VelocityWindows(station);
   const way = target.map((v, i) => v - start[i]);
   const size = Math.hypot(...way) || 1;
@@ -37,7 +38,8 @@ export async function showInstructions(element: HTMLElement, station: Station): 
     if (shown) requestAnimationFrame(draw);
   };
   requestAnimationFrame(draw);
-  await page(1, h("div", { class: "figure" }, ...arms.elements, ...velocities.elements));
+  const more = [...(station.study.reach === null ? [] : ["instructions_reach"]), ...(views > 1 ? ["instructions_views"] : [])];
+  await page(1, more, h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements));
   shown = false;
-  await page(2);
+  await page(2, []);
 }

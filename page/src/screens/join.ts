@@ -2,6 +2,7 @@
 
 import { button, h, paragraphs } from "../dom";
 import type { Station } from "../station";
+import { sentence } from "../texts";
 
 /** Resolved when the server has taken the person in. */
 export function showJoin(element: HTMLElement, station: Station): Promise<void> {
@@ -14,7 +15,7 @@ export function showJoin(element: HTMLElement, station: Station): Promise<void> 
       for (const b of buttons) b.disabled = true;
       complaint.textContent = "";
       station.join(wanted).then(resolve, (error: Error) => {
-        complaint.textContent = error.message;
+        complaint.textContent = sentence(error.message);
         if (station.resumable) station.forget();
         show();
       });

@@ -14,6 +14,8 @@ export interface Page {
   text: string;
   /** The first is the main one. */
   choices: Choice[];
+  /** A dry run stops here. */
+  last?: boolean;
   /** Between text and buttons. */
   figure?: HTMLElement;
 }
@@ -24,14 +26,14 @@ export function showPage(element: HTMLElement, station: Station, page: Page): Pr
     const buttons = page.choices.map((c, i) => button(c.testid, c.label, () => resolve(c.testid), i ? "second" : "primary"));
     const card = h(
       "section",
-      { class: page.figure ? "card wide" : "card", "data-testid": page.testid },
+      { class: page.figure ? "card wide with-figure" : "card", "data-testid": page.testid },
       h("h1", {}, page.title),
       h("div", { class: "prose" }, ...paragraphs(page.text)),
       page.figure,
       h("div", { class: "buttons" }, ...buttons),
     );
     element.replaceChildren(card);
-    buttons[0]?.focus();
-    station.auto(() => buttons[0]?.click());
+    buttons[0]?.focus({ preventScroll: true });
+    if (!page.last) station.auto(() => buttons[0]?.click());
   });
 }

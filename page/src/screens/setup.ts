@@ -69,7 +69,7 @@ class Setup {
         "section",
         { class: "card wide setup", "data-testid": "setup" },
         h("div", { class: "prose" }, h("h1", {}, texts.get("setup_title")), ...paragraphs(texts.get("setup_text"))),
-        h("div", { class: "columns" }, h("div", { class: "options" }, ...options), h("div", { class: "try" }, ...this.velocities.elements, this.how)),
+        h("div", { class: "columns" }, h("div", { class: "options" }, ...options), h("div", { class: "try", "data-views": this.station.study.views.length }, ...this.velocities.elements, this.how)),
         h("div", { class: "buttons" }, this.next, this.calibrate),
       ),
     );
@@ -96,6 +96,8 @@ class Setup {
     this.velocities.attach(station);
     this.how.textContent = station.texts.get(`try_${kind}`);
     this.calibrate.hidden = kind !== "gamepad";
+    // On one of the choices the arrow keys would choose another one.
+    if (kind === "keys") this.next.focus({ preventScroll: true });
   }
 
   private device(kind: Kind): Device | null {
@@ -116,8 +118,8 @@ class Setup {
     if (this.found.textContent !== seen) this.found.textContent = seen;
     if (pad !== undefined && this.kind !== "gamepad" && !this.chosen) this.choose("gamepad");
     if (pad !== undefined && this.kind === "gamepad" && station.device === null) this.choose("gamepad");
-    this.next.disabled = this.wizard !== null || station.device === null || station.device.lost();
-    this.calibrate.disabled = this.next.disabled;
+    this.calibrate.disabled = station.device === null || station.device.lost();
+    this.next.disabled = this.wizard !== null || this.calibrate.disabled;
     if (this.wizard !== null && pad !== undefined) this.step(pad);
     if (station.device === null) this.deflection.fill(0);
     else station.device.read(this.deflection);

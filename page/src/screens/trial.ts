@@ -4,7 +4,7 @@ import { button, h } from "../dom";
 import { Run, type Ending, type Task } from "../run";
 import { Frames, type Schedule } from "../schedule";
 import type { Station } from "../station";
-import { ArmWindows, extent, VelocityWindows } from "./windows";
+import { ArmWindows, VelocityWindows } from "./windows";
 
 export interface TrialSpec {
   title: string;
@@ -62,7 +62,7 @@ class Trial {
     this.shown = new Float64Array(arm.joints);
     this.run = this.fresh();
     arm.position(this.run.q, this.start);
-    this.arms = new ArmWindows(station, extent(station, this.run.q));
+    this.arms = new ArmWindows(station);
     this.velocities = new VelocityWindows(station);
     this.begin = button("start", texts.get("start"), () => this.begun());
     this.abort = button("abort", texts.get("abort"), () => (this.aborting = true), "second");
@@ -136,7 +136,6 @@ class Trial {
     if (spec.record !== null) station.send({ type: "begin", ...spec.record });
     this.frames = new Frames();
     this.enter("running", station.texts.get("trial_running"));
-    this.abort.focus({ preventScroll: true });
     station.clock.start(station.study.rate, (time) => this.cycle(time));
   }
 
@@ -204,7 +203,7 @@ class Trial {
 
   private draw(): void {
     const { station, run, spec, phase } = this;
-    if (phase === "waiting") this.watch();
+    if (phase === "waiting" || phase === "broken") this.watch();
     if (phase === "running") this.frames.at(performance.now() / 1000);
     // The arm moves from one configuration to the next during the cycle whose command was read at its beginning.
     const share = phase === "running" ? (station.clock.now - this.cycleAt) * station.study.rate : 1;
@@ -221,7 +220,7 @@ class Trial {
   private watch(): void {
     const { station } = this;
     const lost = station.device?.lost() === true;
-    if (lost !== this.lost) {
+    if (lost !== this.lost && this.phase === "waiting") {
       this.lost = lost;
       if (lost) station.event("pad-lost");
       this.message.textContent = station.texts.get(lost ? "broken_pad-lost" : "trial_waiting");

@@ -1,21 +1,31 @@
 /** The two windows of Fig. 1, one pair for each view. */
 
 import { ArmWindow, type ArmScene } from "../draw/arm_window";
+import { point, task } from "../draw/projection";
 import { VelocityWindow } from "../draw/velocity_window";
 import { h } from "../dom";
 import type { Station } from "../station";
 
+/** Around what the arms need at the start of the tasks. */
+const ROOM = 1.1;
+
 /** What the windows need to know: they are drawn for the experimenter too. */
-export type Drawn = Pick<Station, "study" | "texts" | "arm">;
+export type Drawn = Pick<Station, "study" | "texts" | "arm"> & { plan: { training: Posed[]; trials: Posed[] } };
+
+interface Posed {
+  q0: number[];
+  target: number[];
+}
 
 function titled(title: string, content: HTMLElement, kind: string): HTMLElement {
   return h("figure", { class: `window ${kind}` }, h("figcaption", {}, title), content);
 }
 
-/** "Your command", or "Your command: x, y" where there are several views. */
-function caption(station: Drawn, key: string, label: string): string {
-  const name = station.texts.get(key);
-  return station.study.views.length > 1 ? `${name}: ${label}` : name;
+/** "Your command", or "Your command, from above" where there are several views. */
+function caption(station: Drawn, key: string, view: number): string {
+  const { texts, study } = station;
+  const name = texts.get(key);
+  return study.views.length > 1 ? `${name}, ${texts.get(`view_${view + 1}`)} (${study.views[view].label})` : name;
 }
 
 export class VelocityWindows {
@@ -27,8 +37,8 @@ export class VelocityWindows {
     const { limit, dead_zone } = study.stick;
     const name = texts.get("velocity_window_says");
     this.windows = study.views.map((view, k) => new VelocityWindow(`velocity-${k + 1}`, name, view, limit, dead_zone));
-    this.elements = this.windows.map((w) =>
-      titled(caption(station, "velocity_window", w.view.label), w.surface.element, "velocity"),
+    this.elements = this.windows.map((w, k) =>
+      titled(caption(station, "velocity_window", k), w.surface.element, "velocity"),
     );
   }
 
@@ -47,18 +57,15 @@ export class ArmWindows {
   private readonly windows: ArmWindow[];
   private readonly points: Float64Array;
 
-  constructor(
-    private readonly station: Drawn,
-    extent: number,
-  ) {
+  constructor(private readonly station: Drawn) {
     const { study, texts, arm } = station;
     this.points = new Float64Array(3 * arm.markers);
+    const { centres, extent } = seen(station);
+    const says = texts.get("arm_window_says");
     this.windows = study.views.map(
-      (view, k) => new ArmWindow(`arm-${k + 1}`, texts.get("arm_window_says"), view, study.reach, study.centre, extent),
+      (view, k) => new ArmWindow(`arm-${k + 1}`, says, view, study.reach, centres[k], extent),
     );
-    this.elements = this.windows.map((w, k) =>
-      titled(caption(station, "arm_window", study.views[k].label), w.surface.element, "arm"),
-    );
+    this.elements = this.windows.map((w, k) => titled(caption(station, "arm_window", k), w.surface.element, "arm"));
   }
 
   draw(q: Float64Array, scene: Omit<ArmScene, "points" | "radius">): void {
@@ -67,15 +74,31 @@ export class ArmWindows {
   }
 }
 
-/** Half of what must be seen, m: the workspace, or the arm stretched out where its boundary is not known. */
-export function extent(station: Drawn, q: Float64Array): number {
-  const { study, arm } = station;
-  if (study.reach !== null) return study.reach;
+/**
+ * What the windows show, the same in all trials: the workspace, or, where its boundary is not known, all arms and targets of
+ * the session with some room around them.
+ *
+ * @returns the middle of each view, and half of what is to be seen, m
+ */
+function seen(station: Drawn): { centres: [number, number][]; extent: number } {
+  const { study, arm, plan } = station;
+  if (study.reach !== null) return { centres: study.views.map((v) => task(v, study.centre)), extent: study.reach };
   const points = new Float64Array(3 * arm.markers);
-  arm.points(q, points);
-  let length = 0;
-  for (let k = 3; k < points.length; k += 3) {
-    length += Math.hypot(points[k] - points[k - 3], points[k + 1] - points[k - 2], points[k + 2] - points[k - 1]);
+  const low = study.views.map(() => [Infinity, Infinity]);
+  const high = study.views.map(() => [-Infinity, -Infinity]);
+  for (const { q0, target } of [...plan.training, ...plan.trials]) {
+    arm.points(Float64Array.from(q0), points);
+    study.views.forEach((view, k) => {
+      const all = [task(view, target), ...Array.from({ length: arm.markers }, (_, i) => point(view, points, 3 * i))];
+      for (const place of all) {
+        place.forEach((value, i) => {
+          low[k][i] = Math.min(low[k][i], value);
+          high[k][i] = Math.max(high[k][i], value);
+        });
+      }
+    });
   }
-  return length;
+  const centres = low.map((l, k) => l.map((v, i) => (v + high[k][i]) / 2) as [number, number]);
+  const extent = ROOM * Math.max(...low.flatMap((l, k) => l.map((v, i) => (high[k][i] - v) / 2)));
+  return { centres, extent };
 }

@@ -388,11 +388,6 @@ class Records:
 
     # ---- the file --------------------------------------------------------------------------------------------------
 
-    @property
-    def writing(self) -> bool:
-        """Inside :meth:`together`."""
-        return self._depth > 0
-
     @contextmanager
     def together(self) -> Iterator[None]:
         """All changes made inside, or none; they are acknowledged when the block ends."""

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from holdfast.teleop.point_task import Scenario
 from holdfast.teleop.protocol import Training, read
 from holdfast.teleop.records import Records
 
@@ -20,7 +21,9 @@ PROGRAM = Path(__file__).with_name("serve_program.py")
 def protocol():
     whole = read()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9])), ["a", "b"])
-    return replace(few, training=Training(at_least=1, in_a_row=1, limit=80, most=3), subjects=6, cycle_limit=40)
+    training = Training(at_least=1, in_a_row=1, limit=80.0, most=3)
+    scenarios = tuple(Scenario(k + 1, "pseudoinverse", failed) for k, failed in enumerate((False, True)))  # compiled quickly
+    return replace(few, training=training, scenarios=scenarios, subjects=6, cycle_limit=40)
 
 
 @pytest.fixture(scope="session")
@@ -33,7 +36,7 @@ def built(tmp_path_factory):
     (static / "station.js").write_text("export {};")
     (static / "experimenter.html").write_text("<!doctype html><title>secret</title>")
     (folder / "en.yaml").write_text(
-        "a.title: Welcome\na.text: Hello {name}\nforms:\n"
+        "title: Welcome\nsubject: Hello {name}\nforms:\n"
         "- {name: consent, title: Consent, text: x, submit: ok, questions: [{name: agree, kind: check, label: I do}]}\n"
     )
     return static, folder / "en.yaml"

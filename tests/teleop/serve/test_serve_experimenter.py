@@ -191,6 +191,7 @@ def test_the_list_of_subjects(http, folder, protocol, station, rng):
     assert about["scenarios"] == [s.label for s in protocol.scenarios]
     assert about["joints"] == list(protocol.arm.joint_names)
     assert about["paused"] is False
+    assert about["plan"]["trials"][1]["target"] == protocol.tasks.target[1].tolist()
     first, *_ = about["subjects"]
     assert (first["kind"], first["state"], first["trials"], first["of"]) == ("simulated", "completed", 12, 12)
     mine = listed(http, code)

@@ -9,11 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import holdfast as hf
+from holdfast.teleop import session
 from holdfast.teleop.entries import Kind, State
 from holdfast.teleop.records import Records
-from holdfast.teleop.serve import messages
+from holdfast.teleop.serve import messages, station
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused
 from holdfast.teleop.serve.station import Entered, Station, enter
+from holdfast.teleop.session import training_tasks
 from holdfast.teleop.trials import End
 
 ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
@@ -37,7 +39,7 @@ class Model:
         last = done["training"][-1] if done["training"] else None
         if not done["trial"] and not (last and last["end"] == "arrived"):  # any arrival within 40 cycles is good enough
             return ("training", len(done["training"])) if len(done["training"]) < 3 else None
-        return ("trial", len(done["trial"])) if len(done["trial"]) < 8 else None
+        return ("trial", len(done["trial"])) if len(done["trial"]) < 4 else None
 
     def take(self, m) -> bool:
         """Whether the message is right; if so it has its effect."""
@@ -127,7 +129,7 @@ def made(model: Model, step):
     seq = max(1, model.seq + 1 + off)
     match kind:
         case "begin":
-            which, position = model.next() or ("trial", 8)
+            which, position = model.next() or ("trial", 4)
             which = {"training": "trial", "trial": "training"}[which] if wrong == 0 else which
             return messages.Begin(type=kind, seq=seq, kind=which, position=position + (wrong == 1))
         case "cycles":
@@ -150,7 +152,13 @@ def made(model: Model, step):
 
 @pytest.fixture(scope="module")
 def shared(protocol, tmp_path_factory):
-    with Records.create(tmp_path_factory.mktemp("station") / "study", protocol) as opened:
+    with (
+        Records.create(tmp_path_factory.mktemp("station") / "study", protocol) as opened,
+        pytest.MonkeyPatch.context() as patch,
+    ):
+        few = training_tasks(opened.protocol, 0)  # for everybody: they take a while, and there are many subjects
+        for module in (session, station):
+            patch.setattr(module, "training_tasks", lambda *_: few)
         yield opened
 
 
@@ -249,12 +257,17 @@ def test_folders_from_before_there_were_pages_open(records):
         assert isinstance(enter(again, hello()), Entered)
 
 
+def part(records):
+    with records.together():
+        records.event("two")
+        records.subject("nobody")
+
+
 def test_a_failed_part_is_undone_and_the_rest_is_kept(records):
     with records.together():
         records.event("one")
-        with pytest.raises(hf.InputError), records.together():
-            records.event("two")
-            records.subject("nobody")
+        with pytest.raises(hf.InputError, match="nobody"):
+            part(records)
         records.event("three")
     assert [e["kind"] for e in records.events()] == ["one", "three"]
     assert records.events("one")[0]["kind"] == "one"

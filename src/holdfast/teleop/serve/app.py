@@ -86,8 +86,12 @@ def prepare(folder: Path, protocol: str | None) -> Protocol:
         return records.protocol
 
 
-def make_app(options: Options) -> ASGIApp:
+def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIApp:
     """The application.
+
+    Args:
+        options: What is served.
+        ready: Is told when stations may come.
 
     Raises:
         StoreError: The built page is missing, or the folder holds no experiment.
@@ -109,6 +113,8 @@ def make_app(options: Options) -> ASGIApp:
         control = Control(options.folder, asyncio.get_running_loop())
         app.state.control = control
         await control.begin()
+        if ready is not None:
+            ready()
         try:
             yield
         finally:
@@ -131,26 +137,26 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
         options: What.
         host: To listen at.
         port: Likewise; 0 for any that is free.
-        ready: Is told the port before the first request.
+        ready: Is told the port when stations may come.
 
     Raises:
         StoreError: The port is taken, or this computer has no such address; and as :func:`make_app`.
     """
-    app = make_app(options)
     with _listening(host, port) as listener:
+        at = listener.getsockname()[1]
+        app = make_app(options, None if ready is None else lambda: ready(at))
         config = uvicorn.Config(
             app,
             loop="asyncio",
             http="h11",
             ws="websockets-sansio",
             ws_max_size=MOST_BYTES,
+            ws_per_message_deflate=False,  # small messages on a near line: packing them takes longer than sending them
             log_level="warning",
             access_log=False,
             server_header=False,
             timeout_graceful_shutdown=5,
         )
-        if ready is not None:
-            ready(listener.getsockname()[1])
         with suppress(KeyboardInterrupt):
             uvicorn.Server(config).run(sockets=[listener])
 

@@ -57,7 +57,7 @@ class Control:
         self._fresh = loop.create_task(self.live.keep_fresh(self.state))
 
     async def begin(self) -> None:
-        """Compile what the first message would wait for, and replay what was not when the server was killed."""
+        """Compile all that a session needs, so that no station waits for it; then replay what was not before a kill."""
         await asyncio.to_thread(training_tasks, self.protocol, 0)
         await self.reader.do(lambda records: records.protocol.plants)
         self.reader.put(_differing, self._flag)
@@ -143,10 +143,11 @@ class Control:
             return
 
         def note(records: Records) -> None:
-            there = {e["trial"] for e in records.events(DIFFERS)}
-            for entry, data in differing:
-                if entry.id not in there:
-                    records.event(DIFFERS, entry.subject, entry.id, None, data)
+            with records.together():
+                there = {e["trial"] for e in records.events(DIFFERS)}
+                for entry, data in differing:
+                    if entry.id not in there:
+                        records.event(DIFFERS, entry.subject, entry.id, None, data)
 
         self.writer.put(note, lambda _: self.changed())
 

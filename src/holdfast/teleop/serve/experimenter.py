@@ -8,7 +8,7 @@ from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Annotated, TypeVar
+from typing import Annotated, Any, TypeVar
 from urllib.parse import urlencode
 
 from pydantic import Field, ValidationError
@@ -20,10 +20,12 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from holdfast.errors import HoldfastError, InputError
 from holdfast.teleop.entries import Who
+from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.serve.apart import apart
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import Guard
 from holdfast.teleop.serve.messages import Code, Message, sentence
+from holdfast.teleop.session import training_tasks
 
 _MISSING = ("refuse", "complete", "mixed")  # see holdfast.teleop.analysis.analyse
 _MOST_BYTES = 64 * 1024  # of what is posted: the longest note fits
@@ -103,6 +105,7 @@ class _Served:
             "station": self._station(request),
             "scenarios": [s.label for s in control.protocol.scenarios],
             "joints": list(control.protocol.arm.joint_names),
+            "plan": await asyncio.to_thread(_plan, control.protocol),
         }
         return JSONResponse(constant | await control.state())
 
@@ -167,6 +170,15 @@ class _Served:
         """A station's address, as the experimenter's browser sees this server."""
         asked = ({} if self._token is None else {"token": self._token}) | query
         return str(request.base_url) + (f"?{urlencode(asked)}" if asked else "")
+
+
+def _plan(protocol: Protocol) -> dict[str, Any]:
+    """Where the arm and the target may be, as a station's plan has it: with the first subject's training."""
+    tasks = {"training": training_tasks(protocol, 0), "trials": protocol.tasks}
+    return {
+        key: [{"q0": q0, "target": target} for q0, target in zip(of.q0.tolist(), of.target.tolist(), strict=True)]
+        for key, of in tasks.items()
+    }
 
 
 async def live(socket: WebSocket) -> None:

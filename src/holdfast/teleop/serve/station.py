@@ -113,7 +113,7 @@ class Station:
             done=messages.Done(
                 training=[records.count(e) if e.end == End.ARRIVED else None for e in training], trials=len(trials)
             ),
-            unrated=latest is not None and latest.kind == Kind.TRIAL and latest.ended is not None and latest.rating is None,
+            unrated=latest is not None and latest.kind == Kind.TRIAL and _finished(latest) and latest.rating is None,
             answered=[key for key in subject.answers if "." not in key],
             paused=paused,
             over=over,
@@ -203,7 +203,7 @@ class Station:
 
     @_apply.register
     def _(self, message: messages.Rate, entry: Entry | None) -> int | None:
-        if entry is None or entry.ended is None or entry.end == End.BROKEN_OFF:
+        if entry is None or not _finished(entry):
             raise InputError("there is no finished trial to rate")
         if entry.rating is not None:
             raise InputError("the trial has its rating already")
@@ -215,6 +215,11 @@ class Station:
         trial = None if entry is None or entry.ended is not None else entry.id
         self.records.event(message.kind, self.code, trial, None, message.data)
         return None
+
+
+def _finished(entry: Entry) -> bool:
+    """Whether a trial is over and stands: one that was broken off is done again."""
+    return entry.ended is not None and entry.end != End.BROKEN_OFF
 
 
 def _under_way(entry: Entry | None) -> Entry:

@@ -1,7 +1,7 @@
 """Threads that own the records: one that writes, one that reads at leisure.
 
-The writer collects the changes that came within a few milliseconds, applies each in a savepoint of its own inside one
-transaction, commits once, and only then answers: what has been answered is on the disk, and one ``fsync`` serves all stations.
+The writer collects the changes that came within a few milliseconds, applies each, by itself, inside one transaction, commits
+once, and only then answers: what has been answered is on the disk, and one ``fsync`` serves all stations.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.teleop.records import Records
 
-_GATHER = 0.003  # s that the first change of a transaction waits for others
+_GATHER = 0.008  # s that the first change of a transaction waits for others
 _MOST = 512  # changes in one transaction
 
 _log = logging.getLogger(__name__)
@@ -52,7 +52,10 @@ class Keeper:
         self.protocol = self._opened.result().protocol
 
     def put(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
-        """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception."""
+        """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception.
+
+        A job that fails must leave nothing half done: jobs of several changes use :meth:`holdfast.teleop.Records.together`.
+        """
         self._jobs.put((job, answer))
 
     async def do(self, job: Callable[[Records], T]) -> T:
@@ -67,7 +70,7 @@ class Keeper:
             else:
                 future.set_result(result)
 
-        self.put(job, answer)
+        self.put(_whole(job) if self._writes else job, answer)
         return await future
 
     def close(self) -> None:
@@ -119,11 +122,18 @@ class Keeper:
             return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)
 
 
+def _whole(job: Callable[[Records], T]) -> Callable[[Records], T]:
+    """A job of which all is done, or nothing."""
+
+    def whole(records: Records) -> T:
+        with records.together():
+            return job(records)
+
+    return whole
+
+
 def _result(job: Callable[[Records], Any], records: Records) -> Any:
     try:
-        if records.writing:
-            with records.together():
-                return job(records)
         return job(records)
     except HoldfastError as error:
         return error

@@ -1,0 +1,202 @@
+"""Who is let in: hosts, origins, token and key; what is handed out; what never is."""
+
+import http.client
+import json
+import socket
+from types import SimpleNamespace
+
+import pytest
+from serve_program import KEY
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+import holdfast as hf
+from holdfast.teleop.serve.app import Options, make_app, prepare
+from holdfast.teleop.serve.guard import Bucket, Guard, check_token
+
+TOKEN = "token-of-the-study"
+
+
+class Asker:
+    """Asks a server, with the headers that it is told."""
+
+    def __init__(self, port):
+        self.port = port
+
+    def ask(self, method, path, headers=None):
+        said = {"Host": f"localhost:{self.port}"} | {k.title(): v for k, v in (headers or {}).items()}
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
+        try:
+            connection.putrequest(method, path, skip_host=True)
+            for name, value in said.items():
+                connection.putheader(name, value)
+            connection.endheaders()
+            answer = connection.getresponse()
+            text = answer.read().decode()
+        finally:
+            connection.close()
+        headers = {k.lower(): v for k, v in answer.getheaders()}
+        return SimpleNamespace(status_code=answer.status, headers=headers, text=text)
+
+    def get(self, path, headers=None):
+        return self.ask("GET", path, headers)
+
+    def post(self, path, headers=None):
+        return self.ask("POST", path, headers)
+
+    def connects(self, path, origin=None):
+        """Whether a WebSocket is let in."""
+        try:
+            with connect(f"ws://localhost:{self.port}{path}", origin=origin, proxy=None):
+                return True
+        except InvalidStatus as error:
+            assert error.response.status_code == 403
+            return False
+
+
+@pytest.fixture(scope="module")
+def served(server, start, tmp_path_factory):
+    """A server for this computer only, and one with a token."""
+    other = start(tmp_path_factory.mktemp("guarded") / "study", TOKEN)
+    return SimpleNamespace(local=Asker(server.port), other=Asker(other.port), folder=server.folder)
+
+
+def test_what_is_handed_out(served, protocol):
+    page = served.local.get("/")
+    assert page.status_code == 200
+    assert page.headers["content-type"].startswith("text/html")
+    policy = page.headers["content-security-policy"]
+    assert "default-src 'self'" in policy
+    assert f"connect-src 'self' ws://localhost:{served.local.port} wss://localhost:{served.local.port}" in policy
+    assert "unsafe" not in policy
+    assert page.headers["x-content-type-options"] == "nosniff"
+    assert page.headers["referrer-policy"] == "no-referrer"
+    assert page.headers["cache-control"] == "no-store"
+    assert served.local.get("/station.js").headers["content-type"].startswith("text/javascript")
+    assert "export function cycle" in served.local.get("/arm.js").text
+    study = json.loads(served.local.get("/study.json").text)
+    assert (study["joints"], study["axes"], study["cycle_limit"]) == (3, 2, 40)
+    assert study["texts"]["title"] == "Welcome"
+    assert KEY not in str(study)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/../pyproject.toml", "/..%2f..%2fetc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/station.js/../index.html", "//etc/passwd",
+        "/static/index.html", "/index.html", "/records.sqlite", "/protocol.yaml", "/station.js%00", "/station.js/", "/.", "/..",
+        "/\\..\\x", "/experimenter.html", "/en.yaml", "/texts/en.yaml", "/file:///etc/passwd", "/STATION.JS",
+    ],
+)  # fmt: skip
+def test_no_path_reaches_the_file_system(server, path):
+    """As it is written, past every client that tidies it up."""
+    request = f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\nConnection: close\r\n\r\n"
+    with socket.create_connection(("127.0.0.1", server.port), timeout=30) as raw:
+        raw.sendall(request.encode())
+        answer = b"".join(iter(lambda: raw.recv(65536), b""))
+    assert answer.split()[1] in (b"404", b"400"), answer[:200]
+    assert b"root:" not in answer
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:8000", "localhost.evil.example", "127.0.0.1.evil.example", "a b", ""]
+)
+def test_other_hosts_are_refused(served, host):
+    assert served.local.get("/", headers={"host": host}).status_code == 403
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "127.0.0.1:8000", "localhost:9", "[::1]:8000"])
+def test_this_computer_has_these_names(served, host):
+    assert served.local.get("/", headers={"host": host}).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "origin", ["http://evil.example", "null", "http://localhost:8001", "https://localhost", "file://", "http://["]
+)
+def test_pages_of_other_hosts_are_refused(served, origin):
+    assert served.local.get("/study.json", headers={"origin": origin}).status_code == 403
+    assert not served.local.connects("/session", origin=origin)
+
+
+def test_the_page_itself_is_let_in(served):
+    assert served.local.connects("/session", origin=f"http://localhost:{served.local.port}")
+    assert served.local.connects("/session")  # no browser
+
+
+def test_a_token_is_asked_for(served):
+    other = served.other
+    for path in ("/", "/study.json", "/arm.js", "/?token=", "/?token=wrong", "/?token=" + TOKEN[:-1], "/?Token=" + TOKEN):
+        answer = other.get(path)
+        assert answer.status_code == 403
+        assert "token is missing or wrong" in answer.text
+        assert TOKEN not in answer.text
+    assert not other.connects("/session")
+    assert not other.connects("/session?token=wrong")
+    assert other.get(f"/study.json?token={TOKEN}").status_code == 200
+    assert other.get(f"/study.json?key={KEY}").status_code == 200
+    assert other.connects(f"/session?token={TOKEN}")
+    answer = other.get(f"/?token={TOKEN}", headers={"host": "lab.example"})
+    cookie = answer.headers["set-cookie"]
+    assert "HttpOnly" in cookie
+    assert "SameSite=Strict" in cookie
+    assert other.get("/study.json", headers={"cookie": cookie.split(";")[0], "host": "lab.example"}).status_code == 200
+    assert other.get("/study.json", headers={"cookie": "holdfast=\x07;;=", "host": "lab.example"}).status_code == 403
+
+
+@pytest.mark.parametrize(
+    "path", ["/experimenter", "/experimenter/subjects.json", "/experimenter?key=wrong", "/experimenter?key="]
+)
+def test_the_experimenter_has_a_key(served, path):
+    for client in (served.local, served.other):
+        answer = client.get(path)
+        assert answer.status_code == 403
+        assert "key is missing or wrong" in answer.text
+    assert not served.local.connects("/live")
+    assert served.other.get(f"/experimenter?token={TOKEN}").status_code == 403
+    assert "set-cookie" not in served.local.get(f"/experimenter?key={KEY}").headers  # a subject may sit there next
+
+
+def test_odd_requests(served):
+    many = "&".join(f"a{k}=1" for k in range(100))
+    assert served.other.get(f"/study.json?{many}&token={TOKEN}").status_code == 403
+    assert served.local.post("/study.json").status_code == 405
+    assert served.local.get("/session").status_code == 404
+    assert served.local.post("/", headers={"sec-fetch-site": "cross-site"}).status_code == 403
+
+
+def test_tokens_that_can_be_guessed_are_refused():
+    check_token("0123456789ab")
+    for token in ("", "short", "with space here", "a/b/c/d/e/f/g/h", "x" * 129, "äöüäöüäöüäöüäöü"):
+        with pytest.raises(hf.InputError, match="token"):
+            check_token(token)
+
+
+def test_keys_are_made_anew():
+    assert Guard().key != Guard().key
+    assert len(Guard().key) >= 24
+
+
+def test_bucket():
+    now = [0.0]
+    bucket = Bucket(rate=10, burst=5, clock=lambda: now[0])
+    assert [bucket.wait() for _ in range(5)] == [0.0] * 5
+    assert bucket.wait() == pytest.approx(0.1)
+    now[0] = 100.0
+    assert [bucket.wait() for _ in range(5)] == [0.0] * 5
+    assert bucket.wait() > 0
+
+
+def test_an_experiment_is_begun_or_opened(protocol, tmp_path):
+    file = protocol.write(tmp_path / "p.yaml")
+    assert prepare(tmp_path / "study", str(file)).text() == protocol.text()
+    assert prepare(tmp_path / "study", None).text() == protocol.text()
+    assert prepare(tmp_path / "study", str(file)).text() == protocol.text()
+    with pytest.raises(hf.InputError, match="another protocol"):
+        prepare(tmp_path / "study", "goel2003")
+    with pytest.raises(hf.StoreError, match="not an empty folder"):
+        prepare(tmp_path, None)
+
+
+def test_a_missing_page_is_one_sentence(built, served, tmp_path):
+    with pytest.raises(hf.StoreError, match="the built page is not in this installation"):
+        make_app(Options(served.folder, static=tmp_path, english=built[1]))

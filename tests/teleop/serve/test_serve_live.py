@@ -1,0 +1,209 @@
+"""What the experimenter sees and does: the hub, and the hands on the sessions."""
+
+import asyncio
+import json
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.teleop.entries import State
+from holdfast.teleop.records import Records
+from holdfast.teleop.serve import messages
+from holdfast.teleop.serve.control import Control
+from holdfast.teleop.serve.live import Live
+from holdfast.teleop.serve.messages import Ack, Bye, Hello, Pause, Welcome
+
+
+class Page:
+    """A page without a socket."""
+
+    def __init__(self):
+        self.code, self.said = None, []
+
+    def answered(self, reply):
+        self.said.append(reply)
+
+    def pause(self, paused):
+        self.said.append(Pause(paused=paused))
+
+    def bye(self, reason):
+        self.said.append(Bye(reason=reason))
+
+
+def hello(**change):
+    return Hello(**{"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"} | change)
+
+
+async def settled(control):
+    """Everything that was given to the threads so far is done."""
+    for keeper in (control.writer, control.reader, control.writer):
+        await keeper.do(lambda _: None)
+
+
+def test_slow_watchers_drop_old_messages_and_nobody_waits():
+    async def scene():
+        now = [0.0]
+        live = Live(clock=lambda: now[0])
+        live.publish({"n": -1})  # nobody watches: nothing is kept
+        slow, quick = live.watch(), live.watch()
+        first = [asyncio.ensure_future(anext(w)) for w in (slow, quick)]
+        await asyncio.sleep(0)
+        assert live.watched
+        live.publish({"n": 0})
+        assert [await f for f in first] == [{"n": 0}] * 2
+        got = []
+        for n in range(1, 200):
+            live.publish({"n": n})
+            got.append((await anext(quick))["n"])
+        assert got == list(range(1, 200))
+        assert (await anext(slow))["n"] == 200 - 64
+        await slow.aclose()
+        for n in range(30):  # 10 ms apart: at most 15 a second of one topic pass
+            now[0] += 0.01
+            live.publish({"n": n}, topic="P1")
+        live.publish({"n": "other"}, topic="P2")
+        passed = []
+        while not passed or passed[-1] != "other":
+            passed.append((await anext(quick))["n"])
+        assert 4 <= len(passed[:-1]) <= 5
+        await quick.aclose()
+        assert not live.watched
+
+    asyncio.run(scene())
+
+
+@pytest.fixture
+def study(records):
+    records.close()
+    return records.folder
+
+
+def test_the_experimenter_watches_and_acts(study):
+    async def scene():
+        control = Control(study, asyncio.get_running_loop())
+        try:
+            watch = control.live.watch()
+            news = asyncio.ensure_future(anext(watch))
+            await asyncio.sleep(0)
+            one, two = Page(), Page()
+            welcome = await control.enter(one, hello(code="P1"))
+            assert isinstance(welcome, Welcome)
+            await control.enter(two, hello(code="P2"))
+            control.take(one, messages.Begin(type="begin", seq=1, kind="training", position=0))
+            q0 = welcome.plan.training[0].q0
+            cycle = {"first": 0, "time": [0.0], "velocity": [[0.01, 0.0]], "q": [q0]}
+            control.take(one, messages.Cycles(type="cycles", seq=2, **cycle))
+            await settled(control)
+            assert one.said == [Ack(seq=1), Ack(seq=2)]
+            told = [await news]
+            while {m["type"] for m in told} != {"cycle", "subjects"}:
+                told.append(await anext(watch))
+            shown = next(m for m in told if m["type"] == "cycle")
+            assert (shown["subject"], shown["kind"], shown["position"], shown["q"]) == ("P1", "training", 0, q0)
+            assert shown["healthy"] == [1, 1, 1]
+            json.dumps(told, allow_nan=False)
+
+            await control.pause("P1", True)
+            assert (one.said[-1], two.said) == (Pause(paused=True), [])
+            await control.pause(None, True)
+            assert (one.said[-1], two.said) == (Pause(paused=True), [Pause(paused=True)])
+            rows = {r["subject"]: r for r in await control.subjects()}
+            assert rows["P1"]["connected"]
+            assert rows["P2"]["paused"]
+            assert (rows["P1"]["training"], rows["P1"]["of"]) == (0, 4)
+            await control.pause(None, False)
+            assert two.said[-1] == one.said[-1] == Pause(paused=False)
+            await control.note("P1", "left-handed")
+
+            key = await control.new_key("P1")  # another page takes over
+            assert isinstance(one.said[-1], Bye)
+            assert isinstance(await control.enter(Page(), hello(session=welcome.session)), Bye)
+            third = Page()
+            again = await control.enter(third, hello(session=key))
+            assert (again.seq, again.paused, again.subject) == (2, False, "P1")
+            fourth = Page()
+            await control.enter(fourth, hello(session=key))
+            assert "another page" in third.said[-1].reason
+            control.leave(third)  # it is gone, and does not hold the session any more
+            await control.drop("P1")
+            assert "ended by the experimenter" in fourth.said[-1].reason
+            for act in (control.note("X", ""), control.drop("X"), control.new_key("X"), control.pause("X", True)):
+                with pytest.raises(hf.InputError, match="no subject X"):
+                    await act
+            with pytest.raises(hf.InputError, match="cannot go on"):
+                await control.new_key("P1")
+            with pytest.raises(hf.InputError, match="10,000"):
+                await control.note("P2", "x" * 10_001)
+            await watch.aclose()
+        finally:
+            await asyncio.to_thread(control.close)
+
+    asyncio.run(scene())
+    with Records.open(study) as records:
+        assert records.subject("P1").state == State.DROPPED
+        assert records.subject("P1").note == "left-handed"
+        kinds = [e["kind"] for e in records.events()]
+        assert kinds == ["paused", "paused", "goes on"]
+
+
+def test_what_was_not_replayed_before_a_kill_is_replayed_after(study, protocol):
+    from holdfast.teleop.serve.station import Station, enter
+    from holdfast.teleop.trials import End
+
+    with Records.open(study) as records:
+        code = enter(records, hello()).code
+        station = Station(records, code)
+        q0 = station.welcome("x" * 20, False).plan.training[0].q0
+        station.take(messages.Begin(type="begin", seq=1, kind="training", position=0))
+        still = {"time": [0.0, 0.1], "velocity": [[0.03, 0.0]] * 2, "q": [q0, q0]}
+        station.take(messages.Cycles(type="cycles", seq=2, first=0, **still))
+        station.take(messages.EndMessage(type="end", seq=3, end="aborted", q=q0))
+
+    async def scene():
+        control = Control(study, asyncio.get_running_loop())
+        await control.begin()
+        await settled(control)
+        rows = await control.subjects()
+        await asyncio.to_thread(control.close)
+        return rows
+
+    for _ in range(2):  # and flagged once
+        assert [r["differing"] for r in asyncio.run(scene())] == [1]
+    with Records.open(study) as records:
+        (event,) = records.events("replay differs")
+        (entry,) = records.entries(code)
+        assert entry.end == End.ABORTED
+        plant = records.protocol.plants[0]
+        q1, _ = plant.cycle(entry.q0, np.array([0.03, 0.0]), np.ones(3))
+        q2, _ = plant.cycle(q1, np.array([0.03, 0.0]), np.ones(3))
+        worst = np.abs(np.stack([q1, q2]) - entry.q0).max()
+        assert event["data"] == {"difference": pytest.approx(worst), "outside": False}
+        assert event["trial"] == entry.id
+
+
+def test_a_disk_that_is_full_stops_nobody_for_good(study):
+    async def scene():
+        control = Control(study, asyncio.get_running_loop())
+        page = Page()
+        try:
+            await control.enter(page, hello())
+            pages = await control.writer.do(lambda r: r._db.execute("PRAGMA page_count").fetchone()[0])
+            control.writer.put(lambda r: r._db.execute(f"PRAGMA max_page_count = {pages}"), lambda _: None)
+            for k in range(200):
+                data = {f"k{i}": "x" * 3000 for i in range(9)}
+                control.take(page, messages.EventMessage(type="event", seq=k + 1, kind="x", data=data))
+            await settled(control)
+            broken = next(i for i, r in enumerate(page.said) if isinstance(r, hf.StoreError))
+            assert "cannot be written" in str(page.said[broken])
+            control.writer.put(lambda r: r._db.execute("PRAGMA max_page_count = 1000000"), lambda _: None)
+            await control.writer.do(lambda _: None)
+            last = await control.writer.do(lambda r: r.last_seq(page.code))
+            assert all(not isinstance(r, Ack) or r.seq <= last for r in page.said)
+            control.take(page, messages.EventMessage(type="event", seq=last + 1, kind="y", data={}))
+            await settled(control)
+            assert page.said[-1] == Ack(seq=last + 1)
+        finally:
+            await asyncio.to_thread(control.close)
+
+    asyncio.run(scene())
