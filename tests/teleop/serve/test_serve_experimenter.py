@@ -9,7 +9,7 @@ import sys
 import urllib.error
 import urllib.request
 import zipfile
-from dataclasses import replace
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import parse_qs
 
@@ -23,14 +23,13 @@ from websockets.sync.client import connect
 
 from conftest import PROGRAM, dump
 from holdfast.errors import HoldfastError, InputError
+from holdfast.teleop import tables
 from holdfast.teleop.entries import Kind, State, Who
-from holdfast.teleop.experiment import simulate_experiment
-from holdfast.teleop.protocol import read
 from holdfast.teleop.records import Records
 from holdfast.teleop.serve import apart, experimenter
 from holdfast.teleop.serve.app import STATIC
 from holdfast.teleop.serve.texts import ENGLISH
-from holdfast.teleop.tables import export
+from holdfast.teleop.trials import End
 
 TOKEN = "token-of-stations"
 GETS = ("", "/subjects.json", "/export.zip", "/report")
@@ -44,17 +43,23 @@ _open = urllib.request.build_opener(urllib.request.ProxyHandler({})).open
 
 
 @pytest.fixture(scope="module")
-def protocol():
-    whole = read()
-    few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
-    return replace(few, training=replace(whole.training, at_least=1, in_a_row=1, most=4, distance=0.5), subjects=4)
-
-
-@pytest.fixture(scope="module")
 def folder(protocol, tmp_path_factory):
+    """An experiment with one simulated subject who is done."""
     made = tmp_path_factory.mktemp("made") / "study"
-    simulate_experiment(made, protocol, 2, seed=3).close()
+    with Records.create(made, protocol) as records:
+        give_up(records, records.add_subject(kind=Who.SIMULATED))
+        records.set_state("S01", State.COMPLETED)
     return made
+
+
+def give_up(records, subject):
+    """Let a subject abort every trial at once."""
+    protocol = records.protocol
+    for position, (task, scenario) in enumerate(protocol.session(subject.row, subject.number).tolist()):
+        tasks = protocol.tasks.take(np.array([task]))
+        number = records.begin_trial(subject.code, Kind.TRIAL, position, scenario, tasks, task)
+        records.finish(number, End.ABORTED, tasks.q0[0])
+        records.rate(number, 1)
 
 
 @pytest.fixture(scope="module")
@@ -193,7 +198,8 @@ def test_the_list_of_subjects(http, folder, protocol, station, rng):
     assert about["paused"] is False
     assert about["plan"]["trials"][1]["target"] == protocol.tasks.target[1].tolist()
     first, *_ = about["subjects"]
-    assert (first["kind"], first["state"], first["trials"], first["of"]) == ("simulated", "completed", 12, 12)
+    whole = len(protocol.tasks) * len(protocol.scenarios)
+    assert (first["kind"], first["state"], first["trials"], first["of"]) == ("simulated", "completed", whole, whole)
     mine = listed(http, code)
     shown = [mine[key] for key in ("training", "trials", "connected", "paused", "differing", "note", "row")]
     with Records.open(folder) as records:
@@ -311,7 +317,7 @@ def test_the_export_is_that_of_the_records(http, folder, station, rng, tmp_path)
     assert status == 200
     assert headers["content-disposition"] == 'attachment; filename="study.zip"'
     with Records.open(folder) as records:
-        files = export(records, tmp_path)
+        files = tables.export(records, tmp_path)
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         assert archive.testzip() is None
         assert {Path(n) for n in archive.namelist()} == {Path("study") / f.name for f in files}
@@ -363,34 +369,37 @@ def test_a_report_that_cannot_be_made_is_a_sentence(http, folder, tmp_path, prot
 
 
 def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkeypatch):
-    """And of simulated subjects where there are no others, which the whole is then marked with."""
-    from holdfast.teleop.analysis import Analysis
+    """And of simulated subjects where there are no others; of those who dropped out it never is."""
+    from holdfast.teleop import analysis, results
 
-    written = []
-    monkeypatch.setattr(Analysis, "write", lambda self, *_: written.append(self))
+    @dataclass
+    class Result:
+        subjects: list[str]
+        notes: tuple[str, ...] = ("a note",)
+
+        def write(self, out, protocol, paths):
+            written.append(self)
+
+    written: list[Result] = []
+    monkeypatch.setattr(analysis, "analyse", lambda table, *_, **options: Result(sorted(set(table["subject"]))))
+    monkeypatch.setattr(results, "computer_table", lambda _: None)
+    monkeypatch.setattr(tables, "hand_paths", lambda _: None)
     monkeypatch.setattr(apart.os, "nice", lambda _: 0)
     study = tmp_path / "study"
     shutil.copytree(folder, study)
+    with Records.open(study) as records:
+        programs = [s.code for s in records.subjects() if records.progress().get((s.code, Kind.TRIAL))]
     assert apart._main("report", str(study), str(tmp_path), "refuse") == 0
     with Records.open(study) as records:
-        programs = records.subjects()[:2]
-        for k, program in enumerate(programs):
-            copied(records, program.code, records.add_subject(f"P{k}", Who.PERSON).code)
+        for code in ("P1", "P2", "P3"):
+            give_up(records, records.add_subject(code, Who.PERSON))
+        records.set_state("P3", State.DROPPED)
     assert apart._main("report", str(study), str(tmp_path), "refuse") == 0
-    simulated, people = written
-    assert (simulated.who, people.who) == ("2 simulated subjects", "2 subjects")
-    np.testing.assert_array_equal(people.cells.values, simulated.cells.values)
-    assert f"simulated, and not part of any number: {programs[0].code}, {programs[1].code}" in people.notes
-
-
-def copied(records, code, other):
-    """Let another subject have done the same."""
-    for entry in records.entries(code, Kind.TRIAL):
-        trials = records.trials([entry])
-        number = records.begin_trial(other, Kind.TRIAL, entry.position, entry.scenario, records.tasks([entry]), entry.task)
-        records.append(number, 0, records.times(entry), trials.velocity, trials.q)
-        records.finish(number, entry.end, trials.q_end[0])
-        records.rate(number, entry.rating)
+    assert [r.subjects for r in written] == [programs, ["P1", "P2"]]
+    dropped, simulated = written[1].notes[1:]
+    assert dropped.startswith("dropped out, and not part of any number: ")
+    assert "P3" in dropped
+    assert simulated == f"simulated, and not part of any number: {', '.join(programs)}"
 
 
 def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
