@@ -37,6 +37,7 @@ async function main(): Promise<void> {
 main().catch((error: unknown) => {
   const line = document.createElement("p");
   line.className = "failure";
-  line.textContent = `This page cannot start: ${error instanceof Error ? error.message : String(error)}. Reload it, or ask the experimenter.`;
+  const reason = error instanceof Error ? error.message : String(error);
+  line.textContent = `This page cannot start: ${reason}. Reload it, or ask the experimenter.`;
   document.getElementById("app")?.append(line);
 });

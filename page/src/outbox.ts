@@ -3,7 +3,15 @@
  * once keeps its number and its content, so that it can be sent again after a lost connection and be told apart.
  */
 
-import { MOST_CYCLES, type AnswersMessage, type Begin, type Cycles, type EndMessage, type EventMessage, type Rate } from "./messages";
+import {
+  MOST_CYCLES,
+  type AnswersMessage,
+  type Begin,
+  type Cycles,
+  type EndMessage,
+  type EventMessage,
+  type Rate,
+} from "./messages";
 
 export type Numbered = AnswersMessage | Begin | Cycles | EndMessage | EventMessage | Rate;
 type Unnumbered<M> = M extends Numbered ? Omit<M, "seq"> : never;

@@ -75,17 +75,23 @@ class Session {
       this.early = onDecline;
       station.event("declined", { form: name });
     };
-    return this.when(() => form !== undefined && this.early === null && !station.progress.answered.has(name), [this.screen(show)]);
+    return this.when(
+      () => form !== undefined && this.early === null && !station.progress.answered.has(name),
+      [this.screen(show)],
+    );
   }
 
   private instructions(): Node {
     const { station } = this;
-    return this.when(() => this.untouched, [
-      this.screen((e) => {
-        station.frame.progress(station.texts.get("instructions_1_title"));
-        return showInstructions(e, station);
-      }),
-    ]);
+    return this.when(
+      () => this.untouched,
+      [
+        this.screen((e) => {
+          station.frame.progress(station.texts.get("instructions_1_title"));
+          return showInstructions(e, station);
+        }),
+      ],
+    );
   }
 
   /** On training tasks from the end of the plan, which hardly anybody gets to; nothing is recorded. */
@@ -111,24 +117,33 @@ class Session {
 
   private training(): Node {
     const { station } = this;
-    const intro = this.when(() => station.progress.training.length === 0, [
-      this.screen((e) => this.page(e, "training_intro", [this.choice("training-begin", "go_on")])),
-    ]);
-    const task = this.task(() => this.trainingTask(), (o) => this.trainingDone(o));
+    const intro = this.when(
+      () => station.progress.training.length === 0,
+      [this.screen((e) => this.page(e, "training_intro", [this.choice("training-begin", "go_on")]))],
+    );
+    const task = this.task(
+      () => this.trainingTask(),
+      (o) => this.trainingDone(o),
+    );
     const loop = { timeline: [task], loop_function: () => !this.isTrained && this.early === null };
     return this.when(() => !this.isTrained && this.early === null, [intro, loop]);
   }
 
   private trials(): Node {
     const { station } = this;
-    const intro = this.when(() => station.progress.trials === 0, [
-      this.screen((e) => this.page(e, "trials_intro", [this.choice("trials-begin", "go_on")])),
-    ]);
+    const intro = this.when(
+      () => station.progress.trials === 0,
+      [this.screen((e) => this.page(e, "trials_intro", [this.choice("trials-begin", "go_on")]))],
+    );
     const pending = this.when(() => station.progress.unrated, [this.rating()]);
-    const task = this.task(() => this.trialTask(), (o) => this.trialDone(o));
-    const rest = this.when(() => this.more && station.progress.trials % BREAK_EVERY === 0, [
-      this.screen((e) => this.page(e, "break", [this.choice("break-over", "break_over")])),
-    ]);
+    const task = this.task(
+      () => this.trialTask(),
+      (o) => this.trialDone(o),
+    );
+    const rest = this.when(
+      () => this.more && station.progress.trials % BREAK_EVERY === 0,
+      [this.screen((e) => this.page(e, "break", [this.choice("break-over", "break_over")]))],
+    );
     const loop = { timeline: [task, this.rating(), rest], loop_function: () => this.more };
     return this.when(() => this.early === null, [pending, this.when(() => this.more, [intro, loop])]);
   }
@@ -152,7 +167,13 @@ class Session {
     const { plan, texts, study } = this.station;
     const { q0, target, joint } = plan.training[plan.training.length - 1 - (this.practised % plan.training.length)];
     const law = study.law_of[study.training_scenario];
-    return { title: texts.get("practice_progress"), task: { law, q0, target, joint }, record: null, hints: true, note: "" };
+    return {
+      title: texts.get("practice_progress"),
+      task: { law, q0, target, joint },
+      record: null,
+      hints: true,
+      note: "",
+    };
   }
 
   private trainingTask(): TrialSpec {
@@ -166,14 +187,21 @@ class Session {
       at_least: study.training.at_least,
     });
     const law = study.law_of[study.training_scenario];
-    return { title, task: { law, q0, target, joint }, record: { kind: "training", position }, hints: false, note: this.note };
+    return {
+      title,
+      task: { law, q0, target, joint },
+      record: { kind: "training", position },
+      hints: false,
+      note: this.note,
+    };
   }
 
   private trainingDone({ end, cycles }: Outcome): void {
     const { progress, study, texts } = this.station;
     progress.training.push(end === "arrived" ? cycles : null);
     const seconds = (c: number): string => (c / study.rate).toFixed(1);
-    const key = end !== "arrived" ? "training_missed" : cycles <= study.training.limit ? "training_good" : "training_slow";
+    const key =
+      end !== "arrived" ? "training_missed" : cycles <= study.training.limit ? "training_good" : "training_slow";
     this.note = texts.get(key, { seconds: seconds(cycles), limit: seconds(study.training.limit) });
     if (!this.isTrained && progress.training.length >= study.training.most) this.early = "untrained";
   }
@@ -183,7 +211,13 @@ class Session {
     const position = progress.trials;
     const { scenario, q0, target, joint } = plan.trials[position];
     const title = texts.get("trial_progress", { number: position + 1, count: plan.trials.length });
-    return { title, task: { law: study.law_of[scenario], q0, target, joint }, record: { kind: "trial", position }, hints: false, note: "" };
+    return {
+      title,
+      task: { law: study.law_of[scenario], q0, target, joint },
+      record: { kind: "trial", position },
+      hints: false,
+      note: "",
+    };
   }
 
   private trialDone(outcome: Outcome): void {

@@ -34,7 +34,9 @@ test("cycles that were never sent join one message; sent ones never change", () 
   const copy = JSON.stringify(box.due());
   box.push(cycle(301));
   expect(box.connected(1)).toBe(true);
-  expect(JSON.stringify(box.due().slice(0, 2))).toBe(JSON.stringify(JSON.parse(copy).filter((m: { seq: number }) => m.seq > 1)));
+  expect(JSON.stringify(box.due().slice(0, 2))).toBe(
+    JSON.stringify(JSON.parse(copy).filter((m: { seq: number }) => m.seq > 1)),
+  );
 });
 
 test("cycles do not join over a gap or over another message", () => {

@@ -23,7 +23,13 @@ test("the server's reasons become sentences", () => {
 });
 
 test("a view from the side shows x to the right and z upwards", () => {
-  const side = { label: "x, z", rows: [[1, 0, 0], [0, 0, 1]] as [number[], number[]] };
+  const side = {
+    label: "x, z",
+    rows: [
+      [1, 0, 0],
+      [0, 0, 1],
+    ] as [number[], number[]],
+  };
   expect(point(side, [9, 9, 9, 1, 2, 3], 3)).toEqual([1, 3]);
   expect(task(side, [1, 2, 3])).toEqual([1, 3]);
   expect(task(side, [1, 2])).toEqual([1, 2]);

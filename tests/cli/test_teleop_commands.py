@@ -223,7 +223,7 @@ def test_allocation_is_that_of_the_sessions(cli, tiny, tmp_path):
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (["run", "--out", "new"], "comes with the browser page"),
+        (["run", "--out", "new"], "take part in a browser"),
         (["run", "--simulated"], "--out"),
         (["run", "--simulated", "--operators", "0", "--out", "new"], "operators"),
         (["run", "--simulated", "--out", "new", "--protocol", "none.yaml"], "none.yaml"),
@@ -235,7 +235,7 @@ def test_allocation_is_that_of_the_sessions(cli, tiny, tmp_path):
         (["allocation", "none.yaml"], "none.yaml"),
         (["allocation", "--subjects", "0"], "subjects"),
         (["allocation", "--out", "none/sheet.html"], "cannot write"),
-        (["serve"], "serve"),
+        (["serve"], "--data"),
     ],
     ids=lambda v: " ".join(v) if isinstance(v, list) else "",
 )

@@ -5,7 +5,9 @@ import type { Device } from "./device";
 
 /** The gamepads that are there. A browser shows none before one of its buttons is pressed. */
 export function pads(): Gamepad[] {
-  return navigator.getGamepads().filter((pad): pad is Gamepad => pad !== null && pad.connected && pad.axes.length >= 2);
+  // Some browsers have no gamepads at all on a page that came without TLS from another computer.
+  const all = "getGamepads" in navigator ? navigator.getGamepads() : [];
+  return all.filter((pad): pad is Gamepad => pad !== null && pad.connected && pad.axes.length >= 2);
 }
 
 export class Pad implements Device {
@@ -45,7 +47,8 @@ export class Pad implements Device {
   }
 
   about(): Record<string, string | number> {
-    const of = (a: Calibration["axes"][number]): string => `${a.axis}: ${a.centre.toFixed(4)} ${a.range.toFixed(4)} ${a.noise.toFixed(4)}`;
+    const of = (a: Calibration["axes"][number]): string =>
+      `${a.axis}: ${a.centre.toFixed(4)} ${a.range.toFixed(4)} ${a.noise.toFixed(4)}`;
     const axes = Object.fromEntries(this.calibration.axes.map((a, i) => [`axis${i + 1}`, of(a)]));
     return { device: this.kind, id: this.id.slice(0, 200), ...axes };
   }

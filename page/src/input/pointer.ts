@@ -28,7 +28,8 @@ export class Pointer implements Device {
       { signal },
     );
     surface.addEventListener("pointermove", (event) => this.drawn.has(surface) && draw(event), { signal });
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) surface.addEventListener(name, letGo, { signal });
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
+      surface.addEventListener(name, letGo, { signal });
   }
 
   read(out: Float64Array): void {

@@ -68,7 +68,12 @@ export class Robot implements Device {
     const before = this.seen[Math.max(0, Math.round(then - LOOK_BACK * this.rate))];
     const toGo = now.map((v, i) => target[i] - v);
     const distance = norm(toGo);
-    this.reconsider(cycle, then, norm(now.map((v, i) => v - before[i])), distance - norm(before.map((v, i) => target[i] - v)));
+    this.reconsider(
+      cycle,
+      then,
+      norm(now.map((v, i) => v - before[i])),
+      distance - norm(before.map((v, i) => target[i] - v)),
+    );
     this.stopped = distance < (this.stopped ? STARTS_AGAIN : STOPS) * this.radius;
     const size = this.stopped ? 0 : Math.min(1, distance / Math.max(SLOWING * this.rate, 1) / this.limit);
     const aim = toGo.map((v) => (size * v) / Math.max(distance, 1e-12));

@@ -81,9 +81,17 @@ function field(q: Question, station: Station): Field {
 
 function choice(q: Question, station: Station): Field {
   const inputs = (q.options ?? []).map((o) =>
-    h("input", { type: "radio", name: q.name, value: o.value, id: `${q.name}-${o.value}`, "data-testid": `${q.name}-${o.value}` }),
+    h("input", {
+      type: "radio",
+      name: q.name,
+      value: o.value,
+      id: `${q.name}-${o.value}`,
+      "data-testid": `${q.name}-${o.value}`,
+    }),
   );
-  const options = (q.options ?? []).map((o, i) => h("label", { class: "option", for: inputs[i].id }, inputs[i], h("span", {}, o.label)));
+  const options = (q.options ?? []).map((o, i) =>
+    h("label", { class: "option", for: inputs[i].id }, inputs[i], h("span", {}, o.label)),
+  );
   return {
     question: q,
     element: group(q, station, h("div", { class: "options" }, ...options)),
@@ -125,7 +133,13 @@ function scale(q: Question, station: Station): Field {
   // A slider says nothing before it was moved, or clicked where it stands.
   for (const name of ["input", "pointerup", "keydown"]) {
     input.addEventListener(name, (event) => {
-      if (!(event instanceof KeyboardEvent) || event.key === " " || event.key === "Enter" || event.key.startsWith("Arrow")) touch();
+      if (
+        !(event instanceof KeyboardEvent) ||
+        event.key === " " ||
+        event.key === "Enter" ||
+        event.key.startsWith("Arrow")
+      )
+        touch();
     });
   }
   const ends = h("div", { class: "ends" }, h("span", {}, q.low), h("span", {}, q.high));
@@ -142,7 +156,14 @@ function scale(q: Question, station: Station): Field {
 
 function entry(q: Question, station: Station): Field {
   const number = q.kind === "number";
-  const input = h("input", { type: number ? "number" : "text", id: q.name, "data-testid": q.name, min: q.from, max: q.to, maxlength: 200 });
+  const input = h("input", {
+    type: number ? "number" : "text",
+    id: q.name,
+    "data-testid": q.name,
+    min: q.from,
+    max: q.to,
+    maxlength: 200,
+  });
   const [from, to] = [q.from ?? -Infinity, q.to ?? Infinity];
   return {
     question: q,
@@ -152,7 +173,8 @@ function entry(q: Question, station: Station): Field {
       const value = input.valueAsNumber;
       return value >= from && value <= to ? value : null;
     },
-    fill: (chance) => void (input.value = number ? String(Math.round((q.from ?? 0) + chance * ((q.to ?? 100) - (q.from ?? 0)))) : "-"),
+    fill: (chance) =>
+      void (input.value = number ? String(Math.round((q.from ?? 0) + chance * ((q.to ?? 100) - (q.from ?? 0)))) : "-"),
   };
 }
 

@@ -8,7 +8,12 @@ export class Frame {
   readonly stage = h("main", { id: "stage", "data-testid": "stage" });
   private readonly where = h("span", { class: "where", "data-testid": "progress" });
   private readonly who = h("span", { class: "who", "data-testid": "subject" });
-  private readonly line = h("span", { class: "line", role: "status", "data-testid": "connection", "data-online": "none" });
+  private readonly line = h("span", {
+    class: "line",
+    role: "status",
+    "data-testid": "connection",
+    "data-online": "none",
+  });
   private readonly cover = h("div", { class: "cover", role: "alertdialog", "aria-live": "assertive", hidden: true });
   private paused = false;
   private busy = false;
@@ -71,7 +76,9 @@ export class Frame {
   }
 
   private show(testid: string, title: string, text: string): void {
-    this.cover.replaceChildren(h("div", { class: "card", "data-testid": testid }, h("h1", {}, title), ...paragraphs(text)));
+    this.cover.replaceChildren(
+      h("div", { class: "card", "data-testid": testid }, h("h1", {}, title), ...paragraphs(text)),
+    );
     this.cover.hidden = false;
     this.stage.inert = true;
   }

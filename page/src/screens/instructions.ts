@@ -11,7 +11,10 @@ const EXAMPLE = 0.7;
 export async function showInstructions(element: HTMLElement, station: Station): Promise<void> {
   const { texts, plan, arm, device } = station;
   const next = [{ testid: "instructions-next", label: texts.get("go_on") }];
-  const values = { start: texts.get(`start_${device?.kind ?? "keys"}`), steer: texts.get(`steer_${device?.kind ?? "keys"}`) };
+  const values = {
+    start: texts.get(`start_${device?.kind ?? "keys"}`),
+    steer: texts.get(`steer_${device?.kind ?? "keys"}`),
+  };
   const views = station.study.views.length;
   const page = (part: number, more: string[], figure?: HTMLElement): Promise<string> =>
     showPage(element, station, {
@@ -38,7 +41,10 @@ export async function showInstructions(element: HTMLElement, station: Station): 
     if (shown) requestAnimationFrame(draw);
   };
   requestAnimationFrame(draw);
-  const more = [...(station.study.reach === null ? [] : ["instructions_reach"]), ...(views > 1 ? ["instructions_views"] : [])];
+  const more = [
+    ...(station.study.reach === null ? [] : ["instructions_reach"]),
+    ...(views > 1 ? ["instructions_views"] : []),
+  ];
   await page(1, more, h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements));
   shown = false;
   await page(2, []);

@@ -8,7 +8,14 @@ import { sentence } from "../texts";
 export function showJoin(element: HTMLElement, station: Station): Promise<void> {
   const { texts } = station;
   return new Promise((resolve) => {
-    const code = h("input", { id: "code", "data-testid": "code", maxlength: 40, autocomplete: "off", spellcheck: false, pattern: "[A-Za-z0-9][A-Za-z0-9_-]*" });
+    const code = h("input", {
+      id: "code",
+      "data-testid": "code",
+      maxlength: 40,
+      autocomplete: "off",
+      spellcheck: "false",
+      pattern: "[A-Za-z0-9][A-Za-z0-9_-]*",
+    });
     const complaint = h("p", { class: "complaint", role: "alert", "data-testid": "join-refused" });
     const join = (): void => {
       const wanted = station.resumable ? null : code.value.trim() || null;
@@ -29,9 +36,18 @@ export function showJoin(element: HTMLElement, station: Station): Promise<void> 
       const back = station.resumable;
       const name = station.storage.kept?.subject ?? "";
       buttons = back
-        ? [button("continue", texts.get("join_continue"), join), button("new-subject", texts.get("join_other"), other, "second")]
+        ? [
+            button("continue", texts.get("join_continue"), join),
+            button("new-subject", texts.get("join_other"), other, "second"),
+          ]
         : [button("join", texts.get("join_begin"), join)];
-      const entry = h("div", { class: "question" }, h("label", { for: "code" }, texts.get("join_code")), code, h("p", { class: "help" }, texts.get("join_code_help")));
+      const entry = h(
+        "div",
+        { class: "question" },
+        h("label", { for: "code" }, texts.get("join_code")),
+        code,
+        h("p", { class: "help" }, texts.get("join_code_help")),
+      );
       const body = h(
         "form",
         { class: "card", "data-testid": "join-screen" },

@@ -23,7 +23,9 @@ export interface Page {
 /** @returns which choice was made */
 export function showPage(element: HTMLElement, station: Station, page: Page): Promise<string> {
   return new Promise((resolve) => {
-    const buttons = page.choices.map((c, i) => button(c.testid, c.label, () => resolve(c.testid), i ? "second" : "primary"));
+    const buttons = page.choices.map((c, i) =>
+      button(c.testid, c.label, () => resolve(c.testid), i ? "second" : "primary"),
+    );
     const card = h(
       "section",
       { class: page.figure ? "card wide with-figure" : "card", "data-testid": page.testid },

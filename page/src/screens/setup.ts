@@ -43,7 +43,13 @@ class Setup {
     this.deflection = new Float64Array(arm.axes);
     this.command = new Float64Array(arm.axes);
     this.inputs = KINDS.map((kind) => {
-      const input = h("input", { type: "radio", name: "device", value: kind, id: `device-${kind}`, "data-testid": `device-${kind}` });
+      const input = h("input", {
+        type: "radio",
+        name: "device",
+        value: kind,
+        id: `device-${kind}`,
+        "data-testid": `device-${kind}`,
+      });
       input.addEventListener("change", () => {
         this.chosen = true;
         this.choose(kind);
@@ -61,7 +67,13 @@ class Setup {
         "label",
         { class: "option", for: `device-${kind}` },
         this.inputs[i],
-        h("span", {}, h("b", {}, texts.get(`device_${kind}`)), h("small", {}, texts.get(`device_${kind}_help`)), kind === "gamepad" ? this.found : null),
+        h(
+          "span",
+          {},
+          h("b", {}, texts.get(`device_${kind}`)),
+          h("small", {}, texts.get(`device_${kind}_help`)),
+          kind === "gamepad" ? this.found : null,
+        ),
       ),
     );
     this.element.replaceChildren(
@@ -69,7 +81,17 @@ class Setup {
         "section",
         { class: "card wide setup", "data-testid": "setup" },
         h("div", { class: "prose" }, h("h1", {}, texts.get("setup_title")), ...paragraphs(texts.get("setup_text"))),
-        h("div", { class: "columns" }, h("div", { class: "options" }, ...options), h("div", { class: "try", "data-views": this.station.study.views.length }, ...this.velocities.elements, this.how)),
+        h(
+          "div",
+          { class: "columns" },
+          h("div", { class: "options" }, ...options),
+          h(
+            "div",
+            { class: "try", "data-views": this.station.study.views.length },
+            ...this.velocities.elements,
+            this.how,
+          ),
+        ),
         h("div", { class: "buttons" }, this.next, this.calibrate),
       ),
     );
@@ -134,7 +156,13 @@ class Setup {
   private step(pad: Gamepad): void {
     const { station, wizard } = this;
     if (wizard === null || !(station.device instanceof Pad)) return;
-    const said = station.texts.get(wizard.look(pad.axes, pad.buttons.map((b) => b.pressed), performance.now() / 1000));
+    const said = station.texts.get(
+      wizard.look(
+        pad.axes,
+        pad.buttons.map((b) => b.pressed),
+        performance.now() / 1000,
+      ),
+    );
     if (this.how.textContent !== said) this.how.textContent = said;
     if (wizard.result === null) return;
     station.device.calibration = wizard.result;

@@ -110,13 +110,16 @@ class Trial {
     this.station.frame.occupied = phase === "running" || phase === "over";
   }
 
+  private get howToStart(): string {
+    return this.station.texts.get(`start_${this.station.device?.kind ?? "keys"}`);
+  }
+
   private wait(): void {
-    const { texts } = this.station;
     this.run = this.fresh();
     this.aborting = false;
     this.station.device?.begin?.();
-    this.enter("waiting", [this.spec.note, texts.get("trial_waiting")].join("\n").trim());
-    this.begin.textContent = texts.get("start");
+    this.enter("waiting", [this.spec.note, this.howToStart].join("\n").trim());
+    this.begin.textContent = this.station.texts.get("start");
   }
 
   private key(event: KeyboardEvent): void {
@@ -223,7 +226,7 @@ class Trial {
     if (lost !== this.lost && this.phase === "waiting") {
       this.lost = lost;
       if (lost) station.event("pad-lost");
-      this.message.textContent = station.texts.get(lost ? "broken_pad-lost" : "trial_waiting");
+      this.message.textContent = lost ? station.texts.get("broken_pad-lost") : this.howToStart;
     }
     if (station.device?.triggered()) this.begun();
   }

@@ -45,9 +45,9 @@ class Figures:
 
     def __str__(self) -> str:
         return (
-            f"{self.stations} stations x {self.rate:g} messages/s for {self.seconds:g} s: {self.sent} cycles sent, {self.lost} lost, "
-            f"{self.differing} trials differ when replayed; acknowledged after p50 {self.p50:.1f} ms, p99 {self.p99:.1f} ms, at "
-            f"most {self.longest:.1f} ms; memory of the server {self.memory[0]:.0f} MiB at the beginning, {self.memory[1]:.0f} "
+            f"{self.stations} stations x {self.rate:g} messages/s for {self.seconds:g} s: {self.sent} cycles sent, "
+            f"{self.lost} lost, {self.differing} trials differ when replayed; acknowledged after p50 {self.p50:.1f} ms, "
+            f"p99 {self.p99:.1f} ms, at most {self.longest:.1f} ms; memory of the server {self.memory[0]:.0f} MiB at the beginning, {self.memory[1]:.0f} "
             f"half-way, {self.memory[2]:.0f} at the end; it kept {self.busy:.2f} of a core busy"
         )
 
@@ -68,7 +68,7 @@ async def _station(url: str, protocol: Protocol, rate: float, seconds: float, tr
     loop, rng = asyncio.get_running_loop(), np.random.default_rng(seed)
     sent: dict[int, float] = {}
     waited: list[float] = []
-    async with connect(url, proxy=None) as socket:
+    async with connect(url, proxy=None, ping_interval=None) as socket:
         await socket.send('{"type":"hello","format":1,"session":null,"code":null,"kind":"simulated"}')
         welcome = read_reply(await socket.recv())
         assert isinstance(welcome, Welcome)

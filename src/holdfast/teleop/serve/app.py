@@ -6,7 +6,7 @@ import asyncio
 import json
 import socket
 from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager, suppress
+from contextlib import ExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -151,6 +151,7 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
             http="h11",
             ws="websockets-sansio",
             ws_max_size=MOST_BYTES,
+            ws_ping_timeout=60.0,
             ws_per_message_deflate=False,  # small messages on a near line: packing them takes longer than sending them
             log_level="warning",
             access_log=False,
@@ -162,16 +163,18 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
 
 
 def _listening(host: str, port: int) -> socket.socket:
-    try:
-        family, kind, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
-        listener = socket.socket(family, kind)
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind(address)
-        listener.listen(128)
-    except OSError as error:
-        raise StoreError(
-            f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host"
-        ) from error
+    with ExitStack() as opened:
+        try:
+            family, kind, *_, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+            listener = opened.enter_context(socket.socket(family, kind))
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            listener.bind(address)
+            listener.listen(128)
+        except OSError as error:
+            raise StoreError(
+                f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host"
+            ) from error
+        opened.pop_all()
     return listener
 
 

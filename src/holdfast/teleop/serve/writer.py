@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -106,16 +107,16 @@ class Keeper:
             except queue.Empty:
                 break
         if jobs:
-            results = self._committed(records, jobs) if self._writes else [_result(jobs[0][0], records)]
+            results = self._all(records, jobs)
             answers = [answer for _, answer in jobs]
             # The loop may have stopped: then nobody waits for an answer.
             if not self._loop.is_closed():
                 self._loop.call_soon_threadsafe(_answer, answers, results)
         return job is not None
 
-    def _committed(self, records: Records, jobs: list[Job]) -> list[Any]:
+    def _all(self, records: Records, jobs: list[Job]) -> list[Any]:
         try:
-            with records.together():
+            with records.together() if self._writes else nullcontext():
                 return [_result(job, records) for job, _ in jobs]
         except sqlite3.Error as error:  # a full disk, a lock that somebody else does not let go of: none of it happened
             _log.error("the records cannot be written: %s", error)
@@ -137,6 +138,8 @@ def _result(job: Callable[[Records], Any], records: Records) -> Any:
         return job(records)
     except HoldfastError as error:
         return error
+    except sqlite3.OperationalError:  # a full disk takes the whole transaction with it
+        raise
     except Exception as error:
         _log.exception("a job of the records failed")
         return error

@@ -1,0 +1,63 @@
+"""The page's sources against what is kept in the package: the built files, the texts."""
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from holdfast.teleop.serve.app import STATIC
+from holdfast.teleop.serve.texts import read
+
+PAGE = Path(__file__).parents[2] / "page"
+NODE = shutil.which("node") is not None and (PAGE / "node_modules").is_dir()
+NEEDS_NODE = pytest.mark.skipif(not NODE, reason="the page is built with Node: 'npm ci' in page/")
+
+
+def sources() -> str:
+    return "\n".join(p.read_text(encoding="utf-8") for p in sorted(PAGE.glob("src/**/*.ts")))
+
+
+@NEEDS_NODE
+def test_the_built_page_is_the_page(tmp_path):
+    command = ["node_modules/.bin/vite", "build", "--mode", "station", "--outDir", str(tmp_path), "--logLevel", "error"]
+    subprocess.run(command, cwd=PAGE, check=True, capture_output=True)
+    built = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
+    assert {"index.html", "station.js", "station.css", "worker.js"} <= built.keys()
+    for name, content in built.items():
+        assert (STATIC / name).read_bytes() == content, f"'{name}' is not what 'npm run build' makes; run it and commit"
+
+
+@NEEDS_NODE
+def test_types_and_unit_tests():
+    for command in (["node_modules/.bin/tsc", "--noEmit"], ["node_modules/.bin/vitest", "run"]):
+        done = subprocess.run(command, cwd=PAGE, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_every_text_is_there_and_used():
+    code = sources()
+    keys = set(read().strings)
+    literal = set(re.findall(r'"([a-z][a-z0-9_-]*)"', code))
+    templates = re.findall(r"`((?:[a-z0-9_-]|\$\{[^{}`]*\})+)`", code)
+    patterns = [re.sub(r"\$\{[^}]*\}", "[a-z0-9_-]+", t) for t in templates if "${" in t and re.search("[a-z]_|_[a-z]", t)]
+    unused = {k for k in keys if k not in literal and not any(re.fullmatch(p, k) for p in patterns)}
+    assert not unused
+    asked = set(re.findall(r'texts\.get\("([^"]+)"', code))
+    assert asked <= keys
+
+
+def test_the_built_page_asks_no_other_host_and_needs_nothing_inline():
+    index = (STATIC / "index.html").read_text(encoding="utf-8")
+    assert not re.search(r"<style|<script(?![^>]*\bsrc=)|\bstyle=|\bon\w+=", index)
+    for name in ("index.html", "station.js", "station.css", "worker.js"):
+        addresses = re.findall(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}[^\s\"'`)]*", (STATIC / name).read_text(encoding="utf-8"))
+        # Names of XML, and what jsPsych says of itself in a citation, are never asked for.
+        assert [a for a in addresses if not re.search(r"//(www\.)?(jspsych|w3|doi|joss\.theoj)\.org", a)] == []
+    assert "@font-face" not in (STATIC / "station.css").read_text(encoding="utf-8")
+    assert "eval(" not in (STATIC / "station.js").read_text(encoding="utf-8")
+
+
+def test_the_lock_file_names_no_host():
+    assert "resolved" not in (PAGE / "package-lock.json").read_text(encoding="utf-8")
