@@ -3,7 +3,7 @@ import { defineConfig } from "vite";
 
 // `vite build --mode station` builds index.html into station.js and station.css beside the Python server; another page is
 // built by a call with its own mode, so that no chunk is shared. All names are fixed: the server knows them.
-const pages: Record<string, string> = { station: "index.html" };
+const pages: Record<string, string> = { station: "index.html", experimenter: "experimenter.html" };
 
 export default defineConfig(({ mode }) => ({
   base: "./",

@@ -9,12 +9,20 @@ import type { Station } from "../station";
 /** Around what the arms need at the start of the tasks. */
 const ROOM = 1.1;
 
+/** What the windows need to know: they are drawn for the experimenter too. */
+export type Drawn = Pick<Station, "study" | "texts" | "arm"> & { plan: { training: Posed[]; trials: Posed[] } };
+
+interface Posed {
+  q0: number[];
+  target: number[];
+}
+
 function titled(title: string, content: HTMLElement, kind: string): HTMLElement {
   return h("figure", { class: `window ${kind}` }, h("figcaption", {}, title), content);
 }
 
 /** "Your command", or "Your command, from above" where there are several views. */
-function caption(station: Station, key: string, view: number): string {
+function caption(station: Drawn, key: string, view: number): string {
   const { texts, study } = station;
   const name = texts.get(key);
   return study.views.length > 1 ? `${name}, ${texts.get(`view_${view + 1}`)} (${study.views[view].label})` : name;
@@ -24,7 +32,7 @@ export class VelocityWindows {
   readonly elements: HTMLElement[];
   private readonly windows: VelocityWindow[];
 
-  constructor(station: Station) {
+  constructor(station: Drawn) {
     const { study, texts } = station;
     const { limit, dead_zone } = study.stick;
     const name = texts.get("velocity_window_says");
@@ -49,7 +57,7 @@ export class ArmWindows {
   private readonly windows: ArmWindow[];
   private readonly points: Float64Array;
 
-  constructor(private readonly station: Station) {
+  constructor(private readonly station: Drawn) {
     const { study, texts, arm } = station;
     this.points = new Float64Array(3 * arm.markers);
     const { centres, extent } = seen(station);
@@ -72,7 +80,7 @@ export class ArmWindows {
  *
  * @returns the middle of each view, and half of what is to be seen, m
  */
-function seen(station: Station): { centres: [number, number][]; extent: number } {
+function seen(station: Drawn): { centres: [number, number][]; extent: number } {
   const { study, arm, plan } = station;
   if (study.reach !== null) return { centres: study.views.map((v) => task(v, study.centre)), extent: study.reach };
   const points = new Float64Array(3 * arm.markers);

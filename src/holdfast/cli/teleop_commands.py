@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -79,26 +78,11 @@ def analyse(
 
     Example: holdfast teleop analyse study
     """
-    from holdfast.teleop.tables import computer_table, hand_paths, trial_table
+    from holdfast.teleop.results import analyse_records
+    from holdfast.teleop.tables import hand_paths
 
     with _opened(folder) as records, working("computing") as say:
-        dropped = [s.code for s in records.subjects() if s.state == "dropped"]
-        table = trial_table(records)
-        table = table[~table["subject"].isin(dropped)]
-        if table.empty:
-            raise InputError(f"'{folder}' holds no trials of subjects who have not dropped out; there is nothing to analyse")
-        from holdfast.teleop.analysis import analyse as analysed
-
-        result = analysed(
-            table,
-            computer_table(records.protocol),
-            missing=missing,  # type: ignore[arg-type]
-            groups=groups,
-            difficulty=difficulty,  # type: ignore[arg-type]
-        )
-        if dropped:
-            note = f"dropped out, and not part of any number: {', '.join(dropped)}"
-            result = replace(result, notes=(*result.notes, note))
+        result = analyse_records(records, missing, groups, difficulty)  # type: ignore[arg-type]
         say("drawing")
         report = result.write(folder, records.protocol, hand_paths(records))
     for line in result.describe():

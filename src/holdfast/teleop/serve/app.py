@@ -101,6 +101,8 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
 
     words = read_texts(options.texts, options.english)
     files = _files(options.static)
+    # It has its route, which asks for the key.
+    experimenters = files.pop("/experimenter.html", None)
     with Records.open(options.folder) as records:
         protocol = records.protocol
     files["/study.json"] = _file(json.dumps(study(protocol, words, options.tlx)).encode(), ".json")
@@ -120,7 +122,7 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
 
     routes = [
         *(Route(path, answer, methods=["GET"]) for path, answer in files.items()),
-        *experimenter.routes(options.guard),
+        *experimenter.routes(options.guard, experimenters),
         WebSocketRoute("/session", session),
     ]
     app = Starlette(routes=routes, lifespan=lifespan)
@@ -190,8 +192,6 @@ def _files(folder: Path) -> dict[str, Callable[[Request], Response]]:
         )
     found = {f"/{f.name}": _file(f.read_bytes(), f.suffix) for f in sorted(folder.iterdir()) if f.suffix in _TYPES}
     found["/"] = found.pop(f"/{_PAGE}")
-    # The experimenter's page has its route, which asks for the key.
-    found.pop("/experimenter.html", None)
     return found
 
 

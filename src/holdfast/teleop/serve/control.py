@@ -34,6 +34,7 @@ class Control:
         loop: The event loop.
 
     Attributes:
+        folder: Of the experiment.
         writer: Owns the records that are written.
         reader: Owns a connection of its own, for what takes longer and changes nothing.
         live: What is watched.
@@ -44,6 +45,7 @@ class Control:
     """
 
     def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop) -> None:
+        self.folder = folder
         self.writer = Keeper(folder, loop, writes=True)
         self.reader = Keeper(folder, loop, writes=False)
         self.live = Live()
@@ -52,7 +54,7 @@ class Control:
         self._all_paused = False
         self._paused: set[str] = set()
         self._failed = [s.failed for s in self.protocol.scenarios]
-        self._fresh = loop.create_task(self.live.keep_fresh(self.subjects))
+        self._fresh = loop.create_task(self.live.keep_fresh(self.state))
 
     async def begin(self) -> None:
         """Compile all that a session needs, so that no station waits for it; then replay what was not before a kill."""
@@ -127,6 +129,8 @@ class Control:
             "kind": entry.kind.value,
             "position": entry.position,
             "scenario": entry.scenario,
+            "cycle": message.first + len(message.time),
+            "q0": entry.q0.tolist(),
             "q": message.q[-1],
             "velocity": message.velocity[-1],
             "target": entry.target.tolist(),
@@ -161,7 +165,7 @@ class Control:
         """Let a session, or all of them, wait after the trial under way, or go on.
 
         Raises:
-            InputError: There is no such subject.
+            InputError: There is no such subject, or it shall go on while all are paused.
         """
         if subject is None:
             self._all_paused = paused
@@ -169,6 +173,8 @@ class Control:
                 self._paused.clear()
         else:
             await self.writer.do(lambda records: records.subject(subject))
+            if self._all_paused and not paused:
+                raise InputError(f"all sessions are paused; {subject} goes on when all do")
             (self._paused.add if paused else self._paused.discard)(subject)
         kind = "paused" if paused else "goes on"
         await self.writer.do(lambda records: records.event(kind, subject, None, None, {"by": "experimenter"}))
@@ -216,6 +222,10 @@ class Control:
             page.bye("the session goes on in another page")
         self.changed()
         return key
+
+    async def state(self) -> dict[str, Any]:
+        """Whether all sessions are paused, and where every one stands, as JSON takes it."""
+        return {"paused": self._all_paused, "subjects": await self.subjects()}
 
     async def subjects(self) -> list[dict[str, Any]]:
         """Where every subject's session stands, as JSON takes it."""

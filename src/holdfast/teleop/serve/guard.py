@@ -115,7 +115,7 @@ class Guarded:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 for name, value in _headers(Headers(scope=scope).get("host", ""), fault is None).items():
-                    headers[name] = value
+                    headers.setdefault(name, value)  # a report has a stricter policy of its own
                 cookie = self._guard.cookie(scope) if fault is None else None
                 if cookie is not None:
                     headers["set-cookie"] = cookie

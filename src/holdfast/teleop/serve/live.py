@@ -72,11 +72,11 @@ class Live:
         """The list of subjects is not what it was."""
         self._stale.set()
 
-    async def keep_fresh(self, subjects: Callable[[], Awaitable[list[dict[str, Any]]]]) -> None:
-        """Publish the list of subjects when it changed, at most twice a second, without end."""
+    async def keep_fresh(self, state: Callable[[], Awaitable[dict[str, Any]]]) -> None:
+        """Publish the list of subjects, and what goes with it, when it changed, at most twice a second, without end."""
         while True:
             await self._stale.wait()
             self._stale.clear()
             if self._queues:
-                self.publish({"type": "subjects", "subjects": await subjects()})
+                self.publish({"type": "subjects", **await state()})
             await asyncio.sleep(_SUBJECTS)

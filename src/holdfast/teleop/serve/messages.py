@@ -208,7 +208,7 @@ def read(text: str | bytes) -> Hello | Sequenced:
     try:
         return _FROM_PAGE.validate_json(text)
     except ValidationError as error:
-        raise InputError(_sentence(error)) from None
+        raise InputError(sentence(error)) from None
     except ValueError as error:  # text that is no Unicode
         raise InputError(f"the message is malformed: {error}") from None
 
@@ -222,11 +222,11 @@ def read_reply(text: str | bytes) -> Welcome | Ack | Refused | Pause | Bye:
     try:
         return _FROM_SERVER.validate_json(text)
     except ValidationError as error:
-        raise InputError(_sentence(error)) from None
+        raise InputError(sentence(error)) from None
 
 
-def _sentence(error: ValidationError) -> str:
-    """The first complaint. What was sent is not repeated: it may be long, or not text."""
+def sentence(error: ValidationError) -> str:
+    """The first complaint about a message. What was sent is not repeated: it may be long, or not text."""
     first = error.errors(include_url=False, include_context=False, include_input=False)[0]
     place = ".".join(str(step) for step in first["loc"])[:100]
     return f"the message is malformed{f' at {place}' if place else ''}: {first['msg'][:200]}"

@@ -1,0 +1,28 @@
+/** A question that must be answered first. */
+
+import { button, h } from "../dom";
+import { texts } from "./texts";
+
+export function confirmed(title: string, text: string, yes: string): Promise<boolean> {
+  return new Promise((resolve) => {
+    const dialog = h(
+      "dialog",
+      { "data-testid": "confirm", "aria-labelledby": "question" },
+      h("h1", { id: "question" }, title),
+      h("p", {}, text),
+      h(
+        "div",
+        { class: "buttons" },
+        button("confirm-no", texts.cancel, () => dialog.close(), "second"),
+        button("confirm-yes", yes, () => dialog.close("yes"), "danger"),
+      ),
+    );
+    // Closed first, then removed: the focus goes back to where it was.
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      resolve(dialog.returnValue === "yes");
+    });
+    document.body.append(dialog);
+    dialog.showModal();
+  });
+}

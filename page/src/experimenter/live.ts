@@ -1,0 +1,63 @@
+/** The two windows that the subject sees, as they are now. */
+
+import type { Arm } from "../arm";
+import { h } from "../dom";
+import { ArmWindows, VelocityWindows } from "../screens/windows";
+import type { Study } from "../study";
+import { Texts } from "../texts";
+import type { About, Cycle } from "./server";
+import { texts } from "./texts";
+
+export class LiveView {
+  readonly element: HTMLElement;
+  private readonly arms: ArmWindows;
+  private readonly velocities: VelocityWindows;
+  private readonly what = h("p", { class: "what", "data-testid": "live-what" });
+  private readonly windows: HTMLElement;
+  private readonly start: Float64Array;
+  private readonly q: Float64Array;
+  private cycle: Cycle | null = null;
+
+  constructor(
+    private readonly study: Study,
+    private readonly arm: Arm,
+    private readonly about: About,
+  ) {
+    const drawn = { study, arm, texts: new Texts(texts.window), plan: about.plan };
+    this.start = new Float64Array(arm.axes);
+    this.q = new Float64Array(arm.joints);
+    this.arms = new ArmWindows(drawn);
+    this.velocities = new VelocityWindows(drawn);
+    this.windows = h("div", { class: "windows" }, ...this.arms.elements, ...this.velocities.elements);
+    this.element = h("div", { class: "live", "data-testid": "live" }, this.what, this.windows);
+    new ResizeObserver(() => this.draw()).observe(this.windows);
+  }
+
+  /** @param cycle the last that is known; null for none */
+  show(cycle: Cycle | null, steering: boolean): void {
+    this.cycle = cycle;
+    this.element.dataset.steering = String(steering);
+    this.element.dataset.cycle = cycle === null ? "" : String(cycle.cycle);
+    this.windows.hidden = cycle === null;
+    this.what.textContent = [...(steering ? [] : [texts.still]), ...(cycle === null ? [] : [this.said(cycle, steering)])].join(" ");
+    this.draw();
+  }
+
+  private said(c: Cycle, steering: boolean): string {
+    const joint = c.healthy.indexOf(0);
+    const locked = joint < 0 ? "" : texts.locked(this.about.joints[joint]);
+    const seconds = (c.cycle / this.study.rate).toFixed(1);
+    const said = texts.under(texts[c.kind], c.position + 1, this.about.scenarios[c.scenario], locked, seconds);
+    return steering ? said[0].toUpperCase() + said.slice(1) : `${texts.last} ${said}`;
+  }
+
+  private draw(): void {
+    if (this.cycle === null) return;
+    const { q0, q, target, velocity } = this.cycle;
+    this.q.set(q0);
+    this.arm.position(this.q, this.start);
+    this.q.set(q);
+    this.arms.draw(this.q, { start: this.start, target });
+    this.velocities.draw(velocity);
+  }
+}

@@ -1,0 +1,104 @@
+/** All subjects, one row each, in the order in which they came. Rows are changed in place: the focus stays where it is. */
+
+import { h } from "../dom";
+import type { Subject } from "./server";
+import { texts } from "./texts";
+
+/** Of what a subject does just now. */
+function now(s: Subject, steering: boolean): string {
+  if (s.state !== "open") return texts.states[s.state];
+  return steering ? texts.steering : s.connected ? texts.connected : texts.notConnected;
+}
+
+class Row {
+  readonly element: HTMLTableRowElement;
+  readonly button: HTMLButtonElement;
+  private readonly kind = h("span", { class: "kind" });
+  private readonly now = h("span", { class: "now" });
+  private readonly paused = h("span", { class: "paused" }, texts.paused);
+  private readonly training = h("td", { class: "number" });
+  private readonly bar = h("progress", {});
+  private readonly trials = h("span", {});
+  private readonly replay = h("td", { class: "replay", title: texts.differsHelp });
+  private readonly row = h("td", { class: "number" });
+  private readonly note = h("td", { class: "note" });
+
+  constructor(code: string, choose: (code: string) => void) {
+    this.button = h(
+      "button",
+      { type: "button", class: "code", "data-testid": `subject-${code}`, "aria-pressed": "false", onclick: () => choose(code) },
+      code,
+    );
+    this.bar.setAttribute("aria-hidden", "true");
+    this.element = h(
+      "tr",
+      { "data-testid": `row-${code}` },
+      h("th", { scope: "row" }, this.button, this.kind),
+      h("td", { class: "state" }, this.now, this.paused),
+      this.training,
+      h("td", { class: "trials" }, this.bar, this.trials),
+      this.replay,
+      this.row,
+      this.note,
+    );
+    this.element.addEventListener("click", (event) => event.target !== this.button && choose(code));
+  }
+
+  show(s: Subject, steering: boolean, chosen: boolean): void {
+    const { dataset } = this.element;
+    dataset.state = s.state;
+    dataset.connected = String(s.connected);
+    dataset.steering = String(steering);
+    dataset.paused = String(s.paused);
+    dataset.differing = String(s.differing);
+    dataset.chosen = String(chosen);
+    this.button.setAttribute("aria-pressed", String(chosen));
+    this.kind.textContent = s.kind === "person" ? "" : texts.simulated;
+    this.now.textContent = now(s, steering);
+    this.paused.hidden = !s.paused || s.state !== "open";
+    this.training.textContent = String(s.training);
+    this.bar.max = s.of;
+    this.bar.value = s.trials;
+    this.trials.textContent = texts.progress(s.trials, s.of);
+    this.replay.textContent = s.differing ? `\u26a0 ${texts.differs(s.differing)}` : texts.same;
+    this.row.textContent = String(s.row + 1);
+    this.note.textContent = s.note.split("\n")[0];
+    this.note.title = s.note;
+  }
+}
+
+export class Table {
+  readonly element: HTMLElement;
+  private readonly rows = new Map<string, Row>();
+  private readonly body = h("tbody", {});
+  private readonly none = h("p", { class: "none" }, texts.noSubjects);
+
+  constructor(private readonly choose: (code: string) => void) {
+    const head = h("tr", {}, ...texts.columns.map((name) => h("th", { scope: "col" }, name)));
+    this.element = h(
+      "section",
+      { class: "subjects" },
+      h("table", { "data-testid": "subjects" }, h("thead", {}, head), this.body),
+      this.none,
+    );
+  }
+
+  show(subjects: Subject[], steering: (code: string) => boolean, chosen: string | null): void {
+    this.none.hidden = subjects.length > 0;
+    const there = new Set(subjects.map((s) => s.subject));
+    for (const [code, row] of this.rows) {
+      if (there.has(code)) continue;
+      row.element.remove();
+      this.rows.delete(code);
+    }
+    for (const s of subjects) {
+      let row = this.rows.get(s.subject);
+      if (row === undefined) {
+        row = new Row(s.subject, this.choose);
+        this.rows.set(s.subject, row);
+        this.body.append(row.element);
+      }
+      row.show(s, steering(s.subject), s.subject === chosen);
+    }
+  }
+}

@@ -1,0 +1,95 @@
+/** What concerns all subjects: where the data go, pause, dry run, tables, report. */
+
+import { button, h } from "../dom";
+import type { About, Server } from "./server";
+import { texts } from "./texts";
+
+/** A link that opens in a tab of its own. */
+function opener(testid: string, label: string, help: string, href = ""): HTMLAnchorElement {
+  return h("a", { class: "button", target: "_blank", rel: "noopener", "data-testid": testid, title: help, href }, label);
+}
+
+export class Top {
+  readonly element: HTMLElement;
+  private paused = false;
+  private readonly line = h("span", { class: "line", role: "status", "data-testid": "connection", "data-online": "none" });
+  private readonly pause: HTMLButtonElement;
+  private readonly banner = h("p", { class: "banner", role: "status", "data-testid": "all-paused", hidden: true }, texts.allPaused);
+
+  constructor(server: Server, about: About, name: string, say: (text: string) => void) {
+    this.pause = button(
+      "pause-all",
+      texts.pauseAll,
+      () => {
+        say("");
+        server.post("pause", { subject: null, paused: !this.paused }).catch((error: Error) => say(error.message));
+      },
+      "second",
+    );
+    this.element = h(
+      "div",
+      { class: "top" },
+      h("header", {}, h("span", { class: "name" }, `${texts.title}: ${name}`), this.line),
+      h(
+        "div",
+        { class: "tools" },
+        this.pause,
+        this.dryRun(about),
+        opener("export", texts.export, texts.exportHelp, server.address("/experimenter/export.zip")),
+        this.report(server),
+      ),
+      h(
+        "p",
+        { class: "where" },
+        `${texts.folder} `,
+        h("code", { "data-testid": "folder" }, about.folder),
+        ` \u00b7 ${texts.station} `,
+        h("code", { "data-testid": "station-url" }, about.station),
+      ),
+      this.banner,
+    );
+  }
+
+  online(yes: boolean): void {
+    this.line.dataset.online = String(yes);
+    this.line.textContent = yes ? texts.online : texts.offline;
+    this.line.title = yes ? "" : texts.offlineHelp;
+  }
+
+  show(paused: boolean): void {
+    this.paused = paused;
+    this.pause.textContent = paused ? texts.resumeAll : texts.pauseAll;
+    this.pause.setAttribute("aria-pressed", String(paused));
+    this.banner.hidden = !paused;
+  }
+
+  private dryRun(about: About): HTMLElement {
+    const seed = h("input", { id: "seed", type: "number", min: 0, max: 999999, step: 1, value: 1, "data-testid": "robot-seed" });
+    const link = opener("dry-run", texts.dryRun, texts.dryRunHelp);
+    const address = (): void => {
+      const url = new URL(about.station);
+      url.searchParams.set("robot", String(Math.trunc(Number(seed.value)) || 0));
+      link.href = url.href;
+    };
+    seed.addEventListener("input", address);
+    // The next one is another operator.
+    link.addEventListener("click", () =>
+      setTimeout(() => {
+        seed.value = String(Number(seed.value) + 1);
+        address();
+      }),
+    );
+    address();
+    return h("span", { class: "tool" }, link, h("label", { for: "seed" }, texts.seed), seed);
+  }
+
+  private report(server: Server): HTMLElement {
+    const link = opener("report", texts.report, texts.reportHelp);
+    const options = Object.entries(texts.missingChoices).map(([value, label]) => h("option", { value }, label));
+    const missing = h("select", { id: "missing", "data-testid": "report-missing" }, ...options);
+    const address = (): void => void (link.href = server.address("/experimenter/report", { missing: missing.value }));
+    missing.addEventListener("change", address);
+    address();
+    return h("span", { class: "tool" }, link, h("label", { for: "missing" }, texts.missing), missing);
+  }
+}
