@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
 import typer
 
 from holdfast.cli.options import (
@@ -163,7 +164,7 @@ def read_state(
     if q is not None:
         start = read_configuration(model, q, degrees)
     else:
-        start = arms.about(arm).home if arm in arms.names() else middle(model)
+        start = np.array(arms.about(arm).home) if arm in arms.names() else middle(model)
     conditions = ["healthy"] * model.n
     for names, condition in ((lock, "locked"), (free, "free")):
         for name in names:

@@ -28,7 +28,17 @@ from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
-from holdfast.report.palette import AMBER, BLUE, FAINT, GREEN, INK, LIGHT_BLUE, ORANGE, PALE, PURPLE, SKY, SOFT
+from holdfast.palette import AMBER as AMBER
+from holdfast.palette import BLUE as BLUE
+from holdfast.palette import FAINT as FAINT
+from holdfast.palette import GREEN as GREEN
+from holdfast.palette import INK as INK
+from holdfast.palette import LIGHT_BLUE as LIGHT_BLUE
+from holdfast.palette import ORANGE as ORANGE
+from holdfast.palette import PALE as PALE
+from holdfast.palette import PURPLE as PURPLE
+from holdfast.palette import SKY as SKY
+from holdfast.palette import SOFT as SOFT
 from holdfast.report.words import percent
 
 Array = NDArray[np.float64]

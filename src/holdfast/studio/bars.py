@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
+from holdfast.palette import BLUE, FAINT, INK, ORANGE, SOFT
 from holdfast.studio.machine import Bars, Reading
 from holdfast.studio.measures import Loss, manipulability_kept
 

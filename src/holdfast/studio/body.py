@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from holdfast.arm.model import Arm
 
@@ -79,6 +78,8 @@ def tube(start: Array, end: Array, radius: float) -> tuple[Array, NDArray[np.int
 
 def block(axis: Array, width: float) -> tuple[Array, NDArray[np.int64]]:
     """A cube about the origin with one side along an axis."""
+    from scipy.spatial.transform import Rotation
+
     turn, _ = Rotation.align_vectors(axis[None], np.array([[0.0, 0, 1]]))
     return _turned(*box(np.full(3, width)), turn.as_matrix())
 
@@ -120,7 +121,9 @@ def _turned(vertices: Array, faces: NDArray[np.int64], rotation: Array) -> tuple
 
 def quaternions(rotations: Array) -> Array:
     """(N, 4) w, x, y, z of rotations (N, 3, 3)."""
-    return np.asarray(Rotation.from_matrix(rotations).as_quat(scalar_first=True))
+    from viser.transforms import SO3  # SciPy's rotations would double the time to the first picture
+
+    return np.asarray(SO3.from_matrix(rotations).wxyz)
 
 
 class Figure:

@@ -1,4 +1,4 @@
-"""The compiled arm behind a window: where its bodies are, what a failure takes, and how the hand is followed."""
+"""The compiled arm behind a window: where its bodies are, what a failure takes, how the hand is followed, and its laws."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.errors import ArmError, HoldfastError, TaskError
+from holdfast.control import Law
+from holdfast.control import by_name as law_by_name
+from holdfast.control.laws import BY_NAME as LAWS
+from holdfast.errors import ArmError, HoldfastError, InputError, TaskError
 from holdfast.indices import BY_NAME, Index, Objective, by_name, susceptibility
 from holdfast.kernels import Kernel
 from holdfast.solve.inverse import solver
@@ -73,6 +76,8 @@ class Machine:
         self.arm, self.task = arm, task
         self._indices: dict[str, Index | str] = {}
         self._susceptibilities: dict[str, susceptibility.Susceptibility | str] = {}
+        self._objectives: dict[str, tuple[Objective, Objective] | str] = {}
+        self._laws: dict[str, Law] = {}
         self._making = threading.RLock()
 
     # ---- where things are ------------------------------------------------------------------------------------------
@@ -131,9 +136,27 @@ class Machine:
                     self._susceptibilities[name] = str(error)
             return self._susceptibilities[name]
 
-    def objective(self, name: str) -> Objective | str:
-        """What best and worst are chosen by, or the sentence that says why it cannot be."""
-        return self.index(name) if name in BY_NAME else self.susceptibility(name)
+    def objectives(self, name: str) -> tuple[Objective, Objective] | str:
+        """What the best and the worst configuration are chosen by, or the sentence that says why they cannot be."""
+        with self._making:
+            if name not in self._objectives:
+                found = self.index(name) if name in BY_NAME else self.susceptibility(name)
+                self._objectives[name] = found if isinstance(found, str) else (found, found.reversed())
+            return self._objectives[name]
+
+    def law(self, text: str) -> Law:
+        """A control law as its label says, ``slug`` or ``slug:setting``; compiled once.
+
+        Raises:
+            InputError: It is not known, or its setting is none.
+        """
+        with self._making:
+            if text not in self._laws:
+                slug, _, value = text.partition(":")
+                setting = LAWS[slug].setting if slug in LAWS else ""
+                given = {setting: _numbers(text, value)} if value and setting else {}
+                self._laws[text] = law_by_name(slug, self.arm, task=self.task, **given)
+            return self._laws[text]
 
     def read(self, q: Array, failed: Sequence[int], index: str, weight: str) -> Reading:
         """Everything that is shown live, at q (n,)."""
@@ -193,6 +216,14 @@ class Machine:
     def self_motions(self, q: Array, failed: Sequence[int]) -> Array:
         """Unit directions (r, n) of the self-motions of q."""
         return null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
+
+
+def _numbers(text: str, value: str) -> float | list[float]:
+    try:
+        numbers = [float(x) for x in value.split(",")]
+    except ValueError as error:
+        raise InputError(f"law '{text}' is not slug:number; write for example failure-tolerant:0.5") from error
+    return numbers[0] if len(numbers) == 1 else numbers
 
 
 def sentence(error: BaseException) -> str:

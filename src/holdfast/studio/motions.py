@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.control import by_name
-from holdfast.control.laws import BY_NAME
 from holdfast.errors import InputError
+from holdfast.studio.machine import Machine
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
 Check = Callable[[], None]
 TIMES = ("time_s", "time_cycles", "travel_rad")
 SAMPLES = 240
+WORTH_SEEING = 15.0  # 1/Ke
 
 
 @dataclass(frozen=True)
@@ -85,13 +85,12 @@ def read_motion(arm: Arm, path: str | Path) -> Motion:
     return Motion(file.name, rows[:, 0], time.rpartition("_")[2], rows[:, 1:])
 
 
-def law_motions(arm: Arm, state: State, task: object, target: Array, check: Check) -> list[Motion]:
+def law_motions(machine: Machine, state: State, target: Array, check: Check) -> list[Motion]:
     """The motion to a target under each of the two laws, failed joints standing from the start, with how it ended.
 
     Args:
-        arm: The arm.
+        machine: The arm and its laws.
         state: What has failed, where the arm is, and which laws.
-        task: The task.
         target: (4, 4) tool pose in the world.
         check: Called between the parts; raises to give up.
 
@@ -104,12 +103,12 @@ def law_motions(arm: Arm, state: State, task: object, target: Array, check: Chec
     motions = []
     for text in state.laws:
         check()
-        slug, _, value = text.partition(":")
-        setting = {BY_NAME[slug].setting: _number(text, value)} if value and slug in BY_NAME and BY_NAME[slug].setting else {}
-        law = by_name(slug, arm, task=task, **setting)
+        law = machine.law(text)
+        check()
         runs = simulate(law, np.array(state.q), target, list(state.failed))
         check()
-        path = runs.path(samples=SAMPLES, until=_worth_seeing(float(runs.time), law.gain))
+        # The last approach to rest takes most of the time and moves nothing.
+        path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain))
         off = f"error {float(runs.error):.2g}" + (" m and rad" if law.task.angular else " m")
         motions.append(Motion(f"{text}: {ENDS[str(runs.outcome)]} ({off})", path.time, "s", path.q))
     return motions
@@ -139,16 +138,3 @@ def swing_motion(arm: Arm, state: State) -> Motion:
     )
     label = f"{arm.joint_names[k]} swings: farthest {factor * found.peak:.3g} {unit}{rest}{drops}"
     return Motion(label, found.time[::every], "s", q[::every])
-
-
-def _number(text: str, value: str) -> object:
-    try:
-        numbers = [float(x) for x in value.split(",")]
-    except ValueError as error:
-        raise InputError(f"law '{text}' is not slug:number; write for example failure-tolerant:0.5") from error
-    return numbers[0] if len(numbers) == 1 else numbers
-
-
-def _worth_seeing(time: float, gain: float) -> float:
-    """The last approach to rest takes most of the time and moves nothing."""
-    return min(time, 15 / gain)

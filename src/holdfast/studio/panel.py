@@ -123,7 +123,7 @@ class Panel:
         self._button("Assess around the hand", "region", "Poses around the hand, coloured by the index: click one.")
         self.folder = self.gui.add_text("results folder", state.region or "", hint="A folder that holdfast assess wrote.")
         self._button("Open the results", "results", "Poses of the region, coloured by the index: click one.")
-        self.cloud = self.gui.add_html(_line("Click a point to see the configuration behind it."))
+        self.gui.add_html(_line("Click a point to see the configuration behind it."))
         self._button("Clear", "clear", "Take the points away.")
 
     def _save_tab(self, state: State) -> None:
@@ -148,7 +148,7 @@ class Panel:
         pieces = (
             (self.bars, bars_html(reading.bars, "if the joint locks", names, state.conditions)),
             (self.losses, losses_html(arm, self.machine.task, reading, state.failed)),
-            (self.weights, bars_html(reading.weights, "susceptibility if the joint goes limp", names, state.conditions)),
+            (self.weights, bars_html(reading.weights, "if the joint goes limp", names, state.conditions)),
             (self.command, command_html(state)),
         )
         for handle, content in pieces:

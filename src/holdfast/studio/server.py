@@ -46,18 +46,19 @@ class Studio:
         self.machine = machine
         self._stopped = threading.Event()
 
-        @server.on_client_connect
-        def _(client: Any) -> None:
+        def come(client: Any) -> None:
             window = self.windows[client.client_id] = Window(client, machine, state, parts, note)
             if client.client_id not in server.get_clients():  # gone before it was there
                 window.close()
                 self.windows.pop(client.client_id, None)
 
-        @server.on_client_disconnect
-        def _(client: Any) -> None:
+        def go(client: Any) -> None:
             window = self.windows.pop(client.client_id, None)
             if window is not None:
                 window.close()
+
+        server.on_client_connect(come)
+        server.on_client_disconnect(go)
 
     def wait(self) -> None:
         """Until :meth:`stop` is called, or the program is interrupted."""
@@ -183,7 +184,7 @@ def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, .
     # The controls cover the right side.
     beside = np.cross(-way, [0.0, 0.0, 1.0])
     centre = centre + 0.22 * machine.size * beside / np.linalg.norm(beside)
-    eye = centre + 0.95 * machine.size * way
+    eye = centre + 0.85 * machine.size * way
     return tuple(eye.tolist()), tuple(centre.tolist())
 
 

@@ -51,8 +51,8 @@ class Stage:
             # Meshes hide the joints; small knobs show which have failed and can be clicked.
             self._knobs()
         vertices, faces = ball()
-        self.before = scene.add_mesh_simple("/before", vertices, faces, color=BLUE, opacity=0.16, cast_shadow=False)
-        self.after = scene.add_mesh_simple("/after", vertices, faces, color=ORANGE, opacity=0.42, cast_shadow=False)
+        self.before = scene.add_mesh_simple("/before", vertices, faces, color=BLUE, wireframe=True, opacity=0.25)
+        self.after = scene.add_mesh_simple("/after", vertices, faces, color=ORANGE, opacity=0.5, cast_shadow=False)
         empty = np.zeros((1, 2, 3))
         thick = 0.006 * size
         self._lines = [
@@ -67,9 +67,9 @@ class Stage:
         planar = not machine.task.angular and len(flat) == 2 and machine.task.frame == "base"
         axes = tuple(bool(np.abs(flat[:, k]).max() > 1e-9) for k in range(3)) if planar else (True, True, True)
         self.gizmo = scene.add_transform_controls(
-            "/hand", scale=0.22 * size, active_axes=axes, disable_rotations=not machine.task.angular, depth_test=False
+            "/hand", scale=0.17 * size, active_axes=axes, disable_rotations=not machine.task.angular, depth_test=False
         )
-        self.target = scene.add_transform_controls("/target", scale=0.16 * size, opacity=0.6, depth_test=False, visible=False)
+        self.target = scene.add_transform_controls("/target", scale=0.13 * size, opacity=0.6, depth_test=False, visible=False)
         self._shown = True
 
     def _knobs(self) -> None:
@@ -140,8 +140,9 @@ class Stage:
     def haunt(self, labels: Sequence[str], colors: Sequence[Color] = GHOSTS) -> None:
         """Put ghost arms into the scene, one for each label, in place of those that are there."""
         self.lay()
+        moving = [p for p in self.parts if p.frame]
         for k, (text, color) in enumerate(zip(labels, colors, strict=False)):
-            figure = Figure(self.scene, f"/ghost{k}", self.parts, self.machine.arm.n + 2, tint=color, opacity=0.45)
+            figure = Figure(self.scene, f"/ghost{k}", moving, self.machine.arm.n + 2, tint=color, opacity=0.45)
             self.ghosts.append(figure)
             self._labels.append(self.scene.add_label(f"/name{k}", text, font_screen_scale=0.9))
 
@@ -149,7 +150,7 @@ class Stage:
         """Put the ghosts where their frames (n + 2, 4, 4) say."""
         for figure, label, place in zip(self.ghosts, self._labels, frames, strict=True):
             figure.move(place)
-            label.position = place[-1, :3, 3]
+            label.position = place[len(place) // 2, :3, 3]  # at the elbow: hands often meet
 
     def lay(self) -> None:
         """Take the ghosts out of the scene."""
@@ -180,10 +181,11 @@ class Stage:
             receive_shadow=False,
         )
 
-        @self.cloud.on_click
-        async def _(event: Any) -> None:
+        async def told(event: Any) -> None:
             if event.instance_index is not None:
                 clicked(int(event.instance_index))
+
+        self.cloud.on_click(told)
 
     def mark_point(self, point: Array) -> None:
         """Show which point of the region was chosen."""

@@ -107,17 +107,19 @@ class Window:
             self._refresh()
 
     def _click(self, handle: Any, joint: int) -> None:
-        @handle.on_click
-        async def _(_: Any) -> None:
+        async def told(_: Any) -> None:
             order = {"healthy": "locked", "locked": "free", "free": "healthy"}
             self.ask("fail", (joint, order[self.state.conditions[joint]]))
 
+        handle.on_click(told)
+
     def _handle(self, gizmo: Any, what: str) -> None:
-        @gizmo.on_update
-        async def _(event: Any) -> None:
+        async def told(event: Any) -> None:
             if event.client is not None:
                 w, x, y, z = event.target.wxyz
                 self.ask(what, (event.phase, np.array(event.target.position), np.array([x, y, z, w])))
+
+        gizmo.on_update(told)
 
     def _begin(self) -> None:
         for k, condition in enumerate(self.state.conditions):
@@ -244,16 +246,16 @@ class Window:
         def job(check: Check) -> Callable[[], None]:
             from holdfast.solve import optimise
 
-            objective = machine.objective(state.objective)
-            if isinstance(objective, str):
-                raise InputError(objective)
+            both = machine.objectives(state.objective)
+            if isinstance(both, str):
+                raise InputError(both)
             pose, found = machine.hand(np.array(state.q)), []
-            for wanted in (objective, objective.reversed()):
+            for wanted in both:
                 check()
                 found.append(optimise(machine.arm, pose, wanted, task=machine.task, starts=64))
             if not all(bool(f.success) for f in found):
                 raise InputError("no configuration of this pose was found; move the hand and try again")
-            now = float(objective(np.array(state.q)))
+            now = float(both[0](np.array(state.q)))
             words = [
                 f"{what} {state.objective}: {float(f.value):.4g}" for what, f in zip(("best", "worst"), found, strict=True)
             ]
@@ -284,7 +286,7 @@ class Window:
         target = pose_of(numbers[:3], numbers[3:])
 
         def job(check: Check) -> Callable[[], None]:
-            motions = law_motions(machine.arm, state, machine.task, target, check)
+            motions = law_motions(machine, state, target, check)
             return lambda: self._show_motions(motions, (GREEN, ORANGE), "  |  ".join(m.label for m in motions))
 
         self._start_work("Simulating the motion under both laws ...", "laws", job)
@@ -461,7 +463,14 @@ class Window:
         def job(_: Check) -> None:
             import imageio.v3 as images
 
-            picture = self.client.get_render(height, width, transport_format="png", timeout=60.0)
+            handles = [h for h in (self.stage.gizmo, self.stage.target) if h.visible]
+            for handle in handles:
+                handle.visible = False
+            try:
+                picture = self.client.get_render(height, width, transport_format="png", timeout=60.0)
+            finally:
+                for handle in handles:
+                    handle.visible = True
             data = io.BytesIO()
             # The scene has no background of its own.
             alpha = picture[..., 3:].astype(np.float64) / 255
