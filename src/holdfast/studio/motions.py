@@ -16,7 +16,6 @@ from holdfast.studio.machine import Machine
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
-Check = Callable[[], None]
 TIMES = ("time_s", "time_cycles", "travel_rad")
 SAMPLES = 240
 WORTH_SEEING = 15.0  # 1/Ke
@@ -85,28 +84,30 @@ def read_motion(arm: Arm, path: str | Path) -> Motion:
     return Motion(file.name, rows[:, 0], time.rpartition("_")[2], rows[:, 1:])
 
 
-def law_motions(machine: Machine, state: State, target: Array, check: Check) -> list[Motion]:
+def law_motions(machine: Machine, state: State, progress: Callable[[int, int], None]) -> list[Motion]:
     """The motion to a target under each of the two laws, failed joints standing from the start, with how it ended.
 
     Args:
         machine: The arm and its laws.
-        state: What has failed, where the arm is, and which laws.
-        target: (4, 4) tool pose in the world.
-        check: Called between the parts; raises to give up.
+        state: What has failed, where the arm is, where the hand should go, and which laws.
+        progress: Told of (done, in all) between the parts; raises to give up.
 
     Raises:
-        InputError: A law that is not known.
+        InputError: A law that is not known, or no target.
     """
+    from holdfast.arm.poses import pose_of
     from holdfast.simulate import simulate
     from holdfast.simulate.run_report import ENDS
 
+    if state.target is None:
+        raise InputError("there is no target; choose one first")
+    target = pose_of(state.target[:3], state.target[3:])
     motions = []
-    for text in state.laws:
-        check()
+    for k, text in enumerate(state.laws):
+        progress(2 * k, 4)
         law = machine.law(text)
-        check()
         runs = simulate(law, np.array(state.q), target, list(state.failed))
-        check()
+        progress(2 * k + 1, 4)
         # The last approach to rest takes most of the time and moves nothing.
         path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain))
         off = f"error {float(runs.error):.2g}" + (" m and rad" if law.task.angular else " m")

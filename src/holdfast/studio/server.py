@@ -15,6 +15,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.arms import URDF_ENDINGS
 from holdfast.errors import HoldfastError, InputError
+from holdfast.studio.aside import Aside
 from holdfast.studio.body import Part, stick_parts
 from holdfast.studio.machine import Machine
 from holdfast.studio.state import State
@@ -44,10 +45,11 @@ class Studio:
         self.url = f"http://{self.host}:{self.port}"
         self.windows: dict[int, Window] = {}
         self.machine = machine
+        self._aside = Aside(machine.arm, machine.task)
         self._stopped = threading.Event()
 
         def come(client: Any) -> None:
-            window = self.windows[client.client_id] = Window(client, machine, state, parts, note)
+            window = self.windows[client.client_id] = Window(client, machine, self._aside, state, parts, note)
             if client.client_id not in server.get_clients():  # gone before it was there
                 window.close()
                 self.windows.pop(client.client_id, None)
@@ -69,6 +71,7 @@ class Studio:
         for window in list(self.windows.values()):
             window.close()
         self.windows.clear()
+        self._aside.stop()
         with redirect_stdout(io.StringIO()):
             self._server.stop()
         self._stopped.set()

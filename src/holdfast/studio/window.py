@@ -13,11 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_numbers, pose_of
-from holdfast.errors import HoldfastError, InputError
+from holdfast.errors import HoldfastError
+from holdfast.studio.aside import Aside
 from holdfast.studio.body import Part
-from holdfast.studio.cloud import Cloud, around, read_cloud
+from holdfast.studio.cloud import Cloud
+from holdfast.studio.compute import Extremes
 from holdfast.studio.machine import SLIDE, Machine, sentence
-from holdfast.studio.motions import Motion, law_motions, read_motion, swing_motion
+from holdfast.studio.motions import Motion, read_motion
 from holdfast.studio.panel import Panel
 from holdfast.studio.stage import GREEN, ORANGE, PURPLE, Stage
 from holdfast.studio.state import State
@@ -38,8 +40,9 @@ class Window:
     takes long is done beside it (``work``), where a newer request cancels the older one, and comes back as a change.
     """
 
-    def __init__(self, client: Any, machine: Machine, state: State, parts: list[Part], note: str = "") -> None:
+    def __init__(self, client: Any, machine: Machine, aside: Aside, state: State, parts: list[Part], note: str = "") -> None:
         self.client, self.machine, self.state = client, machine, state
+        self._aside = aside
         self._start = state
         self.updates = 0  # pictures sent
         self._held: str | int | None = None  # what a person holds: the hand, or a slider
@@ -228,40 +231,33 @@ class Window:
 
     # ---- what takes long -------------------------------------------------------------------------------------------
 
-    def _start_work(self, text: str, show: str, job: Callable[[Check], Callable[[], None]]) -> None:
-        """Run a job beside the page; what it returns is done on the live thread, unless something newer was asked for."""
-        self.panel.say(text)
-        self.state = replace(self.state, show=show)  # type: ignore[arg-type]
+    def _start_work(self, text: str, job: str, show: Callable[[Any], None]) -> None:
+        """Do a job beside the page; what it finds is shown by the live thread, unless something newer was asked for."""
+        self.panel.say(f"{text} ...")
+        self.state = state = replace(self.state, show=job)  # type: ignore[arg-type]
 
         def run(check: Check) -> None:
-            done = job(check)
+            def progress(done: int, total: int) -> None:
+                if done:
+                    self.live.put("progress", lambda: self.panel.say(f"{text}: {done} of {total} ..."))
+
+            found = self._aside.run(job, state, check, progress)
             check()
-            self.live.put("result", done)
+            self.live.put("result", lambda: show(found))
 
         self.work.ask(run)
 
     def _on_best_worst(self, _: Any) -> None:
-        state, machine = self.state, self.machine
+        name = self.state.objective
 
-        def job(check: Check) -> Callable[[], None]:
-            from holdfast.solve import optimise
+        def show(found: Extremes) -> None:
+            best, worst, here = (f"{x:.4g}" for x in found.values)
+            words = [f"best: {best}", f"worst: {worst}"]
+            self._haunt(
+                list(found.q), words, f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here."
+            )
 
-            both = machine.objectives(state.objective)
-            if isinstance(both, str):
-                raise InputError(both)
-            pose, found = machine.hand(np.array(state.q)), []
-            for wanted in both:
-                check()
-                found.append(optimise(machine.arm, pose, wanted, task=machine.task, starts=64))
-            if not all(bool(f.success) for f in found):
-                raise InputError("no configuration of this pose was found; move the hand and try again")
-            now = float(both[0](np.array(state.q)))
-            words = [
-                f"{what} {state.objective}: {float(f.value):.4g}" for what, f in zip(("best", "worst"), found, strict=True)
-            ]
-            return lambda: self._haunt([f.q for f in found], words, f"{'; '.join(words)}; here {now:.4g}.")
-
-        self._start_work("Looking for the best and the worst configuration of this pose ...", "best-worst", job)
+        self._start_work("Looking for the best and the worst configuration of this pose", "best-worst", show)
 
     def _haunt(self, configurations: list[Array], labels: list[str], text: str) -> None:
         self._drop_motions()
@@ -281,24 +277,16 @@ class Window:
             self._on_target(None)
             self.panel.say("Drag the second handle to where the hand should go, then move under both laws.")
             return
-        state, machine = self.state, self.machine
-        numbers = np.array(state.target)
-        target = pose_of(numbers[:3], numbers[3:])
 
-        def job(check: Check) -> Callable[[], None]:
-            motions = law_motions(machine, state, target, check)
-            return lambda: self._show_motions(motions, (GREEN, ORANGE), "  |  ".join(m.label for m in motions))
+        def show(motions: list[Motion]) -> None:
+            self._show_motions(motions, (GREEN, ORANGE), "  |  ".join(m.label for m in motions))
 
-        self._start_work("Simulating the motion under both laws ...", "laws", job)
+        self._start_work("Simulating the motion under both laws", "laws", show)
 
     def _on_swing(self, _: Any) -> None:
-        state, machine = self.state, self.machine
-
-        def job(_: Check) -> Callable[[], None]:
-            motion = swing_motion(machine.arm, state)
-            return lambda: self._show_motions([motion], (PURPLE,), motion.label)
-
-        self._start_work("Simulating the free swing ...", "swing", job)
+        self._start_work(
+            "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
+        )
 
     def _on_file(self, _: Any) -> None:
         path = self.panel.file.value.strip().strip("'\"")
@@ -308,33 +296,12 @@ class Window:
         self._show_motions([motion], (), f"{motion.label}: {len(motion.time)} rows")
 
     def _on_region(self, _: Any) -> None:
-        state, machine = self.state, self.machine
-
-        def job(check: Check) -> Callable[[], None]:
-            index = machine.index(state.index)
-            if isinstance(index, str):
-                raise InputError(index)
-
-            def progress(done: int, total: int) -> None:
-                check()
-                self.live.put("progress", lambda: self.panel.say(f"Assessing the region: {done} of {total} poses ..."))
-
-            found = around(index, machine.hand(np.array(state.q)), machine.size, progress)
-            return lambda: self._show_cloud(found)
-
         self.state = replace(self.state, region=None)
-        self._start_work("Assessing a region around the hand ...", "region", job)
+        self._start_work("Assessing a region around the hand", "region", self._show_cloud)
 
     def _on_results(self, _: Any) -> None:
-        path = self.panel.folder.value.strip().strip("'\"")
-        arm = self.machine.arm
-
-        def job(_: Check) -> Callable[[], None]:
-            found = read_cloud(arm, path)
-            return lambda: self._show_cloud(found)
-
-        self.state = replace(self.state, region=path)
-        self._start_work("Reading the results ...", "region", job)
+        self.state = replace(self.state, region=self.panel.folder.value.strip().strip("'\""))
+        self._start_work("Reading the results", "region", self._show_cloud)
 
     def _show_cloud(self, cloud: Cloud) -> None:
         self._cloud = cloud
