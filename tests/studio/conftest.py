@@ -3,27 +3,11 @@
 from __future__ import annotations
 
 import shutil
-import time
 
 import pytest
+from studio_pages import FLAGS, wait_for
 
 from holdfast import arms
-
-FLAGS = [
-    "--no-sandbox",
-    "--disable-background-networking",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-]
-
-
-def wait_for(page, condition, seconds=30.0):
-    """Let the page live until a condition holds."""
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "the page did not get there in time"
-        page.wait_for_timeout(20)
 
 
 @pytest.fixture(scope="session")
@@ -66,18 +50,19 @@ def visit(chromium):
     """``visit(studio)``: a page that has opened it, and the window behind that page."""
     contexts = []
 
-    def go(served, width=1200, height=800):
+    def go(served, width=900, height=620):
         before = set(served.windows)
         context = chromium.new_context(viewport={"width": width, "height": height}, accept_downloads=True)
         contexts.append(context)
         page = context.new_page()
+        page.set_default_timeout(60_000)
         page.hosts = set()
         page.on("request", lambda r: page.hosts.add(r.url.split("/")[2]) if "://" in r.url and r.url[:4] != "blob" else None)
         page.on("websocket", lambda w: page.hosts.add(w.url.split("/")[2]))
         page.goto(served.url)
         wait_for(page, lambda: set(served.windows) - before)
         window = served.windows[max(set(served.windows) - before)]
-        assert window.settle(30)
+        assert window.settle(60)
         return page, window
 
     yield go

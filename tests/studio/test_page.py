@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import threading
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import matplotlib.image
 import numpy as np
-import pytest
-from conftest import wait_for
+from studio_pages import wait_for
 
 import holdfast as hf
 from holdfast.arm.poses import pose_numbers
@@ -42,7 +40,7 @@ def test_one_click_locks_a_joint_and_the_command_line_says_so(studio, visit):
     page.get_by_role("tab", name="Fail").click()
     page.get_by_role("button", name="lock", exact=True).nth(1).click()
     wait_for(page, lambda: window.state.conditions[1] == "locked")
-    window.settle()
+    window.settle(60)
     name = window.state.names[1]
     wait_for(page, lambda: f"{name} has failed" in page.inner_text("body"))
     assert window.panel.sliders[1].disabled
@@ -67,10 +65,10 @@ def test_the_hand_is_dragged_and_says_when_it_cannot_follow(studio, visit):
     pose = window.machine.hand(window.machine.arm.check_configurations([0.4, 0.7, 0.9]))
     numbers = np.array(pose_numbers(pose))
     window.ask("hand", ("update", numbers[:3], numbers[3:]))
-    assert window.settle()
+    assert window.settle(60)
     np.testing.assert_allclose(window.machine.hand(window.q)[:2, 3], pose[:2, 3], atol=1e-5)
-    window.ask("hand", ("end", numbers[:3] + [50, 0, 0], numbers[3:]))
-    assert window.settle()
+    window.ask("hand", ("end", numbers[:3] + np.array([50, 0, 0]), numbers[3:]))
+    assert window.settle(60)
     wait_for(page, lambda: "Out of reach" in text_of(page))
     np.testing.assert_allclose(window.stage.gizmo.position, window.machine.hand(window.q)[:3, 3], atol=1e-9)
 
@@ -123,17 +121,16 @@ def test_a_motion_is_opened_scrubbed_and_played(studio, visit, tmp_path):
     )
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
     page.get_by_role("tab", name="Motion").click()
-    page.get_by_label("file").fill(str(tmp_path / "run.csv"))
+    window.panel.file.value = str(tmp_path / "run.csv")
     page.get_by_role("button", name="Open the motion").click()
     wait_for(page, lambda: window.state.show == "file" and not window.panel.time.disabled)
     window.ask("time", 2.0)
-    assert window.settle()
+    assert window.settle(60)
     np.testing.assert_allclose(window.q, [np.interp(2.0, path.time, path.q[:, k]) for k in range(3)], atol=1e-6)
     window.ask("play")
     wait_for(page, lambda: window.state.time > 2.5)
     window.ask("play")
-    page.get_by_label("file").fill("nowhere.csv")
-    wait_for(page, lambda: window.panel.file.value == "nowhere.csv")
+    window.panel.file.value = "nowhere.csv"
     page.get_by_role("button", name="Open the motion").click()
     wait_for(page, lambda: "cannot read motion 'nowhere.csv'" in text_of(page).replace("Cannot", "cannot"))
 
@@ -157,7 +154,7 @@ def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     assert window.settle(60)
     np.testing.assert_allclose(window.q, window._cloud.q[sound])
     window.ask("clear")
-    assert window.settle()
+    assert window.settle(60)
     assert window.state.show == "arm"
     assert window.stage.ghosts == []
     assert window.stage.cloud is None
@@ -196,7 +193,7 @@ def test_sliding_along_the_self_motion_leaves_the_hand(studio, visit):
     window.ask("slide", 1.0)
     wait_for(page, lambda: np.linalg.norm(window.q - q) > 0.1)
     window.ask("slide", 0.0)
-    assert window.settle()
+    assert window.settle(60)
     np.testing.assert_allclose(window.machine.hand(window.q)[:2, 3], hand[:2, 3], atol=1e-4)
     window.ask("fail", (0, "locked"))
     window.ask("slide", 1.0)
@@ -210,23 +207,10 @@ def test_a_swing_needs_a_free_joint(studio, visit):
     assert "no joint is free" in text_of(page).lower()
 
 
-def test_state_with_everything_is_json_free_text(studio):
-    served = studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR)
-    state = replace(served.machine and served_state(served), region="some folder/with 'quotes'")
-    assert json.dumps(state.to_command())
-
-
-def served_state(served):
-    from holdfast.studio import State
-
-    return State("planar-3r", served.machine.arm.joint_names, (0.3, 0.8, 0.9), "planar")
-
-
-@pytest.mark.parametrize("k", [0])
-def test_joint_names_are_escaped(studio, visit, k):
+def test_joint_names_are_escaped(studio, visit):
     arm = hf.Arm.from_dh([hf.DH(a=1.0)] * 3, name="<b>arm</b>")
     joints = list(arm.joints)
-    joints[k] = replace(joints[k], name="<img src=x onerror=alert(1)>")
+    joints[0] = replace(joints[0], name="<img src=x onerror=alert(1)>")
     page, _ = visit(studio("odd", arm=replace(arm, joints=tuple(joints)), q=(0.3, 0.8, 0.9), **PLANAR))
     page.wait_for_selector("[data-worst]")
     assert page.locator("img[src=x]").count() == 0
