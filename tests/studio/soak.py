@@ -1,7 +1,7 @@
 """Scripted use of the studio for as long as one likes: memory must stay flat.
 
-``python -m tests.studio.soak --minutes 60`` opens the page in a headless Chromium, and drags, fails, chooses, plays, assesses and
-opens and closes windows all that time. It fails if the memory of the server, once warm, grows.
+``python -m tests.studio.soak --minutes 60`` opens the page in a headless Chromium, and drags, fails, chooses, plays, assesses,
+and opens and closes windows all that time. It fails if the memory of the server, once warm, grows.
 """
 
 from __future__ import annotations

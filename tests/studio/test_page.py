@@ -208,7 +208,7 @@ def test_a_swing_needs_a_free_joint(studio, visit):
 
 
 def test_joint_names_are_escaped(studio, visit):
-    arm = hf.Arm.from_dh([hf.DH(a=1.0)] * 3, name="<b>arm</b>")
+    arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0)] * 3, name="<b>arm</b>")
     joints = list(arm.joints)
     joints[0] = replace(joints[0], name="<img src=x onerror=alert(1)>")
     page, _ = visit(studio("odd", arm=replace(arm, joints=tuple(joints)), q=(0.3, 0.8, 0.9), **PLANAR))
