@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import matplotlib.image
 import numpy as np
+from scipy.spatial.transform import Rotation
 from studio_pages import wait_for
 
 import holdfast as hf
@@ -71,6 +72,59 @@ def test_the_hand_is_dragged_and_says_when_it_cannot_follow(studio, visit):
     assert window.settle(60)
     wait_for(page, lambda: "Out of reach" in text_of(page))
     np.testing.assert_allclose(window.stage.gizmo.position, window.machine.hand(window.q)[:3, 3], atol=1e-9)
+
+
+def on_screen(camera, place):
+    """Where a point in the world is drawn, pixels; the camera looks along its z axis, with y down."""
+    w, x, y, z = camera.wxyz
+    seen = Rotation.from_quat([x, y, z, w]).inv().apply(place - camera.position)
+    scale = 0.5 * camera.image_height / np.tan(camera.fov / 2)
+    return 0.5 * camera.image_width + scale * seen[0] / seen[2], 0.5 * camera.image_height + scale * seen[1] / seen[2]
+
+
+def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
+    page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
+    camera, machine = window.client.camera, window.machine
+    q, hand = window.q, machine.hand(window.q)
+    first, last = (on_screen(camera, hand[:3, 3] + hand[:3, 0] * 0.17 * machine.size * share) for share in (0.55, 1.6))
+
+    def grabbed():
+        page.mouse.move(*first)
+        page.mouse.down()
+        for share in np.linspace(0, 1, 6):
+            page.mouse.move(*((1 - share) * np.array(first) + share * np.array(last)))
+            page.wait_for_timeout(50)
+        page.mouse.up()
+        return np.linalg.norm(window.q - q) > 0.1
+
+    wait_for(page, grabbed)  # again, as long as the handle is not drawn yet
+    wait_for(page, lambda: window._held is None)
+    assert window.settle(60)
+    np.testing.assert_allclose(window.stage.gizmo.position, machine.hand(window.q)[:3, 3], atol=1e-9)
+
+    def pressed():
+        page.mouse.click(*on_screen(camera, machine.frames(window.q)[2, :3, 3]))
+        page.wait_for_timeout(200)
+        return window.state.conditions[1] != "healthy"
+
+    wait_for(page, pressed)
+    window.ask("heal")
+    window.ask("region")
+    assert window.settle(60)
+    cloud = window._cloud
+    at = np.array([on_screen(camera, place) for place in cloud.points])
+    hand_at = np.array(on_screen(camera, machine.hand(window.q)[:3, 3]))
+    far = np.isfinite(cloud.q).all(axis=1) & (np.linalg.norm(at - hand_at, axis=1) > 70) & (at[:, 0] < 480) & (at[:, 1] > 60)
+    chosen = int(np.flatnonzero(far)[0])
+
+    def opened():
+        page.mouse.click(*at[chosen])
+        page.wait_for_timeout(200)
+        return window.stage.chosen is not None
+
+    wait_for(page, opened)
+    assert window.settle(60)
+    assert np.abs(cloud.q - window.q).max(axis=1).min() == 0
 
 
 def test_two_windows_have_two_arms(studio, visit):

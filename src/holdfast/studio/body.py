@@ -86,7 +86,8 @@ def block(axis: Array, width: float) -> tuple[Array, NDArray[np.int64]]:
 
 def box(size: Array) -> tuple[Array, NDArray[np.int64]]:
     """A box about the origin with sides (3,), faces with corners of their own."""
-    vertices, faces = [], []
+    vertices: list[Array] = []
+    faces: list[NDArray[np.int64]] = []
     for axis in range(3):
         for sign in (-1.0, 1.0):
             u, v = (axis + 1) % 3, (axis + 2) % 3

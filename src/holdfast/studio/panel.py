@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -63,7 +65,7 @@ class Panel:
             low, high = (round(factor * x, digits) for x in slider_range(arm, k, self.machine.size))
             value = round(float(np.clip(factor * state.q[k], low, high)), digits)
             slider = self.gui.add_slider(f"{joint.name}, {unit}", low, high, step, value)
-            self._on(slider.on_update, "joint", lambda h, k=k, f=factor: (k, h.value / f))
+            self._on(slider.on_update, "joint", partial(_slid, k, factor))
             self.sliders.append(slider)
         self.slide = self.gui.add_slider(
             "self-motion", -1.0, 1.0, 0.01, 0.0, hint="How fast the arm slides along the self-motion of this pose while held."
@@ -79,7 +81,7 @@ class Panel:
     def _fail_tab(self, arm: Arm, state: State) -> None:
         for k, joint in enumerate(arm.joints):
             group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: stands still. Free: swings under gravity.")
-            self._on(group.on_click, "fail", lambda h, k=k: (k, {"lock": "locked"}.get(h.value, h.value)))
+            self._on(group.on_click, "fail", partial(_pressed, k))
         self._button("All healthy", "heal", "No joint has failed.")
         self._button("Let the free joint swing", "swing", "From the physics, all other joints held (needs holdfast[physics]).")
         self.susceptibility = self.gui.add_dropdown(
@@ -198,10 +200,16 @@ def slider_range(arm: Arm, k: int, size: float) -> tuple[float, float]:
     return (joint.lower if np.isfinite(joint.lower) else -far), (joint.upper if np.isfinite(joint.upper) else far)
 
 
+def _slid(k: int, factor: float, handle: Any) -> tuple[int, float]:
+    return k, handle.value / factor
+
+
+def _pressed(k: int, handle: Any) -> tuple[int, str]:
+    return k, "locked" if handle.value == "lock" else handle.value
+
+
 def command_html(state: State) -> str:
     """The command line, to be copied."""
-    from html import escape
-
     return (
         '<div style="font:11px/1.4 ui-monospace,monospace;padding:2px 12px 8px;overflow-wrap:anywhere;user-select:all" '
         f"data-command>{escape(state.to_command())}</div>"
@@ -209,8 +217,6 @@ def command_html(state: State) -> str:
 
 
 def _line(text: str, bad: bool = False) -> str:
-    from html import escape
-
     color = "#c8500a" if bad else "#59636e"
     return (
         f'<div data-message style="font:12px/1.35 system-ui,sans-serif;color:{color};padding:4px 12px 2px">{escape(text)}</div>'

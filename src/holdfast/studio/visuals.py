@@ -114,9 +114,9 @@ def find_mesh(name: str, file: Path) -> Path | None:
         return None
     package, _, inside = rest.partition("/")
     for folder in file.resolve().parents:
-        for path in (folder / package / inside, folder / inside if folder.name == package else None):
-            if path is not None and path.is_file():
-                return path
+        for candidate in (folder / package / inside, *([folder / inside] if folder.name == package else [])):
+            if candidate.is_file():
+                return candidate
     return None
 
 
