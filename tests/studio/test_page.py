@@ -102,9 +102,12 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     assert window.settle(60)
     np.testing.assert_allclose(window.stage.gizmo.position, machine.hand(window.q)[:3, 3], atol=1e-9)
 
+    window.ask("home")
+    assert window.settle(60)
+
     def pressed():
         page.mouse.click(*on_screen(camera, machine.frames(window.q)[2, :3, 3]))
-        page.wait_for_timeout(200)
+        page.wait_for_timeout(400)
         return window.state.conditions[1] != "healthy"
 
     wait_for(page, pressed)

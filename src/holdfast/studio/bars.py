@@ -31,12 +31,14 @@ def bars_html(bars: Bars | str, what: str, names: Sequence[str], conditions: Seq
         return f'<div style="{_STYLE};color:{SOFT}">{escape(bars[:1].upper() + bars[1:])}.</div>'
     finite = np.where(np.isfinite(bars.values), bars.values, 0.0)
     whole = max(float(finite.max()), 1.0 if bars.title == "relative manipulability" else 0.0) or 1.0
+    units = set(bars.unit)
+    common = "" if units == {"1"} or len(units) > 1 else f", {escape(bars.unit[0])},"
     rows = []
     for k, (name, value) in enumerate(zip(names, bars.values, strict=True)):
         share = 1.0 if np.isinf(value) else min(max(float(finite[k]) / whole, 0.0), 1.0)
         color, weight = (ORANGE, "600") if k == bars.worst else (BLUE, "400")
         mark = "" if conditions[k] == "healthy" else f' <b style="color:{ORANGE}">{conditions[k]}</b>'
-        unit = "" if bars.unit[k] == "1" else f" {escape(bars.unit[k])}"
+        unit = f" {escape(bars.unit[k])}" if len(units) > 1 else ""
         rows.append(
             f'<tr style="font-weight:{weight};white-space:nowrap">'
             f'<td style="padding:0 6px 0 0;max-width:13em;overflow:hidden;text-overflow:ellipsis">{escape(name)}{mark}</td>'
@@ -47,7 +49,7 @@ def bars_html(bars: Bars | str, what: str, names: Sequence[str], conditions: Seq
     name, value = names[bars.worst], shown(float(bars.values[bars.worst]))
     note = f" ({escape(bars.status)})" if bars.status else ""
     return (
-        f'<div style="{_STYLE}" data-worst="{escape(name, quote=True)}"><b>{escape(bars.title)}</b> {what}: '
+        f'<div style="{_STYLE}" data-worst="{escape(name, quote=True)}"><b>{escape(bars.title)}</b>{common} {what}: '
         f'worst: <b style="color:{ORANGE}">{escape(name)}</b>, {value}{note}'
         f'<table style="width:100%;border-spacing:0 1px">{"".join(rows)}</table></div>'
     )

@@ -173,7 +173,7 @@ def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> t
     if missing:
         clad = {p.frame for p in shapes}
         shapes += [p for p in sticks if p.frame not in clad]
-        return shapes, f"{len(missing)} meshes were not found, for example {missing[0]}; those links are drawn as sticks"
+        return shapes, f"{len(missing)} of the file's meshes not found, such as {missing[0]}; such links are drawn as sticks"
     return shapes, ""
 
 

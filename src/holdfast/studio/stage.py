@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 BLUE, ORANGE, GREEN, PURPLE = (10, 92, 158), (200, 80, 10), (0, 122, 94), (168, 73, 127)
 GHOSTS: tuple[Color, ...] = (GREEN, ORANGE, BLUE, PURPLE)
+ANCHORS: tuple[Any, ...] = ("bottom-left", "top-left")  # names of two ghosts that meet stay apart
 SECONDS = 0.22  # an ellipsoid is drawn as how far the tool gets in this time at joint rates of norm 1
 SHOWN = 0.99  # a direction in which at least this share is left is not marked
 _MARKS = 2  # directions that are marked
@@ -48,7 +49,7 @@ class Stage:
         )
         self.figure = Figure(scene, "/arm", parts, arm.n + 2)
         if not self.figure.joints:
-            # Meshes hide the joints; small knobs show which have failed and can be clicked.
+            # Meshes hide the joints; knobs show which have failed and can be clicked.
             self._knobs()
         vertices, faces = ball()
         self.before = scene.add_mesh_simple("/before", vertices, faces, color=BLUE, wireframe=True, opacity=0.25)
@@ -75,8 +76,9 @@ class Stage:
     def _knobs(self) -> None:
         from holdfast.studio.body import stick_parts
 
-        joints = [p for p in stick_parts(self.machine.arm, self.machine.size) if p.joint is not None]
-        figure = Figure(self.scene, "/knobs", joints, self.machine.arm.n + 2)
+        arm, thick = self.machine.arm, 1.8 * self.machine.size
+        joints = [p for p in stick_parts(arm, thick) if p.joint is not None]
+        figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.6)
         self.figure.companions.append(figure)
         self.figure.joints = figure.joints
 
@@ -144,7 +146,7 @@ class Stage:
         for k, (text, color) in enumerate(zip(labels, colors, strict=False)):
             figure = Figure(self.scene, f"/ghost{k}", moving, self.machine.arm.n + 2, tint=color, opacity=0.45)
             self.ghosts.append(figure)
-            self._labels.append(self.scene.add_label(f"/name{k}", text, font_screen_scale=0.9))
+            self._labels.append(self.scene.add_label(f"/name{k}", text, anchor=ANCHORS[k % 2]))
 
     def move_ghosts(self, frames: Sequence[Array]) -> None:
         """Put the ghosts where their frames (n + 2, 4, 4) say."""

@@ -373,6 +373,8 @@ class Window:
         if not self._motions:
             return
         self.state = replace(self.state, time=float(value))
+        if abs(self.panel.time.value - value) > self.panel.time.step:
+            self.panel.time.value = self.state.time
         shown = [m.at(value) for m in self._motions]
         if self.stage.ghosts:
             self._ghosts = shown
@@ -398,7 +400,6 @@ class Window:
         def on() -> None:
             now = self.state.time + TICK * pace
             self._on_time(min(now, end))
-            self.panel.time.value = self.state.time
             if now >= end:
                 self._on_play(None)
 
