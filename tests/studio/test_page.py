@@ -86,15 +86,20 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
     camera, machine = window.client.camera, window.machine
     q, hand = window.q, machine.hand(window.q)
-    first, last = (on_screen(camera, hand[:3, 3] + hand[:3, 0] * 0.17 * machine.size * share) for share in (0.55, 1.6))
 
     def grabbed():
+        places = [hand[:3, 3] + hand[:3, 0] * 0.17 * machine.size * share for share in (0.55, 1.6)]
+        first, last = (on_screen(camera, place) for place in places)
+        # The handle must have been drawn under the mouse before it can be taken; with a slow processor that takes a while.
         page.mouse.move(*first)
+        page.wait_for_timeout(1200)
         page.mouse.down()
-        for share in np.linspace(0, 1, 6):
+        page.wait_for_timeout(300)
+        for share in np.linspace(0, 1, 8):
             page.mouse.move(*((1 - share) * np.array(first) + share * np.array(last)))
-            page.wait_for_timeout(50)
+            page.wait_for_timeout(120)
         page.mouse.up()
+        page.wait_for_timeout(300)
         return np.linalg.norm(window.q - q) > 0.1
 
     wait_for(page, grabbed)  # again, as long as the handle is not drawn yet
