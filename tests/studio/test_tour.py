@@ -47,4 +47,5 @@ def test_an_arm_not_made_for_holdfast_wears_its_own_shapes(chromium, closing):
     closing.append(served)
     assert "camera.stl" in page.locator("[data-message]").first.inner_text()
     assert len(window.stage.parts) > 8
+    assert sorted(window.stage.figure.joints) == list(range(7))  # all can be clicked, and painted
     page.context.close()

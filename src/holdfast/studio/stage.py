@@ -48,7 +48,7 @@ class Stage:
             shadow_opacity=0,
         )
         self.figure = Figure(scene, "/arm", parts, arm.n + 2)
-        if not self.figure.joints:
+        if len(self.figure.joints) < arm.n:
             # Meshes hide the joints; knobs show which have failed and can be clicked.
             self._knobs()
         vertices, faces = ball()
@@ -77,10 +77,10 @@ class Stage:
         from holdfast.studio.body import stick_parts
 
         arm, thick = self.machine.arm, 1.8 * self.machine.size
-        joints = [p for p in stick_parts(arm, thick) if p.joint is not None]
+        joints = [p for p in stick_parts(arm, thick) if p.joint is not None and p.joint not in self.figure.joints]
         figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.6)
         self.figure.companions.append(figure)
-        self.figure.joints = figure.joints
+        self.figure.joints |= figure.joints
 
     # ---- live ------------------------------------------------------------------------------------------------------
 
