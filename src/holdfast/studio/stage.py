@@ -76,9 +76,9 @@ class Stage:
     def _knobs(self) -> None:
         from holdfast.studio.body import stick_parts
 
-        arm, thick = self.machine.arm, 1.8 * self.machine.size
+        arm, thick = self.machine.arm, 1.15 * self.machine.size
         joints = [p for p in stick_parts(arm, thick) if p.joint is not None and p.joint not in self.figure.joints]
-        figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.6)
+        figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.5)
         self.figure.companions.append(figure)
         self.figure.joints |= figure.joints
 
