@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +15,17 @@ from holdfast.studio.machine import Machine
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
+
+
+def png(picture: NDArray[np.uint8]) -> bytes:
+    """A rendered picture (H, W, 4) as a PNG on white: the scene has no background of its own."""
+    import imageio.v3 as images
+
+    alpha = picture[..., 3:].astype(np.float64) / 255
+    flat = (picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
+    data = io.BytesIO()
+    images.imwrite(data, flat, extension=".png")
+    return data.getvalue()
 
 
 def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -23,7 +21,7 @@ from holdfast.studio.motions import Motion, read_motion
 from holdfast.studio.panel import Panel
 from holdfast.studio.stage import GREEN, ORANGE, PURPLE, Stage
 from holdfast.studio.state import State
-from holdfast.studio.work import Latest, Worker
+from holdfast.studio.work import Clock, Latest, Worker
 
 Array = NDArray[np.float64]
 Check = Callable[[], None]
@@ -51,10 +49,10 @@ class Window:
         self._cloud: Cloud | None = None
         self._along = np.zeros(machine.arm.n)
         self._way, self._rate = 0, 0.0
-        self._ticking: threading.Event | None = None
         self._playing = False
         self._closed = False
         self.live = Latest(self._complain)
+        self._clock = Clock(self.live, TICK)
         self.work = Worker(self._complain)
         self._saver = Worker(self._complain)
         with client.atomic():
@@ -78,7 +76,7 @@ class Window:
     def close(self) -> None:
         """Stop everything that goes on for this window."""
         self._closed = True
-        self._stop_ticking()
+        self._clock.stop()
         for thread in (self.live, self.work, self._saver):
             thread.stop()
 
@@ -164,18 +162,18 @@ class Window:
         self._rate = float(value)
         if self._rate == 0.0:
             return
-        self._tick(self._slide_on)
+        self._clock.start(self._slide_on)
 
     def _on_way(self, value: int) -> None:
         self._way, self._along = value, np.zeros(self.machine.arm.n)
 
     def _slide_on(self) -> None:
         if self._rate == 0.0:
-            self._stop_ticking()
+            self._clock.stop()
             return
         ways = self.machine.self_motions(self.q, self.state.failed)
         if not len(ways):
-            self._stop_ticking()
+            self._clock.stop()
             self.panel.slide.value = self._rate = 0.0
             self.panel.say("There is no self-motion here: every joint that is left is needed to hold the hand.", bad=True)
             return
@@ -187,7 +185,7 @@ class Window:
         sign = np.sign(self._rate)
         q, direction = self.machine.slide(self.q, sign * length * self._along, self.state.failed)
         if not np.any(direction):
-            self._stop_ticking()
+            self._clock.stop()
             self.panel.slide.value = self._rate = 0.0
             self._along = np.zeros(self.machine.arm.n)
             self.panel.say("The self-motion ends here, at a joint limit.", bad=True)
@@ -363,7 +361,7 @@ class Window:
         self._on_time(begin)
 
     def _drop_motions(self) -> None:
-        self._stop_ticking()
+        self._clock.stop()
         self._playing = False
         self.panel.play.label = "Play"
         self._motions = []
@@ -387,7 +385,7 @@ class Window:
     def _on_play(self, _: Any) -> None:
         if self._playing or not self._motions:
             self._playing = False
-            self._stop_ticking()
+            self._clock.stop()
             self.panel.play.label = "Play"
             return
         self._playing, self.panel.play.label = True, "Stop"
@@ -403,23 +401,7 @@ class Window:
             if now >= end:
                 self._on_play(None)
 
-        self._tick(on)
-
-    def _tick(self, action: Callable[[], None]) -> None:
-        """Do something 30 times a second, on the live thread, until :meth:`_stop_ticking`."""
-        self._stop_ticking()
-        stop = self._ticking = threading.Event()
-
-        def beat() -> None:
-            while not stop.wait(TICK):
-                self.live.put("tick", lambda: None if stop.is_set() else action())
-
-        threading.Thread(target=beat, daemon=True, name="studio clock").start()
-
-    def _stop_ticking(self) -> None:
-        if self._ticking is not None:
-            self._ticking.set()
-            self._ticking = None
+        self._clock.start(on)
 
     # ---- saving ----------------------------------------------------------------------------------------------------
 
@@ -429,7 +411,7 @@ class Window:
         width = min(PICTURE[1], int(camera.image_width))
 
         def job(_: Check) -> None:
-            import imageio.v3 as images
+            from holdfast.studio.picture import png
 
             handles = [h for h in (self.stage.gizmo, self.stage.target) if h.visible]
             for handle in handles:
@@ -439,12 +421,7 @@ class Window:
             finally:
                 for handle in handles:
                     handle.visible = True
-            data = io.BytesIO()
-            # The scene has no background of its own.
-            alpha = picture[..., 3:].astype(np.float64) / 255
-            flat = (picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
-            images.imwrite(data, flat, extension=".png")
-            self._send(name, data.getvalue())
+            self._send(name, png(picture))
 
         self._saver.ask(job)
 

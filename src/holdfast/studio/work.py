@@ -66,6 +66,36 @@ class Latest:
                 self._complain(error)
 
 
+class Clock:
+    """Does one thing again and again on a :class:`Latest`, until it is told otherwise.
+
+    Args:
+        live: Where it is done.
+        period: s from one time to the next.
+    """
+
+    def __init__(self, live: Latest, period: float) -> None:
+        self._live, self._period = live, period
+        self._ended: threading.Event | None = None
+
+    def start(self, action: Task) -> None:
+        """Do this from now on, and nothing else."""
+        self.stop()
+        ended = self._ended = threading.Event()
+
+        def beat() -> None:
+            while not ended.wait(self._period):
+                self._live.put("tick", lambda: None if ended.is_set() else action())
+
+        threading.Thread(target=beat, daemon=True, name="studio clock").start()
+
+    def stop(self) -> None:
+        """Do nothing more."""
+        if self._ended is not None:
+            self._ended.set()
+            self._ended = None
+
+
 class Worker:
     """One thread for long computations: the newest request cancels the one that is under way.
 
