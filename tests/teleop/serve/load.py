@@ -47,7 +47,8 @@ class Figures:
         return (
             f"{self.stations} stations x {self.rate:g} messages/s for {self.seconds:g} s: {self.sent} cycles sent, "
             f"{self.lost} lost, {self.differing} trials differ when replayed; acknowledged after p50 {self.p50:.1f} ms, "
-            f"p99 {self.p99:.1f} ms, at most {self.longest:.1f} ms; memory of the server {self.memory[0]:.0f} MiB at the beginning, {self.memory[1]:.0f} "
+            f"p99 {self.p99:.1f} ms, at most {self.longest:.1f} ms; "
+            f"memory of the server {self.memory[0]:.0f} MiB at the beginning, {self.memory[1]:.0f} "
             f"half-way, {self.memory[2]:.0f} at the end; it kept {self.busy:.2f} of a core busy"
         )
 
