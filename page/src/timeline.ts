@@ -83,15 +83,7 @@ class Session {
 
   private instructions(): Node {
     const { station } = this;
-    return this.when(
-      () => this.untouched,
-      [
-        this.screen((e) => {
-          station.frame.progress(station.texts.get("instructions_1_title"));
-          return showInstructions(e, station);
-        }),
-      ],
-    );
+    return this.when(() => this.untouched, [this.screen((e) => showInstructions(e, station))]);
   }
 
   /** On training tasks from the end of the plan, which hardly anybody gets to; nothing is recorded. */

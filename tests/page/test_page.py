@@ -20,11 +20,12 @@ def sources() -> str:
 
 
 @NEEDS_NODE
-def test_the_built_page_is_the_page(tmp_path):
-    command = ["node_modules/.bin/vite", "build", "--mode", "station", "--outDir", str(tmp_path), "--logLevel", "error"]
+@pytest.mark.parametrize(("mode", "html"), [("station", "index.html"), ("experimenter", "experimenter.html")])
+def test_the_built_page_is_the_page(tmp_path, mode, html):
+    command = ["node_modules/.bin/vite", "build", "--mode", mode, "--outDir", str(tmp_path), "--logLevel", "error"]
     subprocess.run(command, cwd=PAGE, check=True, capture_output=True)
     built = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
-    assert {"index.html", "station.js", "station.css", "worker.js"} <= built.keys()
+    assert {html, f"{mode}.js", f"{mode}.css"} <= built.keys()
     for name, content in built.items():
         assert (STATIC / name).read_bytes() == content, f"'{name}' is not what 'npm run build' makes; run it and commit"
 
@@ -48,15 +49,16 @@ def test_every_text_is_there_and_used():
     assert asked <= keys
 
 
-def test_the_built_page_asks_no_other_host_and_needs_nothing_inline():
-    index = (STATIC / "index.html").read_text(encoding="utf-8")
+@pytest.mark.parametrize(("mode", "html"), [("station", "index.html"), ("experimenter", "experimenter.html")])
+def test_the_built_page_asks_no_other_host_and_needs_nothing_inline(mode, html):
+    index = (STATIC / html).read_text(encoding="utf-8")
     assert not re.search(r"<style|<script(?![^>]*\bsrc=)|\bstyle=|\bon\w+=", index)
-    for name in ("index.html", "station.js", "station.css", "worker.js"):
+    for name in (html, f"{mode}.js", f"{mode}.css", "worker.js"):
         addresses = re.findall(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}[^\s\"'`)]*", (STATIC / name).read_text(encoding="utf-8"))
         # Names of XML, and what jsPsych says of itself in a citation, are never asked for.
         assert [a for a in addresses if not re.search(r"//(www\.)?(jspsych|w3|doi|joss\.theoj)\.org", a)] == []
-    assert "@font-face" not in (STATIC / "station.css").read_text(encoding="utf-8")
-    assert "eval(" not in (STATIC / "station.js").read_text(encoding="utf-8")
+    assert "@font-face" not in (STATIC / f"{mode}.css").read_text(encoding="utf-8")
+    assert "eval(" not in (STATIC / f"{mode}.js").read_text(encoding="utf-8")
 
 
 def test_the_lock_file_names_no_host():

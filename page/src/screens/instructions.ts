@@ -16,14 +16,12 @@ export async function showInstructions(element: HTMLElement, station: Station): 
     steer: texts.get(`steer_${device?.kind ?? "keys"}`),
   };
   const views = station.study.views.length;
-  const page = (part: number, more: string[], figure?: HTMLElement): Promise<string> =>
-    showPage(element, station, {
-      testid: `instructions-${part}`,
-      title: texts.get(`instructions_${part}_title`),
-      text: [`instructions_${part}_text`, ...more].map((key) => texts.get(key, values).trim()).join("\n\n"),
-      choices: next,
-      figure,
-    });
+  const page = (part: number, more: string[], figure?: HTMLElement): Promise<string> => {
+    const title = texts.get(`instructions_${part}_title`);
+    const text = [`instructions_${part}_text`, ...more].map((key) => texts.get(key, values).trim()).join("\n\n");
+    station.frame.progress(title);
+    return showPage(element, station, { testid: `instructions-${part}`, title, text, choices: next, figure });
+  };
 
   const { q0, target } = plan.training[0] ?? { q0: [], target: [] };
   const q = Float64Array.from(q0);
