@@ -19,10 +19,15 @@ from holdfast.teleop.point_task import Scenario
 from holdfast.teleop.protocol import Protocol, Training, read
 from holdfast.teleop.stick import Stick
 
-FLAGS = (
-    "--no-sandbox --disable-gpu --disable-background-networking --disable-quic --no-first-run --disable-component-update "
-    "--disable-sync"
-).split()
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-component-update",
+    "--disable-sync",
+]
 
 
 # Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.
@@ -105,12 +110,15 @@ def study(serve, protocol) -> Served:
 
 @pytest.fixture
 def contexts(browser) -> Iterator:
-    """``contexts(cut=False)``: a browser's profile; that nothing but the server was asked, and that nothing went wrong in it."""
+    """``contexts(expected)``: a browser's profile; in the end, that nothing but the server was asked, and nothing went wrong.
+
+    Errors in the console that ``expected`` is found in are none.
+    """
     opened = []
     asked: list[str] = []
     troubles: list[str] = []
 
-    def context(cut: bool = False):
+    def context(expected: str | None = None):
         made = browser.new_context(viewport={"width": 1280, "height": 720})
         made.set_default_timeout(60_000)
         made.add_init_script(path=Path(__file__).with_name("operator.js"))
@@ -119,8 +127,7 @@ def contexts(browser) -> Iterator:
         made.on("weberror", lambda error: troubles.append(str(error.error)))
 
         def heard(message) -> None:
-            # The browser says of every connection that it was lost, where a test has cut it.
-            if message.type in ("error", "warning") and not (cut and "WebSocket" in message.text):
+            if message.type in ("error", "warning") and not (expected is not None and expected in message.text):
                 troubles.append(message.text)
 
         made.on("console", heard)
