@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 WORKERS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types docs bench clean lock
+.PHONY: help demo test lint types docs bench soak clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -30,7 +30,12 @@ demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its re
 	rm -rf demo
 	$(BIN)/holdfast assess pa10-9dof --poses 2000 --seed 1 --out demo
 
-test: lint types  ## Set up, then run lint, types and tests.
+# Node is needed only here, to see that the built page is what its sources make.
+page/node_modules/.package-lock.json: page/package.json page/package-lock.json
+	cd page && npm ci --no-audit --no-fund
+	@touch $@
+
+test: lint types page/node_modules/.package-lock.json  ## Set up, then run lint, types and tests (needs Chromium and Node).
 	$(BIN)/python -m pytest -n $(WORKERS)
 
 lint: $(VENV)/test.stamp
@@ -50,6 +55,9 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
 
+soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 30 s without network (15 minutes).
+	$(BIN)/python tests/soak.py
+
 lock:  ## Write requirements.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock
 	$(VENV)-lock/bin/python -m pip install --quiet --upgrade "pip>=25.1"
@@ -58,4 +66,4 @@ lock:  ## Write requirements.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock
 
 clean:  ## Remove what the commands made.
-	rm -rf $(VENV) $(VENV)-bench demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache
+	rm -rf $(VENV) $(VENV)-bench page/node_modules demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from browser.line import Line
+from browser.station import OPERATOR
 from holdfast.teleop.point_task import Scenario
 from holdfast.teleop.protocol import Protocol, Training, read
 from holdfast.teleop.stick import Stick
@@ -71,11 +72,23 @@ class Served:
     station: str
     experimenter: str
 
+    @classmethod
+    def of(cls, folder: Path, process: subprocess.Popen[str]) -> Served:
+        """What a server that has just been started says of itself."""
+        assert process.stdout is not None
+        station, experimenter = (re.sub(r"^\w+:\s+", "", process.stdout.readline()).strip() for _ in range(2))
+        return cls(folder, station, experimenter)
+
     @property
     def port(self) -> int:
         port = urlsplit(self.station).port
         assert port is not None
         return port
+
+
+def command_line(folder: Path, *options: str) -> list[str]:
+    """'holdfast teleop serve' at any port that is free."""
+    return [sys.executable, "-m", "holdfast", "teleop", "serve", "--data", str(folder), "--port", "0", *options]
 
 
 @pytest.fixture(scope="package")
@@ -84,16 +97,12 @@ def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator:
     running: list[subprocess.Popen[str]] = []
 
     def served(protocol: Protocol, *options: str, folder: Path | None = None) -> Served:
-        new = tmp_path_factory.mktemp("served")
-        command = [sys.executable, "-m", "holdfast", "teleop", "serve", "--port", "0", *options]
         if folder is None:
-            command += ["--protocol", str(protocol.write(new / "protocol.yaml"))]
-        folder = folder or new / "study"
-        process = subprocess.Popen([*command, "--data", str(folder)], stdout=subprocess.PIPE, text=True)
+            new = tmp_path_factory.mktemp("served")
+            folder, options = new / "study", (*options, "--protocol", str(protocol.write(new / "protocol.yaml")))
+        process = subprocess.Popen(command_line(folder, *options), stdout=subprocess.PIPE, text=True)
         running.append(process)
-        assert process.stdout is not None
-        station, experimenter = (re.sub(r"^\w+:\s+", "", process.stdout.readline()).strip() for _ in range(2))
-        return Served(folder, station, experimenter)
+        return Served.of(folder, process)
 
     yield served
     for process in running:
@@ -121,7 +130,7 @@ def contexts(browser) -> Iterator:
     def context(expected: str | None = None):
         made = browser.new_context(viewport={"width": 1280, "height": 720})
         made.set_default_timeout(60_000)
-        made.add_init_script(path=Path(__file__).with_name("operator.js"))
+        made.add_init_script(path=OPERATOR)
         made.on("request", lambda request: asked.append(request.url))
         made.on("page", lambda page: page.on("websocket", lambda socket: asked.append(socket.url)))
         made.on("weberror", lambda error: troubles.append(str(error.error)))

@@ -85,6 +85,10 @@ class Station:
         """Take part, and fill in the first two forms."""
         self.at("code").fill(code)
         self.at("join").click()
+        self.fill()
+
+    def fill(self) -> None:
+        """Consent, and say something of oneself."""
         self.at("informed").check()
         self.at("agreed").check()
         self.at("submit").click()

@@ -39,7 +39,7 @@ def parts(led):
 
 def test_addresses_of_what_opens_in_a_tab(contexts, parts):
     _, base, key = parts
-    page = contexts("403").new_page()
+    page = contexts("Failed to load resource").new_page()  # what is refused has no icon either
     page.goto(f"{base}/experimenter?key={key}")
     at = page.get_by_test_id
     assert at("export").get_attribute("href") == f"{base}/experimenter/export.zip?key={key}"
