@@ -11,11 +11,9 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import replace
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 ROOT = Path(__file__).parents[1]
@@ -29,10 +27,9 @@ from holdfast.teleop.protocol import Training, read  # noqa: E402
 
 
 def keep(page: Page, name: str) -> None:
-    """Write what a page shows, in few colours: a small file."""
+    """Write what a page shows."""
     page.wait_for_timeout(300)
-    shown = Image.open(BytesIO(page.screenshot())).convert("RGB")
-    shown.quantize(64, dither=Image.Dither.NONE).save(OUT / f"{name}.png", optimize=True)
+    page.screenshot(path=OUT / f"{name}.png")
 
 
 def begin(folder: Path) -> None:
@@ -40,7 +37,8 @@ def begin(folder: Path) -> None:
     whole = read("goel2003-smooth")
     few = whole.with_tasks(whole.tasks.take(np.array([0, 3, 6, 9, 13, 19])), whole.notes[:6])
     training = Training(at_least=1, in_a_row=1, limit=900.0, most=20, distance=2.0)
-    simulate_experiment(folder, replace(few, training=training, subjects=12), 3, seed=4).close()
+    short = replace(few, name="Three links, pilot", training=training, subjects=12)
+    simulate_experiment(folder, short, 3, seed=4).close()
 
 
 def take(served: Served) -> None:
@@ -76,6 +74,9 @@ def take(served: Served) -> None:
         watcher = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
         watcher.goto(served.experimenter)
         watcher.locator("[data-testid=live][data-steering=true]").wait_for(timeout=120_000)
+        # The same on every computer.
+        for testid, text in (("folder", "/home/lab/study"), ("station-url", "http://127.0.0.1:8000/")):
+            watcher.get_by_test_id(testid).evaluate("(element, text) => { element.textContent = text; }", text)
         keep(watcher, "experimenter")
         keep(station.page, "trial")
         station.at("rating").wait_for()

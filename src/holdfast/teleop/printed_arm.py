@@ -39,7 +39,7 @@ def arm_module(protocol: Protocol) -> str:
     All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`law_of`. ``cycle`` writes what
     :meth:`holdfast.teleop.Plant.cycle` gives: the configuration after a whole control cycle, then the tool point's velocity
     at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the wire frame, three
-    world coordinates each, m: see :func:`markers`. NaN in an argument makes everything NaN.
+    world coordinates each, m: the base, every joint and the tool point. NaN in an argument makes everything NaN.
 
     Args:
         protocol: The experiment.
