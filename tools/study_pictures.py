@@ -11,9 +11,11 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 ROOT = Path(__file__).parents[1]
@@ -27,9 +29,12 @@ from holdfast.teleop.protocol import Training, read  # noqa: E402
 
 
 def keep(page: Page, name: str) -> None:
-    """Write what a page shows."""
+    """Write what a page shows, as a small file."""
     page.wait_for_timeout(300)
-    page.screenshot(path=OUT / f"{name}.png")
+    shown = Image.open(BytesIO(page.screenshot())).convert("RGB")
+    # Without kmeans, by how often a colour occurs, the few lines and dots would lose theirs.
+    few = shown.quantize(256, kmeans=4, dither=Image.Dither.NONE)
+    few.save(OUT / f"{name}.png", optimize=True)
 
 
 def begin(folder: Path) -> None:

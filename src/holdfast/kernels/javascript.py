@@ -1,4 +1,11 @@
-"""Program -> JavaScript: the computation of a kernel in a browser."""
+"""Program -> JavaScript: the computation of a kernel in a browser.
+
+V8 does not optimise a function of more than 60 kB of its own code, so a long program becomes several functions, which hand on
+through an array what more than one of them needs. Measured with Node 20 on one core of a shared machine, ten sub-steps of the
+failure-tolerant law: three links (4,300 CasADi operations) 29 us in functions of 100 operations, 20 of 200, 12 of 800 and more;
+Panda's position (12,800 operations) 85 us in functions of 200, 57 of 1600, 1,300 as a single function. Values written once stay
+inside the expression that reads them, which an engine skips on the side of a choice that is not taken.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,9 @@
 """The arm of a protocol as JavaScript: what moves in the page is the computation that Python replays.
 
-Measured with Node 20 on one core of a shared machine: see :mod:`holdfast.kernels.javascript`.
+Measured with Node 20 on one core of a shared machine: the paper's protocol (three links, two laws) makes 25 kB in less than a
+second; a control cycle of ten sub-steps takes 2 us under the pseudoinverse and 12 us under the failure-tolerant inverse. The
+seven-joint Panda, position task, makes 71 kB; 4 us and 35 to 60 us. Loading runs every law 300 times, 0.2 s (Panda
+0.5 s), because code that has not run yet takes 0.5 ms (Panda 2 ms) a cycle.
 """
 
 from __future__ import annotations
@@ -39,7 +42,8 @@ def arm_module(protocol: Protocol) -> str:
     All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`law_of`. ``cycle`` writes what
     :meth:`holdfast.teleop.Plant.cycle` gives: the configuration after a whole control cycle, then the tool point's velocity
     at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the wire frame, three
-    world coordinates each, m: the base, every joint and the tool point. NaN in an argument makes everything NaN.
+    world coordinates each, m: the base (left out where the first joint sits at it), every joint, the tool point; so joint k,
+    from 0, is marker ``markers - 1 - joints + k``. NaN or infinity in an argument makes everything NaN.
 
     Args:
         protocol: The experiment.
@@ -73,10 +77,7 @@ def arm_module(protocol: Protocol) -> str:
 
 
 def _wire_frame(arm: Arm, q: SX) -> SX:
-    """(3, markers) the base, every joint and the tool point in the world; a first joint that sits at the base is not told twice.
-
-    So joint k, from 0, is marker ``markers - 1 - n + k``.
-    """
+    """(3, markers) the base, if the first joint sits elsewhere, every joint and the tool point, in the world."""
     moving, still = kinematics.frames(arm, kinematics.joint_steps(arm, q))
     tool = kinematics.compose(moving[-1], kinematics.split(arm.tool))
     at_base = not np.any(arm.joints[0].origin[:3, 3])
@@ -106,7 +107,8 @@ for(let i=0;i<joints;i++)out[i]=y[i];
 export function position(q,out){{place(q,out);}}
 export function points(q,out){{wire(q,out);}}
 // Engines compile what has run a while, from all sides: so that no trial has to wait for it.
-const q0=new Float64Array(joints),v0=new Float64Array(axes),all=new Float64Array(joints).fill(1),end=new Float64Array(joints+axes);
+const q0=new Float64Array(joints),v0=new Float64Array(axes);
+const all=new Float64Array(joints).fill(1),end=new Float64Array(joints+axes);
 for(let law=0;law<laws;law++)for(let k=0;k<{warm};k++){{
 for(let i=0;i<joints;i++)q0[i]=3*Math.sin(k*(i+1.3));
 for(let i=0;i<axes;i++)v0[i]=k%7===0?0:0.05*Math.sin(k*(i+2.7));
