@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 WORKERS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types docs bench soak clean lock
+.PHONY: help demo test lint types docs page bench soak clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -30,12 +30,14 @@ demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its re
 	rm -rf demo
 	$(BIN)/holdfast assess pa10-9dof --poses 2000 --seed 1 --out demo
 
-# Node is needed only here, to see that the built page is what its sources make.
 page/node_modules/.package-lock.json: page/package.json page/package-lock.json
-	cd page && npm ci --no-audit --no-fund
+	cd page && npm ci --no-audit --no-fund --silent
 	@touch $@
 
-test: lint types page/node_modules/.package-lock.json  ## Set up, then run lint, types and tests (needs Chromium and Node).
+page: page/node_modules/.package-lock.json  ## Build the experiment's page into the package; needs Node 20.
+	cd page && npm run build
+
+test: lint types page/node_modules/.package-lock.json  ## Set up, then run lint, types and tests; needs Node 20 and Chromium.
 	$(BIN)/python -m pytest -n $(WORKERS)
 
 lint: $(VENV)/test.stamp

@@ -36,11 +36,30 @@ def test_maps_and_several_laws(cli, ask, tmp_path):
     assert {"map.csv", "map.json", "outcomes.png", "map.png"} == {p.name for p in tmp_path.iterdir()}
 
 
+def test_measures_by_sampling_come_with_intervals(cli, tmp_path):
+    few = ["--sampled", "--starts", "5", "--configurations", "2", "--points", "1"]
+    code, out, err = cli("workspace", "planar-3r", "--target", "1.5,1.5", *few, "--out", tmp_path)
+    assert (code, err) == (0, "")
+    assert "95 % interval" in out
+    assert "an upper bound" in out
+    data = json.loads((tmp_path / "workspace.json").read_text())
+    assert data["method"] == "sampled"
+    low, high = data["mean_percent_95"]["Ravg"]["any"]
+    assert low <= data["mean_percent"]["Ravg"]["any"] <= high
+
+
+def test_points_over_targets_are_those_asked_for(ask):
+    few = ["workspace", "planar-3r", "--target", "grid:3", "--starts", "3", "--configurations", "2"]
+    counts = [np.sum(ask(*few, *more)["ends"]) for more in ((), ("--points", "2"), ("--points", "5"))]
+    assert counts[0] == counts[1] < counts[2]
+
+
 @pytest.mark.parametrize(
     ("more", "message"),
     [
         (["--target", "1,2,3"], "needs 2, in m"),
         (["--target", "1.5,1.5", "--map", "--procedure"], "--procedure"),
+        (["--target", "1.5,1.5", "--sampled", "--procedure"], "exclude each other"),
         (["--target", "1.5,1.5", "--laws", "damped:x"], "not a number"),
         (["--target", "1.5,1.5", "--laws", "pseudoinverse:2"], "takes no setting"),
         (["--target", "9,9"], "within its reach"),

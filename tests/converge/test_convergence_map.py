@@ -53,6 +53,12 @@ def test_every_run_is_that_of_simulate(sampled, spatial):
     assert (healthy.code == m.code[..., 5].ravel()).all()
 
 
+def test_undecided_runs_have_a_reason(sampled):
+    undecided = sampled.happened("undecided")
+    assert (undecided == (sampled.reason != 0))[sampled.known].all()
+    assert sum(sampled.undecided().values()) == undecided.sum()
+
+
 def test_joints_that_do_not_move_the_point_do_not_matter(sampled):
     assert (sampled.values("converged")[:, 4] == sampled.values("converged")[:, 5]).all()
 

@@ -16,6 +16,7 @@ from holdfast.converge import workspace_output
 from holdfast.converge.arriving import arriving
 from holdfast.converge.healthy_paths import HealthyPaths
 from holdfast.converge.starts import configurations_at, lattice, read_places
+from holdfast.converge.workspace_job import Job, _sinks
 from holdfast.converge.workspace_output import save, summary
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.
@@ -113,7 +114,6 @@ def test_the_whole_way_counts_the_part_outside(law):
 def test_a_limit_cycle_is_simulated_by_the_procedure(law, rng):
     """Reachable, no sink, and still no convergence: joint 2 at 168.30 deg, target (0.9, 0)."""
     from holdfast.converge.measures import within
-    from holdfast.converge.workspace import _sinks
 
     arcs = _sinks(law, read_places(law.arm, law.task, [0.9, 0], rng).poses[0])
     angles = np.deg2rad([168.0, 168.3, 168.5, -168.3, 100.0, 150.0])
@@ -183,8 +183,8 @@ def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", progress=stop, **options)
     analysed = []
-    analyse = module._Job.analyse
-    monkeypatch.setattr(module._Job, "analyse", lambda job, poses: analysed.append(len(poses)) or analyse(job, poses))
+    analyse = Job.analyse
+    monkeypatch.setattr(Job, "analyse", lambda job, *rows: analysed.append(rows[-1]) or analyse(job, *rows))
     again = hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **options)
     assert sum(analysed) == len(again.places) - 6
     alone = hf.workspace(law, [1.5, 1.5], **options)
@@ -211,7 +211,7 @@ def test_files(small, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"method": "quick"}, "brute or procedure"),
+        ({"method": "quick"}, "brute, procedure or sampled"),
         ({"relative_to": "all"}, "inside or whole"),
         ({"configurations": 0}, "configurations is 0"),
         ({"points": -1}, "points is -1"),

@@ -99,6 +99,17 @@ def test_a_singularity_reached_in_finite_time_leaves_the_run_undecided(two):
     assert (stretched.outcome, stretched.reason) == ("undecided", Reason.SINGULAR)
 
 
+def test_half_a_turn_from_the_target_the_shortest_turn_flips():
+    """The turn of a planar hand is the sum of its joints."""
+    arm = hf.arms.load("planar-3r")
+    goal = np.array([[-0.7259, 0.6878, 0, -1.0299], [-0.6878, -0.7259, 0, 0.99], [0, 0, 1, 0], [0, 0, 0, 1]])
+    goal[:2, :2] /= np.sqrt(np.linalg.det(goal[:2, :2]))
+    runs = simulate(hf.control.pseudoinverse(arm, ["vx", "vy", "wz"]), [-0.9, 0.4, -1.1], goal, locked=[1], time_limit=50.0)
+    assert (runs.outcome, runs.reason) == ("undecided", Reason.HALF_TURN)
+    assert np.cos(runs.q_final.sum() - np.arctan2(goal[1, 0], goal[0, 0])) == pytest.approx(-1, abs=1e-5)
+    assert "half a turn" in runs.describe()[1]
+
+
 def test_excess_error_is_what_the_closed_form_leaves(two):
     starts = np.tile(RAD([0.0, -30.0]), (2, 1))
     targets = np.array([around(2, 120), around(1, 45)])

@@ -27,3 +27,19 @@ def check_poses(poses: ArrayLike) -> Array:
     if wrong.size:
         raise InputError(f"pose {wrong[0]} has no rotation in its upper left 3x3 block (orthonormal, determinant +1)")
     return t
+
+
+def pose_of(position: ArrayLike, quaternion: ArrayLike) -> Array:
+    """(4, 4) from a position (3,), m, and a quaternion x, y, z, w of any length but 0."""
+    from scipy.spatial.transform import Rotation
+
+    pose = np.eye(4)
+    pose[:3, 3], pose[:3, :3] = position, Rotation.from_quat(np.asarray(quaternion, dtype=np.float64)).as_matrix()
+    return pose
+
+
+def pose_numbers(pose: Array) -> tuple[float, ...]:
+    """Position x, y, z in m and unit quaternion x, y, z, w of a pose (4, 4)."""
+    from scipy.spatial.transform import Rotation
+
+    return (*pose[:3, 3].tolist(), *Rotation.from_matrix(pose[:3, :3]).as_quat().tolist())

@@ -57,7 +57,7 @@ def load(
     """
     path = Path(path)
     try:
-        tree = _read(path)
+        tree = read_tree(robot_element(path), path.stem)
         return chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}") from error
@@ -73,7 +73,12 @@ class _NoEntities(ElementTree.TreeBuilder):
         raise ArmError("the file has a DOCTYPE, which a URDF never needs and which can hide harmful entities; remove it")
 
 
-def _read(path: Path) -> Tree:
+def robot_element(path: Path) -> ElementTree.Element:
+    """The outermost element of a URDF file.
+
+    Raises:
+        ArmError: The file cannot be read, or is no URDF.
+    """
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -89,6 +94,15 @@ def _read(path: Path) -> Tree:
         raise ArmError(f"the outermost element is <{robot.tag}>; a URDF file has <robot>")
     if any("/xacro}" in element.tag for element in robot.iter()):
         raise ArmError("the file still has xacro macros; expand it with the xacro tool first")
+    return robot
+
+
+def read_tree(robot: ElementTree.Element, stem: str) -> Tree:
+    """Links and joints of a ``<robot>``; ``stem`` is its name if it has none.
+
+    Raises:
+        ArmError: It is not a sound tree.
+    """
     bodies: dict[str, Link | None] = {}
     for element in robot.findall("link"):
         label = _attribute(element, "name", "a <link>")
@@ -101,7 +115,7 @@ def _read(path: Path) -> Tree:
         if joint.name in joints:
             raise ArmError(f"the joint name '{joint.name}' is used more than once; names must be unique")
         joints[joint.name] = joint
-    return Tree(robot.get("name") or path.stem, bodies, joints)
+    return Tree(robot.get("name") or stem, bodies, joints)
 
 
 def _body(element: ElementTree.Element, label: str) -> Link | None:
@@ -118,7 +132,7 @@ def _body(element: ElementTree.Element, label: str) -> Link | None:
     )
     kilograms = _numbers(_attribute(mass, "value", f"{where}: <mass>"), 1, f"{where}: mass")[0]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(kilograms, np.zeros(3), inertia, label).moved(_origin(inertial, where))
+    return Link(kilograms, np.zeros(3), inertia, label).moved(read_origin(inertial, where))
 
 
 def _joint(element: ElementTree.Element) -> TreeJoint:
@@ -147,7 +161,7 @@ def _joint(element: ElementTree.Element) -> TreeJoint:
         type=kind,
         parent=ends["parent"],
         child=ends["child"],
-        origin=_origin(element, where),
+        origin=read_origin(element, where),
         axis=axis,
         lower=lower,
         upper=upper,
@@ -185,8 +199,8 @@ def _size(element: ElementTree.Element, key: str, where: str) -> float:
     return value
 
 
-def _origin(element: ElementTree.Element, where: str) -> Array:
-    """(4, 4) from ``<origin xyz rpy>``."""
+def read_origin(element: ElementTree.Element, where: str) -> Array:
+    """(4, 4) from the ``<origin xyz rpy>`` of an element; ``where`` is what an error calls it."""
     pose = np.eye(4)
     origin = element.find("origin")
     if origin is None:

@@ -307,13 +307,11 @@ def read_target(task: Task, text: str) -> NDArray[np.float64]:
     """--target as the library takes it: the task's rows of the tool point, or position and quaternion as a pose (4, 4)."""
     values = read_numbers("--target", text, "numbers")
     if values.size == 7:
-        from scipy.spatial.transform import Rotation
+        from holdfast.arm.poses import pose_of
 
         if not (np.isfinite(values).all() and np.linalg.norm(values[3:]) > 1e-9):
             raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
-        pose = np.eye(4)
-        pose[:3, 3], pose[:3, :3] = values[:3], Rotation.from_quat(values[3:]).as_matrix()
-        return pose
+        return pose_of(values[:3], values[3:])
     if task.angular or task.frame != "base":
         raise InputError(
             f"--target has {values.size} numbers; task '{task.name}' needs 7, the position x,y,z in m and the quaternion "

@@ -27,8 +27,10 @@ from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from holdfast.control import Law
-    from holdfast.converge import Workspace
+    from holdfast.converge import TargetMeasures, Workspace
 
 
 def workspace(
@@ -49,22 +51,39 @@ def workspace(
         typer.Option(
             "--starts",
             help="grid:52, a lattice over the workspace of a planar arm, or a number of random places.",
-            show_default="grid:52, or 1000",
+            show_default="grid:52, or 100; over targets 20; with --map 1000",
         ),
     ] = None,
     configurations: Annotated[
         int | None,
-        typer.Option("--configurations", help="Of each start, on each curve of its self-motion.", show_default="36, or 20"),
+        typer.Option(
+            "--configurations",
+            help="Of each start: on each curve of its self-motion, or random ones.",
+            show_default="36, or 8; over targets 8, or 4; with --map 20",
+        ),
     ] = None,
-    points: Annotated[int, typer.Option("--points", help="Failures of each joint on each motion; 0: ranges only.")] = 10,
+    points: Annotated[
+        int | None,
+        typer.Option(
+            "--points",
+            help="Failures of each joint on each motion; 0: ranges only.",
+            show_default="10, or 3; over targets 2",
+        ),
+    ] = None,
     procedure: Annotated[
         bool, typer.Option("--procedure/--brute", help="Simulate only failures where there is a sink, or all.")
+    ] = False,
+    sampled: Annotated[
+        bool,
+        typer.Option(
+            "--sampled", help="Random configurations of each start; so it is for every arm that does not move in a plane."
+        ),
     ] = False,
     whole: Annotated[
         bool, typer.Option("--whole/--inside", help="F of the whole way, or of its part within the joints' ranges.")
     ] = False,
     map_: Annotated[
-        bool, typer.Option("--map", help="How motions end, by sampling; so it is for every arm that does not move in a plane.")
+        bool, typer.Option("--map", help="How motions end with a joint locked from their start, in place of the six measures.")
     ] = False,
     over: Annotated[str, typer.Option("--over", help="With --map: over the starts or over the targets.")] = "starts",
     laws: Annotated[
@@ -90,12 +109,12 @@ def workspace(
 ) -> None:
     """From where does the hand still come to a target when a joint locks on the way and nobody knows?
 
-    For a planar arm the measures of Goel et al. 2005 over a lattice of starts; for other arms, and with --map, how motions
-    end, by sampling. A stopped analysis of a planar arm goes on where it was if --out is the same.
+    The measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by sampling,
+    with 95 % intervals. A stopped analysis goes on where it was if --out is the same. With --map, how motions end.
 
     Example: holdfast workspace planar-3r --target 1.5,1.5 --procedure --out results
 
-    Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 1000 --out results
+    Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
     model = read_arm(arm, base, tip)
     wanted = read_task(task, arm, model)
@@ -103,24 +122,27 @@ def workspace(
         made = [read_law(law, model, wanted, weights, damping, pre_failure_error)]
     else:
         made = [read_labelled_law(part, model, wanted, "--laws") for part in map(str.strip, laws.split(";")) if part]
-    flat = made[0].task.m == 2 and not made[0].task.angular
-    if not map_ and flat and laws is None:
+    if not map_ and laws is None:
+        if procedure and sampled:
+            raise InputError("--procedure and --sampled exclude each other; leave one out")
         options: dict[str, Any] = {
-            "starts": _places(starts or "grid:52"),
-            "configurations": 36 if configurations is None else configurations,
+            "starts": None if starts is None else _places(starts),
+            "configurations": configurations,
             "points": points,
-            "method": "procedure" if procedure else "brute",
+            "method": "procedure" if procedure else "sampled" if sampled else None,
             "relative_to": "whole" if whole else "inside",
             "time_limit": time_limit,
             "seed": seed,
         }
         if target.startswith(("grid", "random:")):
-            _over_targets(made[0], target, options, starts, configurations, out, json_)
+            _over_targets(made[0], target, options, out, json_)
         else:
             _measures(made[0], target, options, out, json_)
         return
-    if procedure or whole or points != 10:
-        raise InputError("--procedure, --whole and --points belong to the measures of a planar arm; leave them out, or --map")
+    if procedure or sampled or whole or points is not None:
+        raise InputError(
+            "--procedure, --sampled, --whole and --points belong to the measures; leave them out, or --map and --laws"
+        )
     options = {
         "targets": _places(target) if target.startswith(("grid", "random:")) else read_target(made[0].task, target),
         "starts": _places(starts or "1000"),
@@ -151,34 +173,28 @@ def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, 
         _print(w, files)
 
 
-def _over_targets(
-    law: Law,
-    target: str,
-    options: dict[str, Any],
-    starts: str | None,
-    configurations: int | None,
-    out: Path | None,
-    json_: bool,
-) -> None:
+def _over_targets(law: Law, target: str, options: dict[str, Any], out: Path | None, json_: bool) -> None:
     from rich.markup import escape
 
     from holdfast.converge import target_measures
-    from holdfast.converge.target_measures import CONFIGURATIONS, POINTS, STARTS
 
-    options |= {
-        "starts": STARTS if starts is None else _places(starts),
-        "configurations": CONFIGURATIONS if configurations is None else configurations,
-        "points": min(options["points"], POINTS),
-    }
     with progress_bar(json_, "targets") as progress:
         found = target_measures(law, _places(target), progress=progress, **options)
     files = [] if out is None else found.save(out)
     if json_:
-        print_json({"targets": found.targets.points, "ends": found.ends, "percent": found.measures})
+        print_json(
+            {
+                "targets": found.targets.points,
+                "ends": found.ends,
+                "percent": found.measures,
+                "percent_95": found.target_intervals(),
+            }
+        )
         return
     show = console()
     for line in found.describe():
         show.print(escape(line), soft_wrap=True)
+    _print_means(show, "mean over the targets, percent", found)
     print_written(show, files)
 
 
@@ -195,11 +211,34 @@ def _print(w: Workspace, files: list[Path]) -> None:
         told = ", ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
         table.add_row(escape(joint.name), told or "no value")
     show.print(table)
-    means = Table("mean over the starts, percent", *w.columns, box=None, pad_edge=False)
-    for name, values in w.means().items():
-        means.add_row(name, *[number(x) for x in values])
-    show.print(means)
+    sampled = w.method == "sampled"
+    _print_means(show, "mean over the starts, percent", w, sampled)
+    if sampled:
+        names = ["R100", "F100"] if w.ends.sum() else ["R100"]
+        rows = Table("joint", *(f"starts with {name} 100, percent" for name in names), box=None, pad_edge=False)
+        for column, shares in zip(w.columns, zip(*map(w.throughout, names), strict=True), strict=True):
+            rows.add_row(escape(column), *[_with_interval(100 * i.value, 100 * i.low, 100 * i.high) for i in shares])
+        show.print("where all configurations that were drawn do, an upper bound for all that there are:")
+        show.print(rows)
     print_written(show, files)
+
+
+def _print_means(show: Console, title: str, found: Workspace | TargetMeasures, intervals: bool = True) -> None:
+    """A column for each measure, a row for each joint."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    means, sure = found.means(), found.intervals()
+    table = Table("joint", *means, box=None, pad_edge=False)
+    for k, name in enumerate((*found.law.arm.joint_names, "any")):
+        cells = [_with_interval(v[k], *sure[m][k]) if intervals else number(v[k]) for m, v in means.items()]
+        table.add_row(escape(name), *cells)
+    show.print(title + (" (and 95 % interval):" if intervals else ":"))
+    show.print(table)
+
+
+def _with_interval(value: float, low: float, high: float) -> str:
+    return number(value) if value != value else f"{value:.1f}\n{low:.1f} to {high:.1f}"
 
 
 def _map(laws: list[Law], options: dict[str, Any], out: Path | None, json_: bool) -> None:

@@ -29,6 +29,7 @@ _SWEEPS = {1: 0, 2: 2, 3: 4, 4: 5, 5: 6, 6: 6}  # of Jacobi rotations, by m: to 
 _BISECTIONS, _NEWTON = 6, 4  # for the largest damping: to rounding (measured)
 _EDGE = 0.05  # of a cell: the next point keeps this far from its ends
 _SMOOTH = 0.02  # of a cell: tangents that meet this close to its middle belong to a parabola rather than to a kink
+_ROUGH = 1e-11  # relative: the tangents of a cell across which PKE^2 bends by less meet at a place made of rounding
 _FIRST = 0.2  # of the smallest sigma^2: below about this the grid is even in s
 _NEVER = 1e300
 _NOTHING = 1e-200  # its square is 0; CasADi would carry a condition with a real 0 through every product
@@ -198,12 +199,15 @@ def _meet(a: SX, fa: SX, ga: SX, b: SX, fb: SX, gb: SX) -> SX:
 def _refine(error: _PeakError, cell: Vector, best: SX, least: SX, rounds: int) -> tuple[SX, SX]:
     a, fa, ga, b, fb, gb = cell
     x, value = best, least
-    for _ in range(rounds):
+    for number in range(rounds):
+        edge = _EDGE if number < rounds - 1 else 0.0  # the last point may lie where it is best
         width, bend = b - a, gb - ga
         meet = _meet(a, fa, ga, b, fb, gb)
         flat = -ga * width / ca.if_else(bend > 0, bend, _NEVER)  # where the slope of a parabola is 0
-        step = _larger(ca.if_else(ca.fabs(meet - width / 2) < _SMOOTH * width, flat, meet), _EDGE * width)
-        x = a + ca.if_else(step < (1 - _EDGE) * width, step, (1 - _EDGE) * width)
+        # In a cell so narrow that its values differ by rounding alone, only their slopes still tell where the minimum is.
+        smooth = ca.logic_or(ca.fabs(meet - width / 2) < _SMOOTH * width, bend * width < _ROUGH * fa)
+        step = _larger(ca.if_else(smooth, flat, meet), edge * width)
+        x = a + ca.if_else(step < (1 - edge) * width, step, (1 - edge) * width)
         value, slope = error(x)
         better = value < least
         best, least = ca.if_else(better, x, best), ca.if_else(better, value, least)

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.configurations import configurations as as_configurations
 from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
-from holdfast.converge.starts import Places, configurations_at, read_places
+from holdfast.converge.starts import Places, picked_at, read_places
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
-from holdfast.simulate import Outcome, simulate
+from holdfast.simulate import Outcome, Reason, simulate
 from holdfast.solve.inverse import solver
 
 Array = NDArray[np.float64]
@@ -42,6 +42,7 @@ class ConvergenceMap:
         q0: (P, C, n) configurations at the start, rad and m; NaN where none was found.
         target: (P, C, 4, 4) tool poses.
         code: (P, C, n + 1) :class:`holdfast.simulate.Outcome`, 255 where there was no configuration.
+        reason: (P, C, n + 1) :class:`holdfast.simulate.Reason`: why a run is undecided.
         in_reach: (P, C, n + 1) True where the hand came to the target, or could within the limits with the joint standing
             as it does: a configuration was found.
         limits_passed: (P, C, n + 1) True where a joint left its limits on the way; the motion does not heed them.
@@ -54,6 +55,7 @@ class ConvergenceMap:
     q0: Array
     target: Array
     code: NDArray[np.uint8]
+    reason: NDArray[np.uint8]
     in_reach: Flags
     limits_passed: Flags
     seed: int
@@ -117,7 +119,15 @@ class ConvergenceMap:
                 f"{name} locked: {told}; converged with 95 % confidence {100 * arrives.low:.1f} to {100 * arrives.high:.1f} %, "
                 f"not there though the target was in reach {100 * trapped.value:.1f} %"
             )
+        counts = self.undecided()
+        if sum(counts.values()):
+            told = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count)
+            lines.append(f"undecided runs: {told}")
         return lines
+
+    def undecided(self) -> dict[str, int]:
+        """How many runs are undecided, by the name of the :class:`holdfast.simulate.Reason` in small letters."""
+        return {r.name.lower(): int((self.reason == r).sum()) for r in Reason if r}
 
 
 def shared(values: Array, runs: int, confidence: float) -> Interval:
@@ -203,48 +213,43 @@ def convergence_map(
         chosen = np.argsort(third.random((len(places), len(pool))), axis=1)[:, :each]
         q = pool[chosen]
         target = np.broadcast_to(places.poses[:, None], (*q.shape[:2], 4, 4))
-    code, in_reach, passed = _run(law, q, target, time_limit, tolerance, seed, progress)
-    return ConvergenceMap(law, places, over, q, np.asarray(target), code, in_reach, passed, seed)
+    code, reason, in_reach, passed = _run(law, q, target, time_limit, tolerance, seed, progress)
+    return ConvergenceMap(law, places, over, q, np.asarray(target), code, reason, in_reach, passed, seed)
 
 
 def _picked(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> Array:
     """(P, count, n) configurations of places, NaN where there are none."""
-    arm = law.arm
-    owner, found = configurations_at(arm, law.task, places.poses, count, seed)
-    q = np.full((len(places), count, arm.n), np.nan)
-    # Of several curves some points of each: a random choice of all.
-    order = np.lexsort([generator.random(len(owner)), owner])
-    owner, found = owner[order], found[order]
-    rank = np.arange(len(owner)) - np.searchsorted(owner, owner)
-    kept = rank < count
-    q[owner[kept], rank[kept]] = found[kept]
+    q = np.full((len(places), count, law.arm.n), np.nan)
+    owner, rank, found = picked_at(law.arm, law.task, places.poses, count, seed, generator)
+    q[owner, rank] = found
     return q
 
 
 def _run(
     law: Law, q: Array, target: Array, time_limit: float | None, tolerance: float, seed: int, progress: Progress | None
-) -> tuple[NDArray[np.uint8], Flags, Flags]:
-    """Codes, whether the target was in reach and whether limits were passed, (P, C, n + 1) each."""
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], Flags, Flags]:
+    """Codes, reasons, whether the target was in reach and whether limits were passed, (P, C, n + 1) each."""
     n = law.arm.n
     limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
     known = np.isfinite(q).all(axis=-1)
     start, pose = np.repeat(q[known], n + 1, axis=0), np.repeat(target[known], n + 1, axis=0)
     locked = np.tile([*range(n), -1], int(known.sum()))
-    code, passed, near = np.empty(len(locked), dtype=np.uint8), np.zeros(len(locked), dtype=bool), np.ones(len(locked), bool)
+    code, reason = (np.zeros(len(locked), dtype=np.uint8) for _ in range(2))
+    passed, near = (np.zeros(len(locked), dtype=bool) for _ in range(2))
     for at in range(0, len(locked), _SLICE):
         rows = slice(at, at + _SLICE)
         runs = simulate(law, start[rows], pose[rows], locked=locked[rows], time_limit=limit, tolerance=tolerance)
-        code[rows], passed[rows] = runs.code, runs.limits_passed.any(axis=1)
+        code[rows], reason[rows], passed[rows] = runs.code, runs.reason, runs.limits_passed.any(axis=1)
         near[rows] = _in_reach(law, runs.code, start[rows], pose[rows], locked[rows], seed)
         if progress is not None:
             progress(min(at + _SLICE, len(locked)), len(locked))
     shape = (*known.shape, n + 1)
     results: list[Any] = []
-    for values, fill in ((code, NONE), (near, False), (passed, False)):
+    for values, fill in ((code, NONE), (reason, Reason.NONE), (near, False), (passed, False)):
         out = np.full(shape, fill, dtype=values.dtype)
         out[known] = values.reshape(-1, n + 1)
         results.append(out)
-    return results[0], results[1], results[2]
+    return results[0], results[1], results[2], results[3]
 
 
 def _in_reach(law: Law, code: NDArray[np.uint8], q: Array, pose: Array, locked: NDArray[np.int64], seed: int) -> Flags:

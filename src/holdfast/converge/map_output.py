@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.converge.places_file import axis_label, save_places
+from holdfast.converge.place_panels import panels
+from holdfast.converge.places_file import save_places
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from holdfast.converge.convergence_map import ConvergenceMap
 
 _WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
-_BINS = 12
-_VIEWS = {"top": (0, 1), "side": (0, 2)}
 
 
 def summary(m: ConvergenceMap) -> dict[str, Any]:
@@ -34,6 +32,7 @@ def summary(m: ConvergenceMap) -> dict[str, Any]:
         "places_with_motions": int(m.known.any(axis=1).sum()),
         "motions": int(m.known.sum()),
         "seed": m.seed,
+        "undecided_runs": m.undecided(),
         "confidence": 0.95,
         "limits_passed_share": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
         "shares": shares,
@@ -80,34 +79,20 @@ def outcomes_figure(m: ConvergenceMap) -> Figure:
 
 def figures(m: ConvergenceMap) -> dict[str, Figure]:
     """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
-    from holdfast.report.place_maps import Plane, binned, place_maps
-
-    task, told = m.law.task, _told(m)
-    found = {"outcomes": outcomes_figure(m)}
     rows = {"arrives": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
     rows = {name: v[:, :-1] for name, v in rows.items()}
-    target = m.target[m.known]
-    alone = m.over == "starts" and len(np.unique(target[:, :3, 3], axis=0)) == 1
-    views = {"map": None} if task.m == 2 and not task.angular else {f"map-{name}": axes for name, axes in _VIEWS.items()}
-    for name, axes in views.items():
-        across = task.rows[:, :3] if axes is None else np.eye(3)[list(axes)]
-        words = axis_label(across[0]), axis_label(across[1])
-        point = across @ target[0, :3, 3] if len(target) else np.zeros(2)
-        mark = (float(point[0]), float(point[1])) if alone else None
-        points = m.places.points @ across.T
-        if m.places.cells is not None:
-            plane, shown = Plane(points, words, m.places.cells, m.places.axes, mark, "target"), rows
-            depth = ""
-        else:
-            pairs = {word: binned(points, v, _BINS) for word, v in rows.items()}
-            first = next(iter(pairs.values()))[0]
-            plane = replace(first, labels=words, mark=mark, mark_label="target")
-            shown = {word: v for word, (_, v) in pairs.items()}
-            depth = "; mean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        found[name] = place_maps(
-            plane, shown, m.columns[:-1], "of the motions, percent", f"{told}\nwhere the {m.over} are{depth}"
-        )
-    return found
+    target = m.target[m.known][:, :3, 3]
+    alone = m.over == "starts" and len(np.unique(target, axis=0)) == 1
+    maps = panels(
+        m.law.task,
+        m.places,
+        rows,
+        m.columns[:-1],
+        "of the motions, percent",
+        f"{_told(m)}\nwhere the {m.over} are",
+        target[0] if alone else None,
+    )
+    return {"outcomes": outcomes_figure(m), **{f"map{view}": figure for view, figure in maps.items()}}
 
 
 def _told(m: ConvergenceMap) -> str:

@@ -18,6 +18,9 @@ Index = NDArray[np.intp]
 ARC = 1e-9  # rad: this far outside an arc still counts as inside
 Arcs = Sequence[tuple[float, float]]
 
+REACH, FINISH = ("R100", "Ravg", "Rsens"), ("F100", "Favg", "Fsens")
+NAMES = (*REACH, *FINISH)
+
 
 @dataclass(frozen=True, eq=False)
 class Measures:
@@ -32,6 +35,11 @@ class Measures:
     full: Array
     average: Array
     spread: Array
+
+    @property
+    def parts(self) -> tuple[Array, Array, Array]:
+        """Full, average and spread: in the order of the names ``REACH`` and ``FINISH``."""
+        return self.full, self.average, self.spread
 
     @classmethod
     def of(cls, shares: Array, owner: Index, starts: int) -> Measures:

@@ -51,6 +51,11 @@ class Places:
         return self.poses[:, :3, 3]
 
 
+def in_a_plane(task: Task) -> bool:
+    """The task is the position in a plane: places may be a lattice."""
+    return task.m == 2 and not task.angular and task.frame == "base"
+
+
 def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
     """A square lattice over the disc that a planar arm could reach if it had no limits, ``count`` points along its edge.
 
@@ -60,7 +65,7 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
         TaskError: The task is not the position in a plane.
         InputError: Fewer than 2 points.
     """
-    if task.m != 2 or task.angular or task.frame != "base":
+    if not in_a_plane(task):
         raise TaskError(f"task '{task.name}' is not the position in a plane, so there is no lattice; give places or a number")
     if count < 2:
         raise InputError(f"a lattice of {count} points along its edge is none; give 2 or more")
@@ -172,3 +177,20 @@ def _evenly(arm: Arm, curve: Component, count: int) -> Array:
     way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
     at = (np.arange(count) + 0.5) / count * way[-1]
     return np.stack([np.interp(at, way, column) for column in q.T], axis=1)
+
+
+def picked_at(
+    arm: Arm, task: Task, places: Array, count: int, seed: int, generator: np.random.Generator
+) -> tuple[Index, Index, Array]:
+    """At most ``count`` configurations of each of the places (P, 4, 4), picked at random from :func:`configurations_at`.
+
+    Returns:
+        Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
+    """
+    owner, found = configurations_at(arm, task, places, count, seed)
+    # Of several curves some points of each: a random choice of all.
+    order = np.lexsort([generator.random(len(owner)), owner])
+    owner, found = owner[order], found[order]
+    rank = np.arange(len(owner)) - np.searchsorted(owner, owner)
+    kept = rank < count
+    return owner[kept], rank[kept], found[kept]

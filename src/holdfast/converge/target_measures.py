@@ -10,37 +10,72 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
-from holdfast.converge.places_file import axis_label, save_places
+from holdfast.converge.measures import NAMES
+from holdfast.converge.place_panels import measure_maps
+from holdfast.converge.places_file import save_places
 from holdfast.converge.starts import Places, read_places
-from holdfast.converge.workspace import ENDS, workspace
-from holdfast.solve import solve_ik
+from holdfast.converge.workspace import analysed, mean_intervals, mean_over
+from holdfast.converge.workspace_job import ENDS, Beginnings, Method, prepared, usual_method
+from holdfast.interval import check_confidence
 
 Array = NDArray[np.float64]
 
-MEASURES = ("R100", "Ravg", "Rsens", "F100", "Favg", "Fsens")
-TARGETS, STARTS, CONFIGURATIONS, POINTS = "grid:12", 20, 8, 2
+LATTICE: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
+SAMPLE: tuple[str | int, int] = (50, 4)  # and where they are sampled
+STARTS, POINTS = 20, 2
 
 
 @dataclass(frozen=True, eq=False)
 class TargetMeasures:
-    """Measures of T targets, each the mean over the same starts; the last of the n + 1 columns is for an arbitrary joint.
+    """Measures of T targets over the same S starts; the last of the n + 1 columns is for an arbitrary joint.
 
     Attributes:
         law: The law of the controller.
         targets: Where the hand should go.
         starts: Where it begins.
-        measures: R100, Ravg, Rsens, F100, Favg and Fsens by name, (T, n + 1) each, percent; NaN for a target out of reach, and
-            F where no failure leaves the target in reach.
+        values: R100, Ravg, Rsens, F100, Favg and Fsens by name, (T, S, n + 1) each, percent; NaN for a target or start out of
+            reach, and F where no failure leaves the target in reach.
+        configurations: (T, S) starting configurations that were looked at, less those lost at singular configurations.
         ends: (T, 6) how the failures ended, as in :class:`holdfast.Workspace`.
     """
 
     law: Law
     targets: Places
     starts: Places
-    measures: dict[str, Array]
+    values: dict[str, Array]
+    configurations: NDArray[np.int64]
     ends: NDArray[np.int64]
+
+    @property
+    def measures(self) -> dict[str, Array]:
+        """Of each target the mean over the starts that have the measure, (T, n + 1) each, percent."""
+        return {name: mean_over(v, 1) for name, v in self.values.items()}
+
+    def means(self) -> dict[str, Array]:
+        """Mean of every measure over the targets that have it, (n + 1,) each, percent."""
+        return {name: mean_over(v, 0) for name, v in self.measures.items()}
+
+    def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+        """How sure :meth:`means` are for targets that are a random sample: (n + 1, 2) each, percent, for these very starts.
+
+        The unit is the target. NaN where no target has a value.
+        """
+        check_confidence(confidence)
+        runs = int(self.configurations.sum())
+        return {name: mean_intervals(v, runs, confidence) for name, v in self.measures.items()}
+
+    def target_intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+        """How sure the ``measures`` of each target are for starts that are a random sample: (T, n + 1, 2) each, percent.
+
+        The unit is the start, as in :meth:`holdfast.Workspace.intervals`.
+        """
+        check_confidence(confidence)
+        runs = self.configurations.sum(axis=1).tolist()
+        return {
+            name: np.array([mean_intervals(v, count, confidence) for v, count in zip(values, runs, strict=True)])
+            for name, values in self.values.items()
+        }
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -53,7 +88,9 @@ class TargetMeasures:
         ]
 
     def save(self, folder: str | Path) -> list[Path]:
-        """Write ``targets.csv``, ``targets.json``, ``targets-reach.png`` and ``targets-finish.png``.
+        """Write ``targets.csv``, ``targets.json`` and maps, ``targets-reach.png`` and ``targets-finish.png``.
+
+        The table has for each target the means over the starts and their 95 % intervals.
 
         Raises:
             StoreError: The folder cannot be written.
@@ -61,47 +98,51 @@ class TargetMeasures:
         from holdfast.report.figures import save_png
 
         names = (*self.law.arm.joint_names, "any")
-        columns = [*ENDS, *(f"{name}_{column}_percent" for name in self.measures for column in names)]
+        columns: list[str] = list(ENDS)
+        values: list[NDArray[Any]] = [self.ends]
+        for name, sure in self.target_intervals().items():
+            values += [self.measures[name], sure[..., 0], sure[..., 1]]
+            columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
         facts: dict[str, Any] = {"arm": self.law.arm.name, "law": self.law.describe(), "starts": len(self.starts)}
-        files = save_places(folder, "targets", self.targets, columns, [self.ends, *self.measures.values()], facts)
-        for name, rows in (("reach", ("R100", "Ravg", "Rsens")), ("finish", ("F100", "Favg", "Fsens"))):
-            files.append(save_png(self._figure(rows), Path(folder) / f"targets-{name}.png", 130))
+        files = save_places(folder, "targets", self.targets, columns, values, facts)
+        for name, figure in self.figures().items():
+            files.append(save_png(figure, Path(folder) / f"targets-{name}.png", 130))
         return files
 
-    def _figure(self, names: tuple[str, ...]) -> Any:
-        from holdfast.report.place_maps import Plane, place_maps
-
-        arm, rows = self.law.arm, self.law.task.rows[:, :3]
-        words = axis_label(rows[0]), axis_label(rows[1])
-        plane = Plane(self.targets.points @ rows.T, words, self.targets.cells, self.targets.axes)
+    def figures(self) -> dict[str, Any]:
+        """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
         about = (
-            f"{arm.name}, {self.law.name}: each place is a target, its value the mean over {len(self.starts)} starts; "
-            f"{int(self.ends.sum())} failures; grey: no value"
+            f"{self.law.arm.name}, {self.law.name}: each place is a target, its value the mean over {len(self.starts)} starts; "
+            "grey: no value"
         )
-        return place_maps(plane, {n: self.measures[n] for n in names}, [*arm.joint_names, "any joint"], "percent", about)
+        count = int(self.ends.sum())
+        return measure_maps(self.law, self.targets, self.measures, about, f"{count} failures" if count else "")
 
 
 def target_measures(
     law: Law,
-    targets: ArrayLike | str | int | Places = TARGETS,
-    starts: ArrayLike | str | int | Places = STARTS,
-    configurations: int = CONFIGURATIONS,
-    points: int = POINTS,
+    targets: ArrayLike | str | int | Places | None = None,
+    starts: ArrayLike | str | int | Places | None = None,
+    configurations: int | None = None,
+    points: int | None = None,
+    method: Method | None = None,
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> TargetMeasures:
-    """The measures of :func:`holdfast.workspace` for many targets, each averaged over the same starts.
+    """The measures of :func:`holdfast.workspace` for many targets, over the same starts.
 
     Args:
-        law: The law of the controller, with a task in a plane and one joint to spare.
-        targets: A lattice (``"grid:14"``), a number of random ones, (T, m) positions or (T, 4, 4) poses.
-        starts: Likewise.
-        configurations: Of each start, on each curve of its self-motion.
-        points: Failures of each joint on each motion.
-        seed: Of random places.
+        law: The law of the controller, with one joint to spare or more.
+        targets: A lattice (``"grid:14"``, for a task in a plane), a number of random ones, (T, m) positions or (T, 4, 4)
+            poses. If not given: the lattice ``"grid:12"``, or 50 random ones where there is none.
+        starts: Likewise; 20 random ones if not given.
+        configurations: Of each start, as in :func:`holdfast.workspace`; 8 on a lattice, else 4, if not given.
+        points: Failures of each joint on each motion; 2 if not given.
+        method: As in :func:`holdfast.workspace`.
+        seed: Of random places and of the search for configurations.
         progress: Is told how many targets are done, and of how many.
-        options: Further ones of :func:`holdfast.workspace`: ``method``, ``cells``, ``time_limit``, ``relative_to``.
+        options: Further ones of :func:`holdfast.workspace`: ``cells``, ``time_limit``, ``tolerance``, ``relative_to``.
 
     Returns:
         A :class:`holdfast.TargetMeasures`.
@@ -111,19 +152,26 @@ def target_measures(
 
     Source: the measures are those of Goel, Maciejewski, Balakrishnan 2005, section 5; over targets they are ours.
     """
+    chosen = usual_method(law) if method is None else method
+    usual = LATTICE if usual_method(law) == "brute" else SAMPLE
+    each = usual[1] if configurations is None else configurations
+    failures = POINTS if points is None else points
     generator = np.random.default_rng(seed)
-    goals = read_places(law.arm, law.task, targets, generator)
-    places = read_places(law.arm, law.task, starts, generator)
-    within = solve_ik(without_idle_limits(law.arm), goals.poses, seed, law.task).success
-    columns = law.arm.n + 1
-    measures = {name: np.full((len(goals), columns), np.nan) for name in MEASURES}
+    goals = read_places(law.arm, law.task, usual[0] if targets is None else targets, generator)
+    places = read_places(law.arm, law.task, STARTS if starts is None else starts, generator)
+    begin = Beginnings(law, places, each, chosen, seed)
+    shape = len(goals), len(places)
+    values = {name: np.full((*shape, law.arm.n + 1), np.nan) for name in NAMES}
+    tried = np.zeros(shape, dtype=np.int64)
     ends = np.zeros((len(goals), len(ENDS)), dtype=np.int64)
     for k, pose in enumerate(goals.poses):
-        if within[k]:
-            one = workspace(law, pose, places, configurations, points, seed=seed, **options)
-            for name, mean in one.means().items():
-                measures[name][k] = mean
+        job = prepared(law, pose, each, failures, chosen, seed=seed, **options)
+        if job.reached:
+            one = analysed(job, begin)
+            for name, found in one.measures.items():
+                values[name][k] = found
+            tried[k] = one.configurations - one.lost
             ends[k] = one.ends.sum(axis=0)
         if progress is not None:
             progress(k + 1, len(goals))
-    return TargetMeasures(law, goals, places, measures, ends)
+    return TargetMeasures(law, goals, places, values, tried, ends)

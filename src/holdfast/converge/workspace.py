@@ -5,36 +5,39 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
-from holdfast.converge.arriving import arriving
-from holdfast.converge.bounds import joint_bounds
-from holdfast.converge.healthy_paths import healthy_paths
-from holdfast.converge.measures import Arcs, Flags, Index, Measures, averaged, spaced, within
-from holdfast.converge.starts import Places, configurations_at, read_places
-from holdfast.converge.stationary import stationary
-from holdfast.errors import InputError, TaskError
-from holdfast.simulate import Outcome, Reason, simulate
-from holdfast.study import Column, Store
+from holdfast.converge.convergence_map import shared
+from holdfast.converge.measures import FINISH, NAMES, REACH, Arcs, Measures
+from holdfast.converge.starts import Places, read_places
+from holdfast.converge.workspace_job import (
+    ARRIVING,
+    CELLS,
+    ENDS,
+    NO_SINK,
+    TOLERANCE,
+    Beginnings,
+    Job,
+    Method,
+    RelativeTo,
+    prepared,
+    usual_method,
+)
+from holdfast.errors import InputError
+from holdfast.interval import Interval, check_confidence
+from holdfast.simulate import Outcome
+from holdfast.study import Store
 
 Array = NDArray[np.float64]
-Method = Literal["brute", "procedure"]
-RelativeTo = Literal["inside", "whole"]
 Progress = Callable[[int, int], None]
 
-TIME_CONSTANTS = 2000.0  # 1/Ke
-TOLERANCE = 1e-8
-CYCLES = 0.02  # rad on either side of a Hopf point, where limit cycles were seen within 0.005
-BESIDE = 1e-3  # rad: locked angles this near to a sink or a degenerate angle are simulated too
+LATTICE: tuple[str | int, int, int] = ("grid", 36, 10)  # starts, configurations and points where starts are a lattice
+SAMPLE: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
 _CHUNK = 128  # starts analysed together and stored as one; no result depends on it
-ENDS = ("converged", "stuck", "moving", "undecided", "arriving", "no_sink")  # the first four as Outcome has them
-ARRIVING, NO_SINK = 4, 5
-_ARRIVES = np.array([1.0, 0.0, 0.0, np.nan, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +49,7 @@ class Workspace:
         target: (4, 4) tool pose; only the rows of the task count.
         places: Where the hand starts, a :class:`holdfast.converge.Places`.
         bounds: Of each joint the arcs (lower, upper), rad, in which it may lock and the target stays in reach.
-        method: ``brute`` or ``procedure``.
+        method: ``brute``, ``procedure`` or ``sampled``.
         relative_to: What ``finish`` is a share of: the part of a motion ``inside`` the bounds, or the ``whole``.
         configurations: (P,) starting configurations that were looked at; 0 where the place is out of reach.
         lost: (P,) of them, those whose healthy motion ran into a singular configuration; left out of everything.
@@ -76,8 +79,7 @@ class Workspace:
     @property
     def measures(self) -> dict[str, Array]:
         """R100, Ravg, Rsens, F100, Favg and Fsens by name, (P, n + 1) each, percent."""
-        r, f = self.reach, self.finish
-        return {"R100": r.full, "Ravg": r.average, "Rsens": r.spread, "F100": f.full, "Favg": f.average, "Fsens": f.spread}
+        return dict(zip(NAMES, (*self.reach.parts, *self.finish.parts), strict=True))
 
     @property
     def simulated(self) -> int:
@@ -97,7 +99,35 @@ class Workspace:
 
     def means(self) -> dict[str, Array]:
         """Mean of every measure over the starts that have it, (n + 1,) each, percent."""
-        return {name: _mean(values) for name, values in self.measures.items()}
+        return {name: mean_over(values, 0) for name, values in self.measures.items()}
+
+    def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+        """How sure the means are for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
+
+        The unit is the start: configurations and failures of one start are alike, and however many there are, they only
+        make its own value more exact. NaN where no start has a value.
+        """
+        check_confidence(confidence)
+        runs = int((self.configurations - self.lost).sum())
+        return {name: mean_intervals(values, runs, confidence) for name, values in self.measures.items()}
+
+    def throughout(self, name: str = "R100", confidence: float = 0.95) -> tuple[Interval, ...]:
+        """Share of the starts, for each column, at which R100 (or F100) is 100: whatever their configuration.
+
+        Only the configurations that were looked at are known, so that this is an upper bound of the share of starts at which
+        it holds for every configuration of the self-motion. The interval is Wilson's; NaN where no start has the measure.
+
+        Raises:
+            InputError: Another name.
+        """
+        check_confidence(confidence)
+        if name not in (REACH[0], FINISH[0]):
+            raise InputError(f"'{name}' is not known; use R100 or F100")
+        values = self.measures[name]
+        known = (~np.isnan(values)).sum(axis=0).tolist()
+        hits = (values >= 100 - 1e-9).sum(axis=0).tolist()
+        none = Interval(np.nan, np.nan, np.nan, confidence)
+        return tuple(Interval.of(h, k, confidence) if k else none for h, k in zip(hits, known, strict=True))
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -125,11 +155,11 @@ class Workspace:
 def workspace(
     law: Law,
     target: ArrayLike,
-    starts: ArrayLike | str | int | Places = "grid",
-    configurations: int = 36,
-    points: int = 10,
-    method: Method = "brute",
-    cells: int = 100,
+    starts: ArrayLike | str | int | Places | None = None,
+    configurations: int | None = None,
+    points: int | None = None,
+    method: Method | None = None,
+    cells: int = CELLS,
     time_limit: float | None = None,
     tolerance: float = TOLERANCE,
     relative_to: RelativeTo = "inside",
@@ -155,14 +185,25 @@ def workspace(
     Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
     in proportion; both are weighted by their lengths.
 
+    **By sampling** (``method="sampled"``), for any arm and task with a joint to spare: of every start up to
+    ``configurations`` random configurations, with one degree of redundancy from points equally far apart on its curves, with
+    more those at which inverse kinematics arrives from random starts, which are not spread evenly over the manifold. The
+    measures are the same, with the configurations that were drawn in place of all: Rsens and Fsens are then too small rather
+    than too great, R100 and F100 of a start are estimates of shares, and that they are 100 is necessary, not sufficient, for
+    every configuration to do (:meth:`holdfast.Workspace.throughout`). How sure the means over random starts are is told by
+    :meth:`holdfast.Workspace.intervals`.
+
     Args:
         law: The control law.
         target: (m,) position, or (4, 4) pose, as in :func:`holdfast.simulate.simulate`.
-        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (planar arms; 2032
-            places, as in the paper); a number of random places; or (P, m) positions or (P, 4, 4) poses.
-        configurations: On each curve of the self-motion of a start; of each start, with more than one degree of redundancy.
-        points: Failures of each joint on each motion, at most; 0 leaves F out.
-        method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink.
+        starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (tasks in a plane; 2032
+            places, as in the paper); a number of random places (where the hand is at random configurations); or (P, m)
+            positions or (P, 4, 4) poses. If not given: the lattice, or 100 random ones where there is none.
+        configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
+            of redundancy. 36 on a lattice, else 8, if not given.
+        points: Failures of each joint on each motion, at most; 0 leaves F out. 10, or 3, if not given.
+        method: ``brute`` simulates every failure; ``procedure`` only those that lock where there is a sink; ``sampled`` every
+            failure of random configurations. If not given: ``brute`` for a task in a plane, else ``sampled``.
         cells: Of the way.
         time_limit: s; 2000/Ke if not given.
         tolerance: Of the simulation's steps, rad.
@@ -176,26 +217,40 @@ def workspace(
         progress: Called with (starts done, starts in all).
 
     Raises:
-        InputError: Wrong shapes or options, or a target out of reach.
+        InputError: Wrong shapes or options, a target out of reach, or the procedure where points of rest form surfaces.
         TaskError: An arm without redundancy for the task.
         StoreError: A folder of another analysis, or one that cannot be written.
 
     Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the hand's
-    path: the paper does not define it.
+    path: the paper does not define it. Sampling and its intervals are ours.
     """
-    job = _job(law, target, configurations, points, method, cells, time_limit, tolerance, relative_to, sinks, seed)
-    places = read_places(law.arm, law.task, starts, np.random.default_rng(seed))
-    count = len(places)
-    ranges = [(k, min(k + _CHUNK, count)) for k in range(0, count, _CHUNK)]
+    chosen = usual_method(law) if method is None else method
+    usual = LATTICE if usual_method(law) == "brute" else SAMPLE
+    each = usual[1] if configurations is None else configurations
+    failures = usual[2] if points is None else points
+    places = read_places(law.arm, law.task, usual[0] if starts is None else starts, np.random.default_rng(seed))
+    job = prepared(law, target, each, failures, chosen, cells, time_limit, tolerance, relative_to, sinks, seed)
+    if not job.reached:
+        place = ", ".join(f"{x:g}" for x in job.pose[:3, 3])
+        raise InputError(
+            f"no configuration of '{law.arm.name}' was found at the target ({place}) m; choose one within its reach"
+        )
+    return analysed(job, Beginnings(law, places, each, chosen, seed), store, progress)
+
+
+def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progress: Progress | None = None) -> Workspace:
+    """The analysis of one target, some starts at a time."""
+    places, count = begin.places, len(begin.places)
     folder = None
     if store is not None:
         folder = Store.create(store, job.plan(places), job.store_columns(), count, _CHUNK)
     chunks: list[dict[str, NDArray[Any]]] = []
-    for k, (first, stop) in enumerate(ranges):
+    for k, first in enumerate(range(0, count, _CHUNK)):
+        stop = min(first + _CHUNK, count)
         if folder is not None and k in folder.done:
             rows = folder.read(k, job.names)
         else:
-            rows = job.analyse(places.poses[first:stop])
+            rows = job.analyse(*begin.of(first, stop), stop - first)
             if folder is not None:
                 with folder.writing():
                     folder.write(k, rows)
@@ -204,7 +259,7 @@ def workspace(
             progress(stop, count)
     found = {name: np.concatenate([rows[name] for rows in chunks]) for name in job.names}
     return Workspace(
-        law=law,
+        law=job.law,
         target=job.pose,
         places=places,
         bounds=job.bounds,
@@ -212,189 +267,24 @@ def workspace(
         relative_to=job.relative_to,
         configurations=found["configurations"],
         lost=found["lost"],
-        reach=Measures(found["R100"], found["Ravg"], found["Rsens"]),
-        finish=Measures(found["F100"], found["Favg"], found["Fsens"]),
+        reach=Measures(*(found[name] for name in REACH)),
+        finish=Measures(*(found[name] for name in FINISH)),
         ends=found["ends"],
     )
 
 
-def _job(
-    law: Law,
-    target: ArrayLike,
-    configurations: int,
-    points: int,
-    method: Method,
-    cells: int,
-    time_limit: float | None,
-    tolerance: float,
-    relative_to: RelativeTo,
-    sinks: Mapping[int, Arcs] | None,
-    seed: int,
-) -> _Job:
-    arm, task = law.arm, law.task
-    if arm.n <= task.m:
-        raise TaskError(
-            f"'{arm.name}' has {arm.n} joints and the task '{task.name}' {task.m} rows: without redundancy no joint may lock; "
-            "choose a task with fewer rows"
-        )
-    for what, number, least in (("configurations", configurations, 1), ("points", points, 0), ("cells", cells, 1)):
-        if number < least:
-            raise InputError(f"{what} is {number}; it must be {least} or more")
-    if method not in ("brute", "procedure"):
-        raise InputError(f"method '{method}' is not known; use brute or procedure")
-    if relative_to not in ("inside", "whole"):
-        raise InputError(f"relative_to '{relative_to}' is not known; use inside or whole")
-    if sinks is not None and method == "brute":
-        raise InputError("sinks belong to method='procedure'; brute force simulates every failure")
-    limit = TIME_CONSTANTS / law.gain if time_limit is None else float(time_limit)
-    targets = read_places(arm, task, target, np.random.default_rng(seed))
-    if len(targets) != 1:
-        raise InputError(f"there are {len(targets)} targets; a workspace is that of one, see convergence_map for more")
-    pose = targets.poses[0]
-    bounds = tuple(tuple(arcs) for arcs in joint_bounds(without_idle_limits(arm), pose, task, seed))
-    if not any(bounds):
-        place = ", ".join(f"{x:g}" for x in pose[:3, 3])
-        raise InputError(f"no configuration of '{arm.name}' was found at the target ({place}) m; choose one within its reach")
-    arcs = None
-    if method == "procedure":
-        arcs = _sinks(law, pose) if sinks is None else {k: list(sinks.get(k, ())) for k in range(arm.n)}
-    return _Job(law, pose, bounds, configurations, points, method, cells, limit, tolerance, relative_to, arcs, seed)
+def mean_intervals(values: Array, runs: int, confidence: float) -> Array:
+    """(C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
+    out = np.full((values.shape[1], 2), np.nan)
+    for k, column in enumerate(values.T):
+        if not np.isnan(column).all():
+            one = shared(column / 100, runs, confidence)
+            out[k] = 100 * one.low, 100 * one.high
+    return out
 
 
-@dataclass(frozen=True, eq=False)
-class _Job:
-    """What is done with every start."""
-
-    law: Law
-    pose: Array
-    bounds: tuple[tuple[tuple[float, float], ...], ...]
-    configurations: int
-    points: int
-    method: Method
-    cells: int
-    limit: float
-    tolerance: float
-    relative_to: RelativeTo
-    sinks: Mapping[int, Arcs] | None
-    seed: int
-
-    names = ("R100", "Ravg", "Rsens", "F100", "Favg", "Fsens", "configurations", "lost", "ends")
-
-    def plan(self, places: Places) -> dict[str, Any]:
-        """What defines the results, for a store."""
-        return {
-            "kind": "workspace",
-            "arm": self.law.arm.fingerprint,
-            "law": self.law.describe(),
-            "target": self.pose.tolist(),
-            "starts": places.poses[:, :3].tolist(),
-            "configurations": self.configurations,
-            "points": self.points,
-            "method": self.method,
-            "cells": self.cells,
-            "time_limit": self.limit,
-            "tolerance": self.tolerance,
-            "relative_to": self.relative_to,
-            "sinks": None if self.sinks is None else {str(k): [list(a) for a in arcs] for k, arcs in self.sinks.items()},
-            "seed": self.seed,
-        }
-
-    def store_columns(self) -> list[Column]:
-        """What a store holds of each start."""
-        joints = (("joint_or_any", self.law.arm.n + 1),)
-        measures = [Column(name, "float64", joints, "percent", name) for name in self.names[:6]]
-        return [
-            *measures,
-            Column("configurations", "int64", (), "1", "starting configurations"),
-            Column("lost", "int64", (), "1", "of them, lost at singular configurations"),
-            Column("ends", "int64", (("end", len(ENDS)),), "1", ", ".join(ENDS)),
-        ]
-
-    def analyse(self, poses: Array) -> dict[str, NDArray[Any]]:
-        """All results of starts (P, 4, 4)."""
-        arm, count = self.law.arm, len(poses)
-        owner, q0 = configurations_at(arm, self.law.task, poses, self.configurations, self.seed)
-        paths = healthy_paths(self.law)
-        target = np.broadcast_to(self.pose, (len(q0), 4, 4))
-        q = np.empty((self.cells, len(q0), arm.n))
-        for k, there in enumerate(paths.cells(q0, target, self.cells)):
-            q[k] = there
-        kept: Flags = np.asarray(np.isfinite(q[-1]).all(axis=1))
-        lost = np.bincount(owner[~kept], minlength=count)
-        tried = np.bincount(owner, minlength=count)
-        owner, q = owner[kept], q[:, kept]
-        inside = np.stack([within(q[..., j], self.bounds[j], not arm.prismatic[j]) for j in range(arm.n)])
-        inside = np.concatenate([inside, inside.all(axis=0, keepdims=True)])  # (n + 1, K, R)
-        length = inside.mean(axis=1).T
-        share, ends = self._finishes(q, inside, owner, count)
-        if self.relative_to == "whole":
-            share = np.where(length > 0, share * length, 0.0 if self.points else np.nan)
-        reach, finish = Measures.of(length, owner, count), Measures.of(share, owner, count)
-        measures = (reach.full, reach.average, reach.spread, finish.full, finish.average, finish.spread)
-        values: list[NDArray[Any]] = [*measures, tried, lost, ends]
-        return dict(zip(self.names, values, strict=True))
-
-    def _finishes(self, q: Array, inside: Flags, owner: Index, starts: int) -> tuple[Array, NDArray[np.int64]]:
-        """Share (R, n + 1) of the part inside from which the failed arm arrives, and how failures ended (starts, 6)."""
-        n, rows = self.law.arm.n, q.shape[1]
-        share, ends = np.full((rows, n + 1), np.nan), np.zeros((starts, len(ENDS)), dtype=np.int64)
-        if not self.points or not rows:
-            return share, ends
-        count = inside.sum(axis=1)  # (n + 1, R) cells
-        every = spaced(inside[n], np.full(rows, self.points))
-        groups = [(*every, j) for j in range(n)]
-        for j in range(n):
-            alone = inside[j] & ~inside[n]
-            part = alone.sum(axis=0) / np.maximum(count[j], 1)
-            groups.append((*spaced(alone, np.ceil(self.points * part).astype(np.int64)), j))
-        row = np.concatenate([g[0] for g in groups])
-        cell = np.concatenate([g[1] for g in groups])
-        joint = np.repeat([g[2] for g in groups], [len(g[0]) for g in groups])
-        ended = self._ends(q[cell, row], joint)
-        np.add.at(ends, (owner[row], ended), 1)
-        arrives = _ARRIVES[ended]
-        parts = np.split(arrives, np.cumsum([len(g[0]) for g in groups])[:-1])
-        both = count[n] / np.maximum(count[:n], 1)  # (n, R) how much of the part of a joint is inside for all
-        for j in range(n):
-            shared, alone = averaged(parts[j], every[0], rows), averaged(parts[n + j], groups[n + j][0], rows)
-            shared, alone = np.where(np.isnan(shared), alone, shared), np.where(np.isnan(alone), shared, alone)
-            share[:, j] = both[j] * shared + (1 - both[j]) * alone
-        together = np.stack(parts[:n])
-        failed = (together == 0).any(axis=0)
-        share[:, n] = averaged(np.where(failed, 0.0, together.sum(axis=0) / n), every[0], rows)
-        return share, ends
-
-    def _ends(self, q: Array, joint: NDArray[np.int64]) -> NDArray[np.int64]:
-        """(N,) how failures of joints (N,) at configurations (N, n) end, as numbered by ``ENDS``."""
-        ended = np.full(len(q), NO_SINK)
-        wanted = np.ones(len(q), dtype=bool)
-        if self.sinks is not None:
-            for j, arcs in self.sinks.items():
-                mine = joint == j
-                wide = [(lower - BESIDE, upper + BESIDE) for lower, upper in arcs]
-                wanted[mine] = within(q[mine, j], wide, not self.law.arm.prismatic[j])
-        if wanted.any():
-            runs = simulate(
-                self.law, q[wanted], self.pose, locked=joint[wanted], time_limit=self.limit, tolerance=self.tolerance
-            )
-            code = runs.code.astype(np.int64)
-            slow = np.flatnonzero(runs.reason == Reason.SLOW)
-            code[slow[arriving(self.law, runs.q_final[slow], self.pose, joint[wanted][slow])]] = ARRIVING
-            ended[wanted] = code
-        return ended
-
-
-def _mean(values: Array) -> Array:
+def mean_over(values: Array, axis: int) -> Array:
+    """Mean along an axis of the values that are not NaN; NaN where there is none."""
     known = ~np.isnan(values)
-    count = known.sum(axis=0)
-    return np.where(count > 0, np.where(known, values, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan)
-
-
-def _sinks(law: Law, pose: Array) -> dict[int, Arcs]:
-    """Of each joint, the locked values with a sink, and those beside which motions may circle or creep."""
-    found: dict[int, Arcs] = {}
-    for j in range(law.arm.n):
-        curves = stationary(law, pose, locked=j)
-        circling = [(x - CYCLES, x + CYCLES) for c in curves.curves for x in c.locked[c.hopf_points].tolist()]
-        found[j] = [*curves.sink_arcs, *((x, x) for x in curves.degenerate_angles), *circling]
-    return found
+    count = known.sum(axis=axis)
+    return np.where(count > 0, np.where(known, values, 0.0).sum(axis=axis) / np.maximum(count, 1), np.nan)

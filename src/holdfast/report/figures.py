@@ -28,14 +28,21 @@ from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
+from holdfast.palette import AMBER as AMBER
+from holdfast.palette import BLUE as BLUE
+from holdfast.palette import FAINT as FAINT
+from holdfast.palette import GREEN as GREEN
+from holdfast.palette import INK as INK
+from holdfast.palette import LIGHT_BLUE as LIGHT_BLUE
+from holdfast.palette import ORANGE as ORANGE
+from holdfast.palette import PALE as PALE
+from holdfast.palette import PURPLE as PURPLE
+from holdfast.palette import SKY as SKY
+from holdfast.palette import SOFT as SOFT
 from holdfast.report.words import percent
 
 Array = NDArray[np.float64]
 
-INK, SOFT, FAINT = "#1b1f24", "#59636e", "#d4d9de"
-BLUE, ORANGE, SKY = "#0a5c9e", "#c8500a", "#a9cbe6"  # after Okabe and Ito, darkened for thin lines
-GREEN, PURPLE, AMBER, LIGHT_BLUE = "#007a5e", "#a8497f", "#c58a00", "#4aa3d6"
-PALE = "#e9ecef"  # where there is nothing
 # Many curves at once: every pair differs in colour, line style or both, up to 28 of them.
 COLORS = (BLUE, ORANGE, GREEN, PURPLE, INK, AMBER, LIGHT_BLUE)
 _LINES = ("-", (0, (4.5, 2)), (0, (1.2, 1.4)), (0, (6, 1.8, 1.2, 1.8)))

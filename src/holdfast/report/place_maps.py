@@ -83,7 +83,9 @@ def _draw(axes: Axes, plane: Plane, values: Array, scale: Scale) -> None:
         picture = np.full((len(y), len(x), 4), 0.0)
         picture[plane.cells[:, 1], plane.cells[:, 0]] = to_rgba(PALE)
         picture[plane.cells[known, 1], plane.cells[known, 0]] = scale.colors(values[known])
-        half = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
+        # Cells of a single row or column are as wide as the others are high; a single one is 10 cm.
+        steps = [float(a[1] - a[0]) for a in (x, y) if len(a) > 1] or [0.1]
+        half = steps[0] / 2, steps[-1] / 2
         extent = (x[0] - half[0], x[-1] + half[0], y[0] - half[1], y[-1] + half[1])
         axes.imshow(picture, origin="lower", extent=extent, interpolation="nearest")
     else:

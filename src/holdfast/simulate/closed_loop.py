@@ -51,7 +51,8 @@ def simulate(
     * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
       its greatest value in the last tenth is at least 0.99 of that in the tenth before;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
-      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *bad input*.
+      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise, and the hand
+      is half a turn from its target: the shortest turn, and with it the command, is discontinuous there), *bad input*.
 
     None of this looks at the steps that were taken, so that it does not depend on their size.
 

@@ -22,12 +22,14 @@ from holdfast.simulate.nearest import Nearest
 from holdfast.simulate.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
 from holdfast.simulate.tableaus import CLASSIC, DOP853
+from holdfast.solve.inverse import hand_error
 
 Array = NDArray[np.float64]
 
 ARRIVES = 1e-5  # m and rad: an error below it at rest is no error
 MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not coming to rest
 DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
+FLIPS = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction
 MOST_STEPS = 100_000
 BLOCK, LEAST_BLOCK = 8192, 256  # runs that one thread makes together; no result depends on it
 
@@ -73,6 +75,14 @@ class Motion:
         """What the task prescribes of the tool point."""
         place = kinematics.chain(self.law.arm, self._system.q).position
         return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ place])
+
+    @cached_property
+    def _turn(self) -> Kernel:
+        """The angle of the shortest turn that the task asks for, rad."""
+        s, law = self._system, self.law
+        chain = kinematics.chain(law.arm, s.q)
+        error = hand_error(law.task, chain.position, chain.rotation, s.target, s.rotation)
+        return Kernel("turn", [s.q, s.target, s.rotation], [ca.norm_2(error[3:])])
 
     @cached_property
     def _single(self) -> Kernel:
@@ -125,6 +135,9 @@ class Motion:
         error = np.sqrt(parts["error"][:, 0])
         code, reason = self._verdict(error, parts)
         code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
+        if target.ndim == 3 and self.law.task.angular:
+            long = np.flatnonzero(reason == Reason.STEPS)
+            reason[long[self._half_turn(q[long], target[long])]] = Reason.HALF_TURN
         if target.ndim == 2:
             hand = self._hand.rows(q)
         else:
@@ -143,6 +156,10 @@ class Motion:
             "limits_passed": (low < self.law.arm.lower) | (high > self.law.arm.upper),
             "time": parts["time"][:, 0] / self._unit,
         }
+
+    def _half_turn(self, q: Array, target: Array) -> NDArray[np.bool_]:
+        """(N,) True where the hand is half a turn from its target: there the error of the orientation is discontinuous."""
+        return np.asarray(self._turn.rows(q, target[:, :3, 3], target[:, :3, :3])[:, 0] > np.pi - FLIPS)
 
     @property
     def _unit(self) -> float:

@@ -36,6 +36,7 @@ class Reason(IntEnum):
     SLOW = 2
     STEPS = 3
     BAD_INPUT = 4
+    HALF_TURN = 5
 
     @property
     def sentence(self) -> str:
@@ -48,6 +49,10 @@ _SENTENCES = {
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
     Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet come to rest: give a longer time_limit",
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
+    Reason.HALF_TURN: (
+        "for 100,000 steps the hand stayed half a turn from its target, where the shortest turn flips from one instant to the "
+        "next: bring the target nearer to its orientation by poses in between, or leave the orientation free"
+    ),
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }
 

@@ -193,6 +193,27 @@ class InverseKinematics:
         """
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance).success
 
+    def near(self, q: Array, pose: Array, free: Array, tolerance: float, steps: int = STEPS) -> tuple[Array, bool]:
+        """From q (n,) towards one pose (4, 4), without restarts: for a hand that is dragged.
+
+        Args:
+            q: (n,) where the arm is, rad and m.
+            pose: (4, 4) in the world.
+            free: (n,) 1 for joints that may move, 0 for those that stand.
+            tolerance: m and rad.
+            steps: At most so many.
+
+        Returns:
+            The configuration (n,), never farther from the pose than q, joint values not wrapped; and whether it is on the pose
+            and within the limits.
+        """
+        poses = pose[None]
+        run = self._loop_with_locks.run(q[None], np.concatenate([_parameters(poses), free[None]], axis=1), tolerance**2, steps)
+        both = np.concatenate([run.state, q[None]])
+        miss = np.hypot(*self.errors(both, np.repeat(poses, 2, axis=0)))
+        best = both[0] if miss[0] < miss[1] else both[1]
+        return best, bool(self.verdict(best[None], poses, tolerance)[0])
+
     def _search(
         self,
         loop: Loop,

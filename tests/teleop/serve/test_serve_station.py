@@ -231,6 +231,9 @@ def test_who_comes_in(records):
     assert records.last_seq("P07") == 1
     assert isinstance(enter(records, hello(session=again.key)), Bye)
     assert enter(records, hello(session=key)) == Entered("P07", key)
+    robot = enter(records, hello(session=key).model_copy(update={"kind": "simulated"}))
+    assert isinstance(robot, Bye)
+    assert "this page's is simulated" in robot.reason
 
 
 def test_keys_are_kept_as_hashes_only(records):

@@ -65,8 +65,11 @@ def enter(records: Records, hello: Hello) -> Entered | Refused | Bye:
         code = records.key_holder(hello.session)
         if code is None:
             return Bye(reason="this session is not known here: it was deleted, or given to another page")
-        if records.subject(code).state == State.DROPPED:
+        subject = records.subject(code)
+        if subject.state == State.DROPPED:
             return Bye(reason=f"the session of {code} was ended by the experimenter")
+        if subject.kind != hello.kind:
+            return Bye(reason=f"the session of {code} is that of a {subject.kind} subject, and this page's is {hello.kind}")
         return Entered(code, hello.session)
     try:
         with records.together():

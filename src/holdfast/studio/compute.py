@@ -1,0 +1,86 @@
+"""What takes long, as functions of an arm and plain data: they run in a process beside the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import InputError
+from holdfast.studio.cloud import Cloud, around, read_cloud
+from holdfast.studio.machine import Machine
+from holdfast.studio.motions import Motion, law_motions, swing_motion
+from holdfast.studio.state import State
+
+Array = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+STARTS = 64  # of the search for a best configuration
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """The best and the worst configuration of a pose.
+
+    Attributes:
+        q: Two configurations (n,), rad and m.
+        values: Of the objective, there and where the arm is.
+    """
+
+    q: tuple[Array, Array]
+    values: tuple[float, float, float]
+
+
+def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
+    """The best and the worst configuration of the present pose by the objective of the state.
+
+    Raises:
+        InputError: The arm has no such objective, or no configuration of the pose was found.
+    """
+    from holdfast.solve import optimise
+
+    both = machine.objectives(state.objective)
+    if isinstance(both, str):
+        raise InputError(both)
+    q = np.array(state.q)
+    found = []
+    for k, wanted in enumerate(both):
+        progress(k, 2)
+        found.append(optimise(machine.arm, machine.hand(q), wanted, task=machine.task, starts=STARTS))
+    if not all(bool(f.success) for f in found):
+        raise InputError("no configuration of this pose was found; move the hand and try again")
+    return Extremes((found[0].q, found[1].q), (float(found[0].value), float(found[1].value), float(both[0](q))))
+
+
+def laws(machine: Machine, state: State, progress: Progress) -> list[Motion]:
+    """The motion to the target under both laws; see :func:`holdfast.studio.motions.law_motions`."""
+    return law_motions(machine, state, progress)
+
+
+def swing(machine: Machine, state: State, progress: Progress) -> list[Motion]:
+    """The free swing of the joint that is free; see :func:`holdfast.studio.motions.swing_motion`."""
+    progress(0, 1)
+    return [swing_motion(machine.arm, state)]
+
+
+def region(machine: Machine, state: State, progress: Progress) -> Cloud:
+    """The region of the state's results folder, or one around the hand, assessed now.
+
+    Raises:
+        InputError: The arm has no such index.
+    """
+    if state.region is not None:
+        return read_cloud(machine.arm, state.region)
+    index = machine.index(state.index)
+    if isinstance(index, str):
+        raise InputError(index)
+    return around(index, machine.hand(np.array(state.q)), machine.size, progress)
+
+
+JOBS: dict[str, Callable[[Machine, State, Progress], object]] = {
+    "best-worst": best_worst,
+    "laws": laws,
+    "swing": swing,
+    "region": region,
+}

@@ -1,0 +1,61 @@
+"""A view as a drawing: the arm from the side and from above, with what has failed marked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from holdfast.control.stick_figure import projections
+from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, plain, style, svg
+from holdfast.studio.machine import Machine
+from holdfast.studio.state import State
+
+Array = NDArray[np.float64]
+
+
+def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str:
+    """SVG text of a view.
+
+    Args:
+        machine: The arm.
+        state: Where it stands, and what has failed.
+        ghosts: (n,) configurations of other arms in the picture, green and orange.
+    """
+    from matplotlib.figure import Figure
+
+    chains = [machine.frames(np.asarray(q))[:, :3, 3] for q in (*ghosts, state.q)]
+    views = projections(machine.arm, np.stack(chains))
+    with style():
+        figure = Figure(figsize=(WIDTH, WIDTH / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH))
+        for number, view in enumerate(views, 1):
+            axes = figure.add_subplot(1, len(views), number)
+            for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
+                axes.plot(chain @ view.right, chain @ view.up, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
+            _arm(axes, chains[-1] @ np.stack([view.right, view.up], 1), state)
+            axes.set_aspect("equal", adjustable="datalim")
+            axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
+        figure.suptitle(plain(_caption(state)), x=0.01, ha="left", fontsize=9.5)
+        finished(figure)
+    return svg(figure, "studio", _caption(state))
+
+
+def _arm(axes: Axes, chain: Array, state: State) -> None:
+    axes.plot(*chain.T, color=INK, linewidth=2.6, solid_capstyle="round", zorder=3)
+    axes.plot(*chain[0], marker="s", color=INK, markersize=8, zorder=3.1)
+    axes.plot(*chain[-1], marker="D", color=SOFT, markersize=6, zorder=3.5)
+    for k, (place, condition) in enumerate(zip(chain[1:-1], state.conditions, strict=True)):
+        color, marker = {"healthy": ("white", "o"), "locked": (ORANGE, "X"), "free": (PURPLE, "P")}[condition]
+        size = 6 if condition == "healthy" else 11
+        axes.plot(*place, marker=marker, color=color, markeredgecolor=INK, markersize=size, zorder=3.2 + 0.1 * (size > 6))
+        if condition != "healthy":
+            axes.annotate(
+                plain(f"{state.names[k]} {condition}"), tuple(place), (8, 6), textcoords="offset points", color=INK, zorder=4
+            )
+
+
+def _caption(state: State) -> str:
+    failed = ", ".join(f"{state.names[k]} {state.conditions[k]}" for k in state.failed)
+    return f"{state.arm}: {failed or 'all joints healthy'}"

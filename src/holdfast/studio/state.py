@@ -1,0 +1,103 @@
+"""What a window of the studio shows, as one value that can be written down as a command line."""
+
+from __future__ import annotations
+
+import shlex
+from dataclasses import dataclass
+from typing import Literal
+
+from holdfast.errors import InputError
+
+Condition = Literal["healthy", "locked", "free"]
+Show = Literal["arm", "best-worst", "laws", "swing", "region", "file"]
+CONDITIONS: tuple[Condition, ...] = ("healthy", "locked", "free")
+SHOWS: tuple[Show, ...] = ("arm", "best-worst", "laws", "swing", "region", "file")
+
+
+@dataclass(frozen=True)
+class State:
+    """One view, without the place from which it is looked at.
+
+    Attributes:
+        arm: The arm as given on the command line: a built-in name or a file.
+        names: (n,) names of its joints.
+        q: (n,) configuration, rad and m.
+        task: Rows of the pose that matter, as on the command line.
+        base, tip: Links of the file, if chosen.
+        conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
+        index: The index of the bars.
+        susceptibility: The susceptibility of the bars.
+        objective: What best and worst configurations are chosen by: an index or a susceptibility, by name.
+        laws: Two control laws side by side, as ``slug`` or ``slug:setting``.
+        target: Where they should bring the hand: x, y, z (m) and quaternion x, y, z, w; None: not chosen.
+        show: What is shown beside the arm: nothing else (``arm``), ghosts in the ``best-worst`` configuration of this pose, a
+            motion under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
+        file: A motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
+        region: A results folder of ``assess``, or None: then a region around the hand.
+        time: Where a motion is shown, s (or whatever its first column counts).
+    """
+
+    arm: str
+    names: tuple[str, ...]
+    q: tuple[float, ...]
+    task: str = "pose"
+    base: str | None = None
+    tip: str | None = None
+    conditions: tuple[Condition, ...] = ()
+    index: str = "relative-manipulability"
+    susceptibility: str = "torque"
+    objective: str = "relative-manipulability"
+    laws: tuple[str, str] = ("pseudoinverse", "failure-tolerant")
+    target: tuple[float, ...] | None = None
+    show: Show = "arm"
+    file: str | None = None
+    region: str | None = None
+    time: float = 0.0
+
+    def __post_init__(self) -> None:
+        n = len(self.names)
+        if len(self.q) != n:
+            raise InputError(f"q has {len(self.q)} values; '{self.arm}' has {n} joints, so it must have {n}")
+        conditions = self.conditions or ("healthy",) * n
+        if len(conditions) != n or any(c not in CONDITIONS for c in conditions):
+            raise InputError(f"conditions are {conditions}; give one of {', '.join(CONDITIONS)} for each of the {n} joints")
+        if self.show not in SHOWS:
+            raise InputError(f"show is '{self.show}'; use one of {', '.join(SHOWS)}")
+        if self.target is not None and len(self.target) != 7:
+            raise InputError(f"target has {len(self.target)} numbers; it needs x,y,z in m and the quaternion x,y,z,w")
+        object.__setattr__(self, "conditions", tuple(conditions))
+
+    @property
+    def failed(self) -> tuple[int, ...]:
+        """Indices from 0 of the joints that the controller cannot move: locked, or free until brakes catch them."""
+        return tuple(k for k, c in enumerate(self.conditions) if c != "healthy")
+
+    @property
+    def free(self) -> tuple[int, ...]:
+        """Indices from 0 of the joints that swing freely."""
+        return tuple(k for k, c in enumerate(self.conditions) if c == "free")
+
+    def arguments(self) -> list[str]:
+        """The arguments of ``holdfast`` that bring this state back; only what differs from the defaults, and q."""
+        plain = State(self.arm, self.names, self.q)
+        out = ["studio", self.arm, f"--q={','.join(repr(float(x)) for x in self.q)}", f"--task={self.task}"]
+        for option, value in (("base", self.base), ("tip", self.tip)):
+            out += [] if value is None else [f"--{option}={value}"]
+        for name, condition in zip(self.names, self.conditions, strict=True):
+            out += [] if condition == "healthy" else [f"--{'lock' if condition == 'locked' else 'free'}={name}"]
+        for option in ("index", "susceptibility", "objective", "show"):
+            value = getattr(self, option)
+            out += [] if value == getattr(plain, option) else [f"--{option}={value}"]
+        if self.laws != plain.laws:
+            out += [f"--law={law}" for law in self.laws]
+        if self.target is not None:
+            out.append(f"--target={','.join(repr(float(x)) for x in self.target)}")
+        for option, text in (("file", self.file), ("region", self.region)):
+            out += [] if text is None else [f"--{option}={text}"]
+        if self.time:
+            out.append(f"--time={self.time!r}")
+        return out
+
+    def to_command(self) -> str:
+        """The command line that brings this state back."""
+        return f"holdfast {shlex.join(self.arguments())}"

@@ -1,0 +1,70 @@
+"""A studio on a free port, and a headless Chromium that looks at it."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+from studio_pages import FLAGS, wait_for
+
+from holdfast import arms
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """A running headless Chromium; tests that need one are skipped where there is none."""
+    api = pytest.importorskip("playwright.sync_api")
+    pytest.importorskip("viser")
+    path = shutil.which("chromium") or shutil.which("google-chrome")
+    if path is None:
+        pytest.skip("no Chromium is installed")
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def studio():
+    """``studio(name, **state)``: a page that is served until the test ends."""
+    pytest.importorskip("viser")
+    from holdfast.studio import State, serve
+
+    open_pages = []
+
+    def make(name, arm=None, **state):
+        model = arm if arm is not None else arms.resolve(name)
+        q = state.pop("q", None)
+        home = arms.about(name).home if q is None else q
+        page = serve(model, State(name, model.joint_names, tuple(float(x) for x in home), **state), port=0)
+        open_pages.append(page)
+        return page
+
+    yield make
+    for page in open_pages:
+        page.stop()
+
+
+@pytest.fixture
+def visit(chromium):
+    """``visit(studio)``: a page that has opened it, and the window behind that page."""
+    contexts = []
+
+    def go(served, width=900, height=620):
+        before = set(served.windows)
+        context = chromium.new_context(viewport={"width": width, "height": height}, accept_downloads=True)
+        contexts.append(context)
+        page = context.new_page()
+        page.set_default_timeout(60_000)
+        page.hosts = set()
+        page.on("request", lambda r: page.hosts.add(r.url.split("/")[2]) if "://" in r.url and r.url[:4] != "blob" else None)
+        page.on("websocket", lambda w: page.hosts.add(w.url.split("/")[2]))
+        page.goto(served.url)
+        wait_for(page, lambda: set(served.windows) - before)
+        window = served.windows[max(set(served.windows) - before)]
+        assert window.settle(60)
+        return page, window
+
+    yield go
+    for context in contexts:
+        context.close()

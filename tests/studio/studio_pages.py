@@ -1,0 +1,22 @@
+"""What tests, the soak and the guided tour of the studio share."""
+
+from __future__ import annotations
+
+import time
+
+# Drawing by the processor; nothing is asked of other hosts.
+FLAGS = [
+    "--no-sandbox",
+    "--disable-background-networking",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+]
+
+
+def wait_for(page, condition, seconds=60.0):
+    """Let the page live until a condition holds."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "the page did not get there in time"
+        page.wait_for_timeout(20)

@@ -1,0 +1,109 @@
+"""The compiled arm behind a window: frames, following the hand, self-motions, and what it reads."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+from holdfast.arm.task import as_task
+from holdfast.studio.machine import Machine
+
+
+@pytest.fixture(scope="module")
+def machine(mixed7):
+    return Machine(mixed7, as_task(mixed7, "pose"))
+
+
+def test_frames_are_those_of_pinocchio():
+    pin = pytest.importorskip("pinocchio")
+    from holdfast.arm.builtin import DATA
+
+    model = pin.buildModelFromXML(DATA.joinpath("iiwa14.urdf").read_text())
+    arm = hf.arms.load("iiwa14")
+    q = np.random.default_rng(3).uniform(arm.lower, arm.upper)
+    data = model.createData()
+    pin.forwardKinematics(model, data, q)
+    frames = Machine(arm, as_task(arm, "pose")).frames(q)
+    for k, name in enumerate(arm.joint_names):
+        np.testing.assert_allclose(frames[k + 1], data.oMi[model.getJointId(name)].homogeneous, atol=1e-10)
+    np.testing.assert_allclose(frames[-1], arm.forward_kinematics(q), atol=1e-12)
+    np.testing.assert_allclose(frames[0], arm.base)
+
+
+def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
+    q = rng.uniform(-0.8, 0.8, 7)
+    for failed in ((), (3,)):
+        there = q + 0.1 * rng.uniform(-1, 1, 7)
+        there[list(failed)] = q[list(failed)]
+        pose = machine.hand(there)
+        found, on = machine.reach(q, pose, failed)
+        assert on
+        np.testing.assert_allclose(machine.hand(found), pose, atol=1e-5)
+        assert (found[list(failed)] == q[list(failed)]).all()
+        assert ((found >= machine.arm.lower) & (found <= machine.arm.upper)).all()
+
+
+def test_out_of_reach_the_arm_never_goes_away_from_the_pose(machine, rng):
+    q = rng.uniform(-0.8, 0.8, 7)
+    pose = machine.hand(q)
+    far = pose.copy()
+    far[:3, 3] += 10 * machine.size
+    before = np.linalg.norm(far[:3, 3] - pose[:3, 3])
+    for _ in range(5):
+        q, on = machine.reach(q, far, ())
+        assert not on
+        after = np.linalg.norm(far[:3, 3] - machine.hand(q)[:3, 3])
+        assert after <= before + 1.0  # orientation counts as well
+        before = after
+
+
+def test_a_self_motion_leaves_the_hand_where_it_is(machine, rng):
+    q = rng.uniform(-0.5, 0.5, 7)
+    hand, along = machine.hand(q), machine.self_motions(q, ())[0]
+    for _ in range(20):
+        new, direction = machine.slide(q, 0.03 * along, ())
+        if not direction.any():
+            break  # a limit
+        assert np.linalg.norm(new - q) == pytest.approx(0.03, rel=0.2)
+        assert direction @ along > 0.7
+        q, along = new, direction
+        np.testing.assert_allclose(machine.hand(q), hand, atol=1e-4)
+
+
+def test_without_redundancy_nothing_slides(machine, rng):
+    q = rng.uniform(-0.5, 0.5, 7)
+    assert len(machine.self_motions(q, (2,))) == 0
+    new, direction = machine.slide(q, np.full(7, 0.01), (2,))
+    assert (new == q).all()
+    assert not direction.any()
+
+
+def test_reading_is_of_the_failed_joint_or_of_the_worst(machine, rng):
+    q = rng.uniform(-1, 1, 7)
+    rho = hf.indices.relative_manipulability(machine.arm)
+    reading = machine.read(q, (), "relative-manipulability", "torque")
+    assert reading.hit == (int(rho.worst_joint(q)),)
+    np.testing.assert_array_equal(reading.bars.values, rho.by_joint(q))
+    assert machine.read(q, (5,), "relative-manipulability", "torque").hit == (5,)
+    assert isinstance(reading.weights, str)  # nothing is known of these bodies
+    assert "link" in reading.weights
+
+
+def test_an_arm_without_redundancy_has_a_sentence_in_place_of_bars():
+    arm = hf.arms.load("ur5")
+    reading = Machine(arm, as_task(arm, "pose")).read(
+        np.array(hf.arms.about("ur5").home), (), "relative-manipulability", "torque"
+    )
+    assert "not redundant" in reading.bars
+    assert reading.hit == ()
+    assert not isinstance(reading.weights, str)
+
+
+def test_laws_are_made_once_and_misspelt_ones_refused(machine):
+    assert machine.law("damped:0.2") is machine.law("damped:0.2")
+    assert "damping 0.2" in machine.law("damped:0.2").describe()
+    with pytest.raises(hf.InputError, match="write for example"):
+        machine.law("damped:much")
+    with pytest.raises(hf.InputError, match="not known"):
+        machine.law("best")

@@ -1,0 +1,130 @@
+"""The pictures of ``docs/guide/studio.md``: ``python -m tests.studio.tour docs/guide/studio``.
+
+The test suite takes the first of them as well, so that the tour cannot fall behind the page.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+from studio_pages import FLAGS, wait_for
+
+CRANE = str(Path(__file__).parent / "arms" / "inspection-crane.urdf")
+SIZE = {"width": 1200, "height": 780}
+
+
+def open_page(browser, name, q, **state):
+    """A studio of an arm, a page that has opened it, and the window behind."""
+    from holdfast import arms
+    from holdfast.studio import State, serve
+
+    arm = arms.resolve(name)
+    served = serve(arm, State(name, arm.joint_names, tuple(float(x) for x in q), **state), port=0)
+    page = browser.new_context(viewport=SIZE).new_page()
+    page.set_default_timeout(120_000)
+    page.goto(served.url)
+    wait_for(page, lambda: bool(served.windows), 120)
+    window = next(iter(served.windows.values()))
+    window.settle(180)
+    close = page.get_by_role("alert").get_by_role("button")  # the browser says that it draws without a graphics card
+    if close.count():
+        close.first.click()
+    return served, page, window
+
+
+def take(page, window, tab, file):
+    """A screenshot of a tab, once the page has drawn what the window shows."""
+    window.settle(240)
+    page.get_by_role("tab", name=tab).click()
+    page.evaluate("() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(f))))")
+    page.wait_for_timeout(1200)
+    page.screenshot(path=file)
+
+
+def panda_start(browser, folder):
+    """What one sees first, and a joint that locks."""
+    served, page, window = open_page(browser, "panda", (0.0, -0.62, 0.18, -2.33, -0.15, 1.38, 0.73))
+    take(page, window, "Move", folder / "panda-start.png")
+    window.ask("fail", (3, "locked"))
+    take(page, window, "Fail", folder / "panda-locked.png")
+    return served, page, window
+
+
+def panda_rest(served, page, window, folder):
+    """Best and worst, two laws, a region."""
+    from holdfast.arm.poses import pose_numbers
+
+    window.ask("heal")
+    window.ask("best-worst")
+    take(page, window, "Choose", folder / "panda-best-worst.png")
+    window.ask("clear")
+    window.ask("fail", (3, "locked"))
+    window.settle(60)
+    hand = pose_numbers(window.machine.hand(window.q))
+    goal = (hand[0] - 0.15, hand[1] + 0.25, hand[2] + 0.1, *hand[3:])
+    window.live.put("goal", lambda: setattr(window, "state", replace(window.state, target=goal)))
+    window.ask("target")
+    window.ask("laws")
+    window.settle(240)
+    window.ask("time", 12.0)
+    take(page, window, "Motion", folder / "panda-two-laws.png")
+    window.ask("clear")
+    window.ask("heal")
+    window.ask("region")
+    window.settle(240)
+    best = int(np.nanargmax(window._cloud.values))
+    window.ask("point", best)
+    take(page, window, "Region", folder / "panda-region.png")
+    served.stop()
+
+
+def pa10(browser, folder):
+    """Ten parts, nine joints, and a joint that lets go."""
+    from holdfast import arms
+
+    q = np.array(arms.about("pa10-9dof").home)
+    served, page, window = open_page(browser, "pa10-9dof", q + 0.2 * np.sin(np.arange(q.size)), index="minimum-singular-value")
+    take(page, window, "Choose", folder / "pa10-bars.png")
+    window.ask("slide", 0.6)
+    page.wait_for_timeout(1500)
+    window.ask("slide", 0.0)
+    take(page, window, "Move", folder / "pa10-self-motion.png")
+    served.stop()
+
+
+def crane(browser, folder):
+    """An arm of one's own, with the shapes of its file; a joint that lets go."""
+    served, page, window = open_page(browser, CRANE, (0.1, 0.5, 0.3, 1.2, 0.4, 0.7, 0.2))
+    window.ask("fail", (2, "free"))
+    window.settle(60)
+    window.ask("swing")
+    window.settle(240)
+    window.ask("time", 0.35)
+    take(page, window, "Fail", folder / "crane-swing.png")
+    served.stop()
+
+
+def main() -> None:
+    from playwright.sync_api import sync_playwright
+
+    folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    with sync_playwright() as playwright:
+        path = shutil.which("chromium") or shutil.which("google-chrome")
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        panda_rest(*panda_start(browser, folder), folder)
+        pa10(browser, folder)
+        crane(browser, folder)
+        browser.close()
+    for file in sorted(folder.glob("*.png")):
+        print(file)
+
+
+if __name__ == "__main__":
+    main()
