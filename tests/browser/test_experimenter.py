@@ -125,14 +125,14 @@ def test_an_experiment_is_watched_and_led(contexts, parts):
         assert (subject.state, subject.note) == (State.DROPPED, "A chair\nfell over.")
 
     # What is there already: all tables, and the report.
-    with page.expect_download() as got:
+    with page.expect_download(timeout=300_000) as got:
         at("export").click()
     with zipfile.ZipFile(got.value.path()) as tables:
         assert {"trials.csv", "cycles.csv", "subjects.csv", "events.csv"} <= {name.split("/")[-1] for name in tables.namelist()}
         [trials] = [name for name in tables.namelist() if name.endswith("trials.csv")]
         assert len(tables.read(trials).splitlines()) > 3 * 9
-    at("report-missing").select_option("mixed")
-    with context.expect_page() as opened:
+    at("report-missing").select_option("complete")
+    with context.expect_page(timeout=300_000) as opened:  # it is there when the report is done
         at("report").click()
     report = opened.value
     report.locator("h1").wait_for()
