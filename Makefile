@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 WORKERS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types docs page bench clean lock
+.PHONY: help demo test lint types docs page bench soak clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -56,6 +56,9 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 	$(VENV)-bench/bin/python -m pip install --quiet --constraint requirements.lock --editable .
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
+
+soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 30 s without network (15 minutes).
+	$(BIN)/python tests/soak.py
 
 lock:  ## Write requirements.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock

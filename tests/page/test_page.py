@@ -11,15 +11,22 @@ from holdfast.teleop.serve.app import STATIC
 from holdfast.teleop.serve.texts import read
 
 PAGE = Path(__file__).parents[2] / "page"
-NODE = shutil.which("node") is not None and (PAGE / "node_modules").is_dir()
-NEEDS_NODE = pytest.mark.skipif(not NODE, reason="the page is built with Node: 'npm ci' in page/")
+
+
+@pytest.fixture(scope="module")
+def node():
+    """What the page is built with."""
+    if shutil.which("node") is None:
+        pytest.fail("the page is built again and compared, and there is no Node here: apt-get install nodejs npm")
+    if not (PAGE / "node_modules").is_dir():
+        pytest.fail("the page is built again and compared, and its tools are not installed: run 'npm ci' in page/")
 
 
 def sources() -> str:
     return "\n".join(p.read_text(encoding="utf-8") for p in sorted(PAGE.glob("src/**/*.ts")))
 
 
-@NEEDS_NODE
+@pytest.mark.usefixtures("node")
 @pytest.mark.parametrize(("mode", "html"), [("station", "index.html"), ("experimenter", "experimenter.html")])
 def test_the_built_page_is_the_page(tmp_path, mode, html):
     command = ["node_modules/.bin/vite", "build", "--mode", mode, "--outDir", str(tmp_path), "--logLevel", "error"]
@@ -30,7 +37,7 @@ def test_the_built_page_is_the_page(tmp_path, mode, html):
         assert (STATIC / name).read_bytes() == content, f"'{name}' is not what 'npm run build' makes; run it and commit"
 
 
-@NEEDS_NODE
+@pytest.mark.usefixtures("node")
 def test_types_and_unit_tests():
     for command in (["node_modules/.bin/tsc", "--noEmit"], ["node_modules/.bin/vitest", "run"]):
         done = subprocess.run(command, cwd=PAGE, capture_output=True, text=True)

@@ -140,7 +140,9 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
         ready: Is told the port when stations may come.
 
     Raises:
-        StoreError: The port is taken, or this computer has no such address; and as :func:`make_app`.
+        StoreError: The port is taken, or this computer has no such address; the built page is missing, or the folder holds no
+            experiment.
+        InputError: Texts that cannot be used.
     """
     with _listening(host, port) as listener:
         at = listener.getsockname()[1]

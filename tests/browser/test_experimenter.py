@@ -1,65 +1,50 @@
-"""The experimenter's page in a browser: a simulated operator drives the real page of a station, and is watched."""
+"""The experimenter's page: a simulated operator drives the real page of a station, and is watched."""
 
-import shutil
-import subprocess
-import sys
+import zipfile
 from dataclasses import replace
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
-from serve_program import KEY
 
-from conftest import PROGRAM
 from holdfast.teleop.entries import State
-from holdfast.teleop.protocol import read
+from holdfast.teleop.experiment import simulate_experiment
+from holdfast.teleop.point_task import Scenario
+from holdfast.teleop.protocol import Training, read
 from holdfast.teleop.records import Records
-from holdfast.teleop.serve.app import STATIC
-from holdfast.teleop.serve.texts import ENGLISH
-
-playwright = pytest.importorskip("playwright.sync_api")
-CHROMIUM = shutil.which("chromium")
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
-
-pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium")
 
 
 @pytest.fixture(scope="module")
-def browser():
-    with playwright.sync_playwright() as p:
-        opened = p.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield opened
-        opened.close()
-
-
-@pytest.fixture(scope="module")
-def served(tmp_path_factory):
-    """(folder, address) of an experiment with a long training of short ways."""
-    folder = tmp_path_factory.mktemp("served") / "study"
+def led(serve, tmp_path_factory):
+    """Served: three who are done, for a report, and a training so long that the next one is still at it."""
+    folder = tmp_path_factory.mktemp("led") / "study"
     whole = read()
-    few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
-    training = replace(whole.training, at_least=40, in_a_row=1, distance=0.4)
-    Records.create(folder, replace(few, training=training)).close()
-    command = [sys.executable, str(PROGRAM), str(folder), str(STATIC), str(ENGLISH)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        yield folder, f"http://127.0.0.1:{int(process.stdout.readline())}"
-        process.kill()
+    few = whole.with_tasks(whole.tasks.take(np.array([0, 2, 3])), ["a", "b", "c"])
+    laws = [("pseudoinverse", False, {}), ("pseudoinverse", True, {}), ("damped", True, {"damping": 0.1})]
+    short = replace(
+        few,
+        training=Training(at_least=40, in_a_row=1, limit=500.0, most=100, distance=0.4),
+        scenarios=tuple(Scenario(k + 1, law, failed, options) for k, (law, failed, options) in enumerate(laws)),
+        subjects=4,
+    )
+    simulate_experiment(folder, short, 3, seed=1).close()
+    return serve(short, folder=folder)
 
 
 @pytest.fixture
-def context(browser):
-    with browser.new_context(viewport={"width": 1280, "height": 720}) as made:
-        made.set_default_timeout(120_000)
-        yield made
+def parts(led):
+    """(folder, base address, key) of it."""
+    return led.folder, f"http://127.0.0.1:{led.port}", urlsplit(led.experimenter).query.removeprefix("key=")
 
 
-def test_addresses_of_what_opens_in_a_tab(context, served):
-    _, base = served
-    page = context.new_page()
-    page.goto(f"{base}/experimenter?key={KEY}")
+def test_addresses_of_what_opens_in_a_tab(contexts, parts):
+    _, base, key = parts
+    page = contexts("Failed to load resource").new_page()  # what is refused has no icon either
+    page.goto(f"{base}/experimenter?key={key}")
     at = page.get_by_test_id
-    assert at("export").get_attribute("href") == f"{base}/experimenter/export.zip?key={KEY}"
+    assert at("export").get_attribute("href") == f"{base}/experimenter/export.zip?key={key}"
     at("report-missing").select_option("mixed")
-    assert at("report").get_attribute("href") == f"{base}/experimenter/report?missing=mixed&key={KEY}"
+    assert at("report").get_attribute("href") == f"{base}/experimenter/report?missing=mixed&key={key}"
     at("robot-seed").fill("7")
     assert at("dry-run").get_attribute("href") == f"{base}/?robot=7"
     for link in ("export", "report", "dry-run"):
@@ -68,14 +53,11 @@ def test_addresses_of_what_opens_in_a_tab(context, served):
     assert "key is missing or wrong" in page.text_content("body")
 
 
-def test_an_experiment_is_watched_and_led(context, served):
-    folder, base = served
-    asked, troubles = [], []
-    context.on("request", lambda request: asked.append(request.url))
-    context.on("weberror", lambda error: troubles.append(str(error.error)))
-    context.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
+def test_an_experiment_is_watched_and_led(contexts, parts):
+    folder, base, key = parts
+    context = contexts()
     page = context.new_page()
-    page.goto(f"{base}/experimenter?key={KEY}")
+    page.goto(f"{base}/experimenter?key={key}")
     at = page.get_by_test_id
     assert at("folder").text_content() == str(folder.resolve())
     page.locator("[data-testid=connection][data-online=true]").wait_for()
@@ -83,13 +65,13 @@ def test_an_experiment_is_watched_and_led(context, served):
     with context.expect_page() as opened:
         at("dry-run").click()
     robot = opened.value
-    row = page.locator("[data-testid=row-S01][data-connected=true]")
+    row = page.locator("[data-testid=row-S04][data-connected=true]")
     row.wait_for()
     assert "simulated" in row.text_content()
 
     # The first who steers is shown, in the same windows as at the station.
     page.locator("[data-testid=live][data-steering=true]").wait_for()
-    assert at("chosen").text_content() == "Subject S01"
+    assert at("chosen").text_content() == "Subject S04"
     assert "healthy, pseudoinverse" in at("live-what").text_content()
     for window in ("arm-1", "velocity-1"):
         inked = at(window).evaluate(
@@ -112,7 +94,7 @@ def test_an_experiment_is_watched_and_led(context, served):
     at("pause-all").click()
     robot.get_by_test_id("paused").wait_for(state="hidden")
     at("pause-one").click()
-    page.locator("[data-testid=row-S01][data-paused=true]").wait_for()
+    page.locator("[data-testid=row-S04][data-paused=true]").wait_for()
     robot.get_by_test_id("paused").wait_for()
     assert at("note").input_value() == "A chair fell over, tw"
 
@@ -126,7 +108,7 @@ def test_an_experiment_is_watched_and_led(context, served):
     robot.goto(at("resume-url").input_value())
     robot.get_by_test_id("paused").wait_for()
     at("pause-one").click()
-    page.locator("[data-testid=row-S01][data-steering=true]").wait_for()
+    page.locator("[data-testid=row-S04][data-steering=true]").wait_for()
 
     # The end, by keyboard only.
     at("drop").focus()
@@ -137,10 +119,22 @@ def test_an_experiment_is_watched_and_led(context, served):
     page.keyboard.press("Enter")
     at("confirm-yes").focus()
     page.keyboard.press("Enter")
-    page.locator("[data-testid=row-S01][data-state=dropped]").wait_for()
+    page.locator("[data-testid=row-S04][data-state=dropped]").wait_for()
     with Records.open(folder) as records:
-        subject = records.subject("S01")
+        subject = records.subject("S04")
         assert (subject.state, subject.note) == (State.DROPPED, "A chair\nfell over.")
 
-    assert troubles == []
-    assert {url.split("/")[2] for url in asked} == {base.split("/")[2]}
+    # What is there already: all tables, and the report.
+    with page.expect_download(timeout=300_000) as got:
+        at("export").click()
+    with zipfile.ZipFile(got.value.path()) as tables:
+        assert {"trials.csv", "cycles.csv", "subjects.csv", "events.csv"} <= {name.split("/")[-1] for name in tables.namelist()}
+        [trials] = [name for name in tables.namelist() if name.endswith("trials.csv")]
+        assert len(tables.read(trials).splitlines()) > 3 * 9
+    at("report-missing").select_option("complete")
+    with context.expect_page(timeout=300_000) as opened:  # it is there when the report is done
+        at("report").click()
+    report = opened.value
+    report.locator("h1").wait_for()
+    assert "subjects" in report.locator("body").inner_text()
+    assert report.locator("img, svg").count() > 3

@@ -1,0 +1,105 @@
+// What holds the stick in the tests: a gamepad that is not there, and somebody who steers by what is drawn on the screen.
+// Knows the page only as a person does: the blue dot has to come into the orange circle. Loaded before the page itself.
+(() => {
+  const BLUE = "#0a5c9e"; // page/src/draw/palette.ts
+  const ORANGE = "#c8500a";
+  const SAID = "operator.said.";
+  const pad = {
+    id: "Stick of the tests",
+    index: 0,
+    connected: false,
+    mapping: "standard",
+    timestamp: 0,
+    axes: [0, 0, 0, 0],
+    buttons: Array.from({ length: 17 }, () => ({ pressed: false, touched: false, value: 0 })),
+  };
+  const operator = (window.operator = {
+    pad,
+    // Which raw axis is the deflection to the right, and up; where it rests; what full deflection adds.
+    right: { axis: 0, centre: 0, range: 1 },
+    up: { axis: 1, centre: 0, range: -1 },
+    trigger: 0,
+    // Trials that may still be begun.
+    trials: 0,
+    // "target", or "about": moves about and never comes to rest.
+    goal: "target",
+    // From hand to target, in radii of the target circle; null while none is drawn.
+    way: null,
+    phase: null,
+    // Phases of trials, one after the other.
+    phases: [],
+    // Cycles of this trial that were sent.
+    cycles: 0,
+    // What was said to the server, as text.
+    said: () => Object.keys(localStorage).filter((key) => key.startsWith(SAID)).map((key) => localStorage.getItem(key)),
+    push(right, up) {
+      for (const [map, value] of [
+        [operator.right, right],
+        [operator.up, up],
+      ])
+        pad.axes[map.axis] = map.centre + map.range * value;
+    },
+  });
+  navigator.getGamepads = () => (pad.connected ? [pad] : []);
+
+  function look() {
+    if (!pad.connected) return;
+    const { way, phase } = operator;
+    const fresh = phase === "waiting" && operator.trials > 0 && !pad.buttons[operator.trigger].pressed;
+    pad.buttons[operator.trigger].pressed = fresh;
+    if (phase !== "running" || way === null) return operator.push(0, 0);
+    if (operator.goal === "about") {
+      const angle = performance.now() / 400;
+      return operator.push(0.6 * Math.cos(angle), 0.6 * Math.sin(angle));
+    }
+    const far = Math.hypot(...way);
+    const size = far < 0.6 ? 0 : Math.min(1, far / 5) / far;
+    operator.push(size * way[0], size * way[1]);
+  }
+
+  // Kept where it outlives the tab.
+  const { send } = WebSocket.prototype;
+  WebSocket.prototype.send = function (text) {
+    const { seq, type, time } = JSON.parse(text);
+    if (seq !== undefined) {
+      const before = localStorage.getItem(SAID + seq);
+      if (before !== null && before !== text) throw new Error(`message ${seq} was another one before`);
+      localStorage.setItem(SAID + seq, text);
+      if (type === "begin") operator.cycles = 0;
+      if (type === "cycles") operator.cycles += time.length;
+    }
+    return send.call(this, text);
+  };
+
+  const drawn = new WeakMap();
+  const { arc, fill, stroke } = CanvasRenderingContext2D.prototype;
+  const arm = (c) => c.canvas.dataset.testid === "arm-1";
+  CanvasRenderingContext2D.prototype.arc = function (x, y, radius, ...more) {
+    if (arm(this)) drawn.set(this, { ...drawn.get(this), last: { x, y, radius } });
+    return arc.call(this, x, y, radius, ...more);
+  };
+  CanvasRenderingContext2D.prototype.stroke = function (...more) {
+    const seen = drawn.get(this);
+    if (seen && this.strokeStyle === ORANGE) seen.target = seen.last;
+    return stroke.apply(this, more);
+  };
+  CanvasRenderingContext2D.prototype.fill = function (...more) {
+    const seen = drawn.get(this);
+    if (seen?.target && this.fillStyle === BLUE) {
+      const { target, last: hand } = seen;
+      operator.way = [(target.x - hand.x) / target.radius, (target.y - hand.y) / target.radius];
+      look();
+    }
+    return fill.apply(this, more);
+  };
+
+  new MutationObserver((changes) => {
+    for (const { target } of changes) {
+      if (target.dataset?.testid !== "trial") continue;
+      const { phase } = target.dataset;
+      operator.phase = phase;
+      operator.phases.push(phase);
+      if (phase === "running") operator.trials -= 1;
+    }
+  }).observe(document, { subtree: true, attributeFilter: ["data-phase"] });
+})();

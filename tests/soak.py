@@ -1,0 +1,76 @@
+"""What takes too long for every day: 'make soak' runs this and prints a table.
+
+Options are variables of the environment, as the tests have them:
+
+    HOLDFAST_STATIONS   stations at once, 8
+    HOLDFAST_RATE       messages per second of each, 60
+    HOLDFAST_SECONDS    of this load, 600
+    HOLDFAST_FUZZ       malformed messages, 100000, read, and once more over the network
+    HOLDFAST_OUTAGE     seconds without network in mid-trial, in a browser, 30
+
+The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
+a message changed anything, or the 99th percentile of the acknowledgements is above 50 ms.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "teleop" / "serve"))
+
+from load import Figures, load  # noqa: E402
+
+MOST = 50.0  # ms
+FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server.py")
+OUTAGE = ("browser/test_session.py",)
+
+
+def _tests(files: tuple[str, ...], which: str, name: str, value: str) -> tuple[bool, float]:
+    """Run some tests with an option; whether they passed, and how long they took, s."""
+    command = [sys.executable, "-m", "pytest", "-q", "-k", which, *(str(HERE / f) for f in files)]
+    begin = time.monotonic()
+    done = subprocess.run(command, env={**os.environ, name: value}, cwd=HERE.parent)
+    return done.returncode == 0, time.monotonic() - begin
+
+
+def main() -> int:
+    """Run all of it; the exit code."""
+
+    def option(name: str, default: str) -> str:
+        return os.environ.get(f"HOLDFAST_{name}", default)
+
+    fuzz, outage = option("FUZZ", "100000"), option("OUTAGE", "30")
+    with tempfile.TemporaryDirectory() as folder:
+        stations, rate, seconds = option("STATIONS", "8"), option("RATE", "60"), option("SECONDS", "600")
+        figures: Figures = load(Path(folder), int(stations), float(rate), float(seconds))
+    fuzzed, fuzz_s = _tests(FUZZED, "malformed", "HOLDFAST_FUZZ", fuzz)
+    kept, outage_s = _tests(OUTAGE, "network", "HOLDFAST_OUTAGE", outage)
+
+    begin, middle, end = figures.memory
+    rows = [
+        ("stations, messages/s of each, s", f"{figures.stations}, {figures.rate:g}, {figures.seconds:g}"),
+        ("cycles sent", f"{figures.sent}"),
+        ("cycles lost", f"{figures.lost}"),
+        ("trials that differ when replayed", f"{figures.differing}"),
+        ("acknowledged after p50, p99, at most, ms", f"{figures.p50:.1f}, {figures.p99:.1f}, {figures.longest:.1f}"),
+        ("memory of the server: begin, half-way, end, MiB", f"{begin:.0f}, {middle:.0f}, {end:.0f}"),
+        ("of one core", f"{figures.busy:.0%}"),
+        (f"{fuzz} malformed messages, twice", f"{'all refused, nothing changed' if fuzzed else 'FAILED'} ({fuzz_s:.0f} s)"),
+        (f"{outage} s without network in mid-trial", f"{'nothing lost' if kept else 'FAILED'} ({outage_s:.0f} s)"),
+    ]
+    print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
+    for name, value in rows:
+        print(f"  {name:<50} {value}")
+    lost = figures.lost != 0 or figures.differing != 0
+    return int(lost or not fuzzed or not kept or figures.p99 > MOST)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
