@@ -10,7 +10,8 @@ from studio_pages import FLAGS, wait_for
 from holdfast import arms
 
 
-@pytest.fixture(scope="session")
+# Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.
+@pytest.fixture(scope="module")
 def chromium():
     """A running headless Chromium; tests that need one are skipped where there is none."""
     api = pytest.importorskip("playwright.sync_api")
