@@ -32,6 +32,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(optional|default.*)"),
     (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
     (r"py:.*", r"holdfast\.study\..*"),
+    (r"py:.*", r"holdfast\.studio\.(machine|body)\..*"),
     (r"py:class", r"holdfast\.interval\.Sums"),
     (r"py:class", r"Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
