@@ -20,6 +20,7 @@ from holdfast.cli import (
     self_motion_commands,
     simulate_commands,
     stationary_commands,
+    study_commands,
     susceptibility_commands,
     swing_commands,
     teleop_commands,
@@ -71,6 +72,7 @@ self_motion_commands.add(app)
 workspace_commands.add(app)
 stationary_commands.add(app)
 trade_off_commands.add(app)
+study_commands.add(app)
 teleop_commands.add(app)
 export_commands.add(app)
 

@@ -52,10 +52,10 @@ class _Block(Strict):
 
 class _Assess(_Block):
     poses: _Count | None = None
-    indices: _Names = ["relative-manipulability"]
-    tasks: _Names = [_DEFAULT]
-    regions: _Names = [_DEFAULT]
-    failures: _Names = ["single"]
+    indices: _Names = Field(default_factory=lambda: ["relative-manipulability"])
+    tasks: _Names = Field(default_factory=lambda: [_DEFAULT])
+    regions: _Names = Field(default_factory=lambda: [_DEFAULT])
+    failures: _Names = Field(default_factory=lambda: ["single"])
     optimise: bool = False
     after_lock: bool = False
     clearance: bool | None = None
@@ -63,12 +63,12 @@ class _Assess(_Block):
     restarts: _Count = 100
     length: Number = 1.0
     keep: Literal["rows", "counts"] = "rows"
-    thresholds: dict[str, Number] = {}
+    thresholds: dict[str, Number] = Field(default_factory=dict)
 
 
 class _Laws(_Block):
-    laws: _Names = ["pseudoinverse", "failure-tolerant"]
-    tasks: _Names = [_DEFAULT]
+    laws: _Names = Field(default_factory=lambda: ["pseudoinverse", "failure-tolerant"])
+    tasks: _Names = Field(default_factory=lambda: [_DEFAULT])
     time_limit: Annotated[Number, Field(gt=0)] | None = None
 
 

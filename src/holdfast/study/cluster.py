@@ -115,7 +115,8 @@ class Cluster:
 
     def _gone(self) -> StoreError:
         return StoreError(
-            f"the Dask scheduler at '{self.address}' is gone; what was committed is safe: start it and run the same command again"
+            f"the Dask scheduler at '{self.address}' is gone; what was committed is safe: start it and give the same command "
+            "again"
         )
 
     def _taken(self, future: Any, task: Task) -> Result:

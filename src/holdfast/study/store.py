@@ -254,7 +254,8 @@ class Store:
         Args:
             chunk: Its number.
             columns: Its values.
-            seconds, maker: For the journal: time it took, and number of what made it.
+            seconds: For the journal: time it took.
+            maker: For the journal: number of what made it.
 
         Raises:
             StoreError: The disk refuses; chunks committed before stay valid.
@@ -311,7 +312,7 @@ class Store:
 
     def size(self, chunk: int) -> int:
         """Bytes of the files of a chunk; files of nothing but fill values are not written."""
-        return sum(os.stat(f).st_size for f in self._files(chunk) if f.exists())
+        return sum(f.stat().st_size for f in self._files(chunk) if f.exists())
 
     def _settled(self, chunk: int) -> int:
         """Bytes of the files of a chunk, which are on the disk when this returns."""

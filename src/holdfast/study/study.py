@@ -116,8 +116,8 @@ class Study:
             study = cls.open(folder)
             if study.digest != data["digest"]:
                 raise StoreError(
-                    f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to go "
-                    "on with it"
+                    f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
+                    "go on with it"
                 )
             return study
         if folder.exists() and not folder.is_dir():
@@ -159,6 +159,32 @@ class Study:
                 f"'{file}' is damaged: its {wrong} is missing or wrong; run the study file again with a new folder"
             )
         return cls(folder, data)
+
+    def copy(self, path: str | Path) -> Study:
+        """A new folder of this study, with nothing computed.
+
+        Raises:
+            StoreError: It exists, or cannot be written.
+        """
+        folder = Path(path)
+        try:
+            folder.mkdir(parents=True)
+            replaced(folder / _FILE, json.dumps(self._data, indent=1))
+        except OSError as error:
+            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        return Study(folder, self._data)
+
+    def check_same(self, other: Study) -> None:
+        """Refuse a folder that is not of this study.
+
+        Raises:
+            StoreError: It is not; the message names the difference.
+        """
+        if other.digest != self.digest:
+            raise StoreError(
+                f"'{other.path}' and '{self.path}' are not parts of one study ({self._unlike(other._data)}); merge folders of "
+                "one study file"
+            )
 
     def _unlike(self, other: Mapping[str, Any]) -> str:
         if self.seed != other["seed"]:
@@ -346,11 +372,7 @@ class Study:
             StoreError: A folder of another study, a damaged chunk, or another program at work.
         """
         for other in others:
-            if other.digest != self.digest:
-                raise StoreError(
-                    f"'{other.path}' and '{self.path}' are not parts of one study ({self._unlike(other._data)}); merge folders of "
-                    "one study file"
-                )
+            self.check_same(other)
         added = both = close = 0
         apart: list[tuple[str, int]] = []
         total = sum(s.chunks_done for o in others for s in o.status())
