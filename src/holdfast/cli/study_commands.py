@@ -107,8 +107,8 @@ def run(
         return
     if out is None:
         raise InputError("--out is missing; give a folder for the results, or --dry-run")
-    study = Study.create(out, asked.name, asked.seed, asked.cells, asked.text)
     with _runner(scheduler) as runner, _stopping() as stop, _progress(json_) as progress:
+        study = Study.create(out, asked.name, asked.seed, asked.cells, asked.text)
         problems = study.run(asked.cells, runner, progress, stop, share)
     if json_:
         print_json(_status(study))
@@ -180,19 +180,14 @@ def merge(
     Example: holdfast study merge whole machine1/tools machine2/tools
     """
     from holdfast.study import Study
+    from holdfast.study import merge as join
 
     target, others = (folders[0], folders[1:]) if out is None else (out, folders)
     if not others:
         raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
-    sources = [Study.open(folder) for folder in others]
-    if target.exists():
-        study = Study.open(target)
-    else:
-        for other in sources[1:]:
-            sources[0].check_same(other)
-        study = sources[0].copy(target)
     with progress_bar(json_, "chunks") as progress:
-        found = study.merge(sources, None if progress is None else lambda done, total, _: progress(done, total))
+        found = join(target, others, None if progress is None else lambda done, total, _: progress(done, total))
+    study = Study.open(target)
     makers = study.makers
     if json_:
         apart = [{"cell": c, "chunk": k + 1} for c, k in found.apart]

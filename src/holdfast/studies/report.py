@@ -99,13 +99,14 @@ def _headline(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key
     for key, h in asked.items():
         mine = [a for a in found if _key(a) == key]
         best = [(p, o, a) for a in mine for o in (False, True) if (p := a.interval(h, o)) is not None]
-        if best and len(mine) > 1 and not parts:
+        if best and not parts:
             p, optimised, a = max(best, key=lambda x: x[0].value)
             how = " at its best configurations" if optimised else ""
             sign = "at least" if a.plan.index.better == "larger" else "at most"
+            most = "the largest probability," if len(mine) > 1 else "probability"
             parts.append(
-                f"{a.labels['arm']} keeps a {a.plan.index.name} of {sign} {as_given(h)} after any failure considered with the "
-                f"largest probability, {interval(p)}{how}."
+                f"{a.labels['arm']} keeps a {a.plan.index.name} of {sign} {as_given(h)} after any failure considered with "
+                f"{most} {interval(p)}{how}."
             )
     if laws:
         top = max(laws, key=lambda d: d.any.value)

@@ -2,9 +2,10 @@
 
 from holdfast.study.cluster import Cluster
 from holdfast.study.job import Cell, Chunk, Job
+from holdfast.study.merge import Merged, merge
 from holdfast.study.runner import Result, Runner, Task, Threads
 from holdfast.study.store import Column, Store
-from holdfast.study.study import CellStatus, Damage, Merged, Study
+from holdfast.study.study import CellStatus, Damage, Study
 
 __all__ = [
     "Cell",
@@ -21,4 +22,5 @@ __all__ = [
     "Study",
     "Task",
     "Threads",
+    "merge",
 ]

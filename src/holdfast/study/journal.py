@@ -70,7 +70,7 @@ class Journal:
         Raises:
             OSError: The disk refuses; the journal is as it was.
         """
-        self._append(_line(chunk, entry))
+        self._append(line(chunk, entry))
 
     def drop(self, chunks: Iterable[int]) -> None:
         """These chunks are lost.
@@ -78,7 +78,7 @@ class Journal:
         Raises:
             OSError: The disk refuses; the journal is as it was.
         """
-        self._append(b"".join(_line(k, Entry(_LOST, 0, 0.0, 0)) for k in chunks))
+        self._append(b"".join(line(k, Entry(_LOST, 0, 0.0, 0)) for k in chunks))
 
     def _append(self, data: bytes) -> None:
         handle = os.open(self.path, os.O_CREAT | os.O_RDWR, 0o644)
@@ -113,6 +113,7 @@ def _whole(handle: int) -> int:
     return 0
 
 
-def _line(chunk: int, entry: Entry) -> bytes:
+def line(chunk: int, entry: Entry) -> bytes:
+    """What stands in the file for a chunk."""
     text = f"{chunk} {entry.digest} {entry.size} {entry.seconds:.6g} {entry.maker}".encode()
     return text + b" %08x\n" % zlib.crc32(text)

@@ -3,30 +3,24 @@
 from __future__ import annotations
 
 import json
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.study.folder import held, replaced
 from holdfast.study.job import Cell
 from holdfast.study.journal import Entry, Journal
-from holdfast.study.runner import Runner, Stop, Task
+from holdfast.study.made import Made
+from holdfast.study.runner import Runner, Stop
 from holdfast.study.store import Store
+from holdfast.study.work import Progress, Work
 
 _FORMAT, _VERSION = "holdfast-study", 1
-_FILE, _LOCK, _MADE, _CELLS = "study.json", "study.lock", "made.json", "cells"
+_FILE, LOCK, _CELLS = "study.json", "study.lock", "cells"
 _KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
-
-Progress = Callable[[int, int, float | None], None]
-"""Called with the chunks done, the chunks in all, and the seconds that are probably left."""
 
 
 @dataclass(frozen=True)
@@ -66,32 +60,17 @@ class Damage:
     what: str
 
 
-@dataclass(frozen=True)
-class Merged:
-    """What a merge did.
-
-    Attributes:
-        added: Chunks taken over.
-        both: Chunks that were there already, with the same bits.
-        close: Chunks that were there already, alike to 1e-12.
-        apart: Chunks that were there already with other values; those that were there stay.
-    """
-
-    added: int
-    both: int
-    close: int
-    apart: tuple[tuple[str, int], ...]
-
-
 class Study:
     """A study's folder; see :meth:`create` and :meth:`open`.
 
     Attributes:
         path: The folder.
+        made: What computed it.
     """
 
     def __init__(self, path: Path, data: dict[str, Any]) -> None:
         self.path = path
+        self.made = Made(path)
         self._data = data
 
     # ---- opening ---------------------------------------------------------------------------------------------------
@@ -284,24 +263,12 @@ class Study:
     @property
     def makers(self) -> list[dict[str, Any]]:
         """Versions and processors that computed it, by their numbers in the journals."""
-        return list(self._made()["makers"])
+        return self.made.makers
 
     @property
     def runs(self) -> list[dict[str, Any]]:
         """When it was run, on what, for how long; a run that was killed is not among them."""
-        return list(self._made()["runs"])
-
-    def _made(self) -> dict[str, Any]:
-        file = self.path / _MADE
-        if not file.exists():
-            return {"makers": [], "runs": []}
-        try:
-            data = json.loads(file.read_text(encoding="utf-8"))
-            return {"makers": list(data["makers"]), "runs": list(data["runs"])}
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise StoreError(
-                f"'{file}' is damaged ({error}); remove it to go on without knowing what computed the rows"
-            ) from error
+        return self.made.runs
 
     # ---- computing -------------------------------------------------------------------------------------------------
 
@@ -320,7 +287,8 @@ class Study:
             runner: Who computes.
             progress: Called after every chunk.
             stop: Asked now and then; once it says True, what is at work is finished and committed, and no more begun.
-            part: ``(1, 3)``: only the first of three shares, for machines that never see each other; see :func:`merge`.
+            part: ``(1, 3)``: only the first of three shares, for machines that never see each other; see
+                :func:`holdfast.study.merge`.
 
         Returns:
             Cells that could not be computed, by name, and why.
@@ -331,8 +299,8 @@ class Study:
         """
         if described(self.name, self.seed, cells, "")["digest"] != self.digest:
             raise StoreError(f"'{self.path}' holds another study; give another folder")
-        with held(self.path, _LOCK):
-            return _Work(self, cells, progress).run(runner, stop, part)
+        with held(self.path, LOCK):
+            return Work(self, cells, progress).run(runner, stop, part)
 
     # ---- checking and joining --------------------------------------------------------------------------------------
 
@@ -343,7 +311,7 @@ class Study:
             StoreError: Another program is at work in the folder, or it is not writable.
         """
         found: list[Damage] = []
-        with held(self.path, _LOCK):
+        with held(self.path, LOCK):
             total, at = sum(s.chunks_done for s in self.status()), 0
             for k, c in enumerate(self._data["cells"]):
                 if not self.folder(k).exists():
@@ -361,165 +329,6 @@ class Study:
                 if bad:
                     store.drop(bad)
         return found
-
-    def merge(self, others: Sequence[Study], progress: Progress | None = None) -> Merged:
-        """Take over what other folders of this study have and this one lacks.
-
-        Chunks computed by the same versions on the same kind of processor have the same bits; otherwise values agree to
-        1e-12, which is checked for the chunks that several folders have.
-
-        Raises:
-            StoreError: A folder of another study, a damaged chunk, or another program at work.
-        """
-        for other in others:
-            self.check_same(other)
-        added = both = close = 0
-        apart: list[tuple[str, int]] = []
-        total = sum(s.chunks_done for o in others for s in o.status())
-        with held(self.path, _LOCK):
-            at = 0
-            for other in others:
-                numbers = [self._maker(m) for m in other.makers]
-                for k, c in enumerate(self._data["cells"]):
-                    if not other.folder(k).exists():
-                        continue
-                    source = other.store(k)
-                    names = [column.name for column in source.columns]
-                    mine = Store.create(self.folder(k), source.plan, source.columns, *source.shape, journal=True)
-                    for chunk, entry in sorted(source.entries.items()):
-                        at += 1
-                        have = mine.entries.get(chunk)
-                        if have is None:
-                            wrong = source.wrong(chunk)
-                            if wrong is not None:
-                                raise StoreError(
-                                    f"chunk {chunk + 1} of cell '{c['name']}' in '{other.path}' is damaged ({wrong}); run "
-                                    "'holdfast study verify' on that folder and compute it again"
-                                )
-                            maker = numbers[entry.maker] if entry.maker < len(numbers) else 0
-                            mine.write(chunk, source.read(chunk, names), entry.seconds, maker)
-                            added += 1
-                        elif have.digest == entry.digest:
-                            both += 1
-                        elif _alike(mine.read(chunk, names), source.read(chunk, names)):
-                            close += 1
-                        else:
-                            apart.append((c["name"], chunk))
-                        if progress is not None:
-                            progress(at, total, None)
-            made = self._made()
-            made["runs"] += [r for o in others for r in o.runs if r not in made["runs"]]
-            self._write_made(made)
-        return Merged(added, both, close, tuple(apart))
-
-    def _maker(self, maker: dict[str, Any]) -> int:
-        """Its number; a new one is written down first."""
-        made = self._made()
-        if maker not in made["makers"]:
-            made["makers"].append(maker)
-            self._write_made(made)
-        return int(made["makers"].index(maker))
-
-    def _write_made(self, made: dict[str, Any]) -> None:
-        try:
-            replaced(self.path / _MADE, json.dumps(made, indent=1))
-        except OSError as error:
-            raise StoreError(
-                f"cannot write to '{self.path}': {error.strerror or error}; what was committed is safe: make room and run the "
-                "same command again"
-            ) from error
-
-
-class _Work:
-    """One run of a study."""
-
-    def __init__(self, study: Study, cells: Sequence[Cell], progress: Progress | None) -> None:
-        self._study, self._cells, self._progress = study, cells, progress
-        self._missing: dict[int, list[int]] = {}
-        self._stores: dict[int, Store] = {}
-        self._left: dict[int, int] = {}
-        self._numbers: list[dict[str, Any]] = study.makers
-        self._problems: dict[str, HoldfastError] = {}
-
-    def run(self, runner: Runner, stop: Stop, part: tuple[int, int]) -> dict[str, HoldfastError]:
-        """See :meth:`Study.run`."""
-        at = -1
-        for k, cell in enumerate(self._cells):
-            done = self._sound(k)
-            mine = []
-            for n in range(cell.count):
-                at += 1
-                if n not in done and at % part[1] == part[0] - 1:
-                    mine.append(n)
-            if mine:
-                self._missing[k] = mine
-                self._left[k] = len(mine)
-        total, done_before = at + 1, at + 1 - sum(self._left.values())
-        committed, begin, started = 0, time.monotonic(), datetime.now(UTC)
-        if self._progress is not None:
-            self._progress(done_before, total, None)
-        try:
-            for result in runner.results(self._tasks(), stop):
-                cell = self._cells[result.task.cell]
-                if result.columns is None:
-                    assert result.problem is not None
-                    self._problems.setdefault(cell.name, result.problem)
-                    continue
-                self._commit(result.task, result.columns, result.seconds, result.made)
-                committed += 1
-                if self._progress is not None:
-                    rest = total - done_before - committed
-                    self._progress(done_before + committed, total, rest * (time.monotonic() - begin) / committed)
-        finally:
-            if committed:
-                self._note(runner.about, started, time.monotonic() - begin, committed)
-        return self._problems
-
-    def _sound(self, k: int) -> dict[int, Entry]:
-        """Chunks that are done and whose files are as long as they were; the others are dropped."""
-        if not self._study.folder(k).exists():
-            return {}
-        entries = self._study.entries(k)
-        if not entries:
-            return {}
-        store = self._study.store(k)
-        lost = [n for n, e in store.entries.items() if store.size(n) != e.size]
-        if lost:
-            store.drop(lost)
-        return dict(store.entries)
-
-    def _tasks(self) -> Iterator[Task]:
-        for k, numbers in self._missing.items():
-            cell = self._cells[k]
-            for n in numbers:
-                if cell.name in self._problems:
-                    break
-                yield Task(k, cell.job, cell.part(n, self._study.seed))
-
-    def _commit(self, task: Task, columns: Mapping[str, NDArray[Any]], seconds: float, made: dict[str, Any]) -> None:
-        k, cell = task.cell, self._cells[task.cell]
-        if k not in self._stores:
-            folder = self._study.folder(k)
-            self._stores[k] = Store.create(folder, cell.plan, cell.job.columns(), *cell.stored, journal=True)
-        if made not in self._numbers:
-            self._study._maker(made)
-            self._numbers = self._study.makers
-        self._stores[k].write(task.chunk.number, columns, seconds, self._numbers.index(made))
-        self._left[k] -= 1
-        if not self._left[k]:
-            del self._stores[k]
-
-    def _note(self, runner: str, started: datetime, seconds: float, chunks: int) -> None:
-        made = self._study._made()
-        made["runs"].append(
-            {
-                "started": started.isoformat(timespec="seconds"),
-                "seconds": round(seconds, 3),
-                "on": runner,
-                "chunks": chunks,
-            }
-        )
-        self._study._write_made(made)
 
 
 def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[str, Any]:
@@ -551,14 +360,3 @@ def _digest(data: Mapping[str, Any]) -> str:
     except (KeyError, TypeError):
         return ""
     return sha256(text.encode()).hexdigest()[:16]
-
-
-def _alike(a: Mapping[str, NDArray[Any]], b: Mapping[str, NDArray[Any]]) -> bool:
-    for name, x in a.items():
-        y = b[name]
-        if x.dtype.kind != "f":
-            if not np.array_equal(x, y):
-                return False
-        elif not np.allclose(x, y, rtol=1e-12, atol=1e-12, equal_nan=True):
-            return False
-    return True
