@@ -106,7 +106,7 @@ def test_merging_says_what_agrees_and_what_does_not(tmp_path, straight):
         store = study.store(0)
         store.write(1, {**rows, "x": rows["x"] + error})
     assert (merge(mine.path, [near.path]).close, merge(mine.path, [far.path]).apart) == (1, (("c0", 1),))
-    with pytest.raises(StoreError, match="not parts of one study.*its seed is 1, asked for is 2"):
+    with pytest.raises(StoreError, match=r"not parts of one study.*its seed is 1, asked for is 2"):
         merge(mine.path, [make(tmp_path / "other", seed=2).path])
 
 

@@ -18,10 +18,11 @@ FACTS = ("unreached", "reached", "singular", "infinite", "total", "lowest", "hig
 
 
 def edges(index: Index) -> Array:
-    """(B + 1,) edges of the bins of an index; the last is infinity."""
+    """(B + 1,) edges of the bins of an index; the last is infinity, and the one before beyond its bound."""
     if index.bound is not None:
-        return np.r_[np.linspace(0.0, index.bound, BOUNDED), np.inf]
-    return np.r_[0.0, 2.0 ** (np.arange(-_PER_OCTAVE * _OCTAVES, _PER_OCTAVE * _OCTAVES + 1) / _PER_OCTAVE), np.inf]
+        return np.concatenate([np.arange(BOUNDED + 2) * (index.bound / BOUNDED), [np.inf]])
+    found: Array = np.r_[0.0, 2.0 ** (np.arange(-_PER_OCTAVE * _OCTAVES, _PER_OCTAVE * _OCTAVES + 1) / _PER_OCTAVE), np.inf]
+    return found
 
 
 class Counts:
@@ -41,7 +42,7 @@ class Counts:
         """Values at reached poses, number of the others, and how many of the values are singular."""
         last = len(self.bins) - 1
         if self._index.bound is not None:
-            place = np.minimum(values * ((BOUNDED - 1) / self._index.bound), last).astype(np.int64)
+            place = np.minimum(values / (self._index.bound / BOUNDED), last).astype(np.int64)
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
         finite = values[np.isfinite(values)]

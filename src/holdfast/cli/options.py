@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.written import default_task as default_task
-from holdfast.written import is_number, read_joint
+from holdfast.written import is_number
 from holdfast.written import read_failures as read_failures
+from holdfast.written import read_joint as read_joint
 from holdfast.written import read_numbers as read_numbers
 from holdfast.written import read_task as read_task
 

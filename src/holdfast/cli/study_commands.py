@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import JsonOption, console, print_json
+from holdfast.cli.options import BaseOption, JsonOption, TipOption, console, print_json
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
 
@@ -49,6 +49,8 @@ def new(
         typer.Option("--law", help="Also maps of convergence under this control law; may be given again.", show_default=False),
     ] = None,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
+    base: BaseOption = None,
+    tip: TipOption = None,
 ) -> None:
     """Write a study file with comments, to edit and run.
 
@@ -57,7 +59,7 @@ def new(
     from holdfast.studies.template import write
 
     usual = ["relative-manipulability"]
-    written = write(file, arm, poses, chunk, seed, usual if index is None else index, law or [], optimise)
+    written = write(file, arm, poses, chunk, seed, usual if index is None else index, law or [], optimise, base, tip)
     typer.echo(f"written: {written}")
 
 
@@ -329,8 +331,8 @@ def _dry_run(asked: StudyFile, json_: bool) -> None:
     show = console()
     table = Table("cell", "rows", "chunks", "of one thread", "a chunk", "size, at most", box=None, pad_edge=False)
     for e in found:
-        cells = [f"{e.cell.rows:,}", f"{e.cell.count:,}", _duration(e.seconds), _duration(e.seconds / e.cell.count)]
-        table.add_row(escape(e.cell.name), *cells, _bytes(e.size))
+        told = [f"{e.cell.rows:,}", f"{e.cell.count:,}", _duration(e.seconds), _duration(e.seconds / e.cell.count)]
+        table.add_row(escape(e.cell.name), *told, _bytes(e.size))
     show.print(table)
     threads = thread_count()
     show.print(

@@ -95,7 +95,7 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _headline(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> str:
-    parts = []
+    parts: list[str] = []
     for key, h in asked.items():
         mine = [a for a in found if _key(a) == key]
         best = [(p, o, a) for a in mine for o in (False, True) if (p := a.interval(h, o)) is not None]
@@ -132,7 +132,7 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
     head += [_stacked([law, "arrives with a locked joint"]) for law, _ in names]
     body: list[list[Cell]] = []
     for row in rows:
-        cells: list[Cell] = [_stacked([row[0], f"{row[1]}, {row[2]}"]) if regions else row[0]]
+        cells: list[Cell] = [_stacked([row[0], f"{row[1]}, {row[2]}"]) if regions else _whole(row[0])]
         for key in keys:
             mine = [a for a in found if _key(a) == key and _row(a.labels) == row]
             cells.append(_assessed(mine[0], asked[key]) if mine else "–")
@@ -168,6 +168,11 @@ def _assessed(a: Assessed, h: float) -> Cell:
 
 def _share(p: Interval) -> Markup:
     return Markup('{:.3f} <span class="quiet">{:.3f} to {:.3f}</span>').format(p.value, p.low, p.high)
+
+
+def _whole(text: str) -> Markup:
+    """Not broken into lines."""
+    return Markup('<span style="white-space: nowrap">{}</span>').format(text)
 
 
 def _stacked(lines: Sequence[str]) -> Markup:
@@ -263,7 +268,8 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         Picture(
             figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
             f"{told} random motions of each arm, between places of the hand at random configurations, each with every joint "
-            "locked in turn from the start. Not every target is in reach with a joint locked.",
+            "locked in turn from the start. Not every target is in reach with a joint locked; undecided: at the time limit, or "
+            "next to a singular configuration.",
         )
     ]
     rows: list[list[Cell]] = []
@@ -274,7 +280,7 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         k = int(np.argmin([p.value for p in d.arrives[:-1]]))
         worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.arrives[k].value:.3f}"
         cells: list[Cell] = [_share(d.any), more, worst, _share(d.arrives[-1]), percent(d.in_reach)]
-        rows.append([d.labels["arm"], d.labels["law"], d.labels["task"], *cells])
+        rows.append([_whole(d.labels["arm"]), _whole(d.labels["law"]), d.labels["task"], *cells])
     head = ["Arm", "law", "task", "arrives", "gain over the first law", "worst joint", "arrives, none locked", "in reach"]
     caption = (
         "95 % intervals. The gain is paired: both laws have the same motions. In reach: runs with a locked joint in which a "
@@ -290,7 +296,7 @@ def _others(study: Study, job: str, read: Callable[[Study, int], results.Table |
     names = list(found[0].values)
     rows: list[list[Cell]] = []
     for t in found:
-        cells: list[Cell] = [t.labels["arm"], t.labels["law"], f"{t.samples:,}"]
+        cells: list[Cell] = [_whole(t.labels["arm"]), _whole(t.labels["law"]), f"{t.samples:,}"]
         for name in names:
             value, low, high = t.values[name]
             sure = "" if np.isnan(low) else f"{low:.1f} to {high:.1f}"

@@ -220,7 +220,13 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
             data["seeds"] = f"as for an assessment, blocks of at most {place.block} poses counted anew in chunks of {chunk}"
         if block.keep == "counts":
             data["kind"] = "assess-counts"
-        labels = {"job": "assess", "arm": label, "index": index, "task": measure.task.name, "region": place.name}
+        labels: dict[str, Any] = {
+            "job": "assess",
+            "arm": label,
+            "index": index,
+            "task": measure.task.name,
+            "region": place.name,
+        }
         labels |= {"failures": failures, "keep": block.keep, "optimise": block.optimise}
         name = "-".join([label, index, *_said(task, region, failures)])
         yield Cell(name, AssessJob(data, rows, chunk, block.keep), data, rows, chunk, block.keep == "counts", labels)

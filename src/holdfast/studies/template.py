@@ -71,6 +71,8 @@ def write(
     indices: Sequence[str] = ("relative-manipulability",),
     laws: Sequence[str] = (),
     optimise: bool = False,
+    base: str | None = None,
+    tip: str | None = None,
 ) -> Path:
     """Write a study file with comments.
 
@@ -83,6 +85,8 @@ def write(
         indices: Of the assessments.
         laws: Of the maps of convergence; none if empty.
         optimise: Also the best configurations.
+        base: Link of an arm file on which it stands.
+        tip: Link of an arm file that is the tool.
 
     Raises:
         InputError: Wrong numbers, an unknown arm, index or law, or there is such a file already.
@@ -97,7 +101,7 @@ def write(
     if not arm:
         raise InputError("no arm is named; give --arm, a built-in name or a file")
     for spec in arm:
-        arms.resolve(spec)
+        arms.resolve(spec, base, tip)
     if path.exists():
         raise InputError(f"'{path}' exists; give another name, or remove it first")
     motions = min(poses, 200)
@@ -110,7 +114,7 @@ def write(
         seed=seed,
         poses=poses,
         chunk=min(chunk, poses),
-        arms=_listed(_beside(spec, path) for spec in arm),
+        arms=_listed(_beside(spec, path, base, tip) for spec in arm),
         indices=_listed(indices),
         optimise=str(optimise).lower(),
         convergence=block,
@@ -128,14 +132,16 @@ def write(
     return path
 
 
-def _beside(spec: str, file: Path) -> str:
-    """A built-in name, or the path of an arm file as seen from the study file."""
+def _beside(spec: str, file: Path, base: str | None, tip: str | None) -> str | dict[str, str]:
+    """A built-in name, or the path of an arm file as seen from the study file, with its base and tip."""
     if spec in arms.names():
         return spec
-    return Path(os.path.relpath(spec, file.parent)).as_posix()
+    place = Path(os.path.relpath(spec, file.parent)).as_posix()
+    more = {name: link for name, link in (("base", base), ("tip", tip)) if link is not None}
+    return {"file": place, **more} if more else place
 
 
-def _listed(items: Iterable[str]) -> str:
+def _listed(items: Iterable[str | dict[str, str]]) -> str:
     return _one_line(list(items))
 
 
