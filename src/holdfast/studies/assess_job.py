@@ -8,13 +8,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from holdfast.assess.assess import Assessment, load
 from holdfast.assess.binned import FACTS, Counts, edges
-from holdfast.assess.distribution import Distribution
 from holdfast.assess.plan import Plan, Rows
 from holdfast.status import Status
 from holdfast.studies.process import ready, shared
-from holdfast.study import Chunk, Column, Store
+from holdfast.study import Chunk, Column
 
 Keep = Literal["rows", "counts"]
 _SAMPLES = (("", "index", "worst"), ("optimised_", "optimised_index", "optimised_worst"))
@@ -91,18 +89,3 @@ class AssessJob:
             stop = min(start + size, chunk.stop)
             samples = plan.region.samples(start, stop, first + k, plan.seed, plan.sampling, self.rows)
             yield plan.evaluate(samples, first + k)
-
-
-def assessment(store: Store) -> Assessment:
-    """What is in a cell whose rows were kept."""
-    return load(store.path)
-
-
-def counted(store: Store, optimised: bool, keep: list[dict[str, Any]]) -> Distribution:
-    """What is in the chunks of a cell whose values were counted."""
-    plan = Plan.from_dict(store.plan, store.rows)
-    before = "optimised_" if optimised else ""
-    counts = Counts(plan.index)
-    for rows in keep:
-        counts.join(rows[f"{before}bins"][0], rows[f"{before}facts"][0])
-    return counts.finish()

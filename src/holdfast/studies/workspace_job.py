@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.converge.starts import read_places
+from holdfast.converge.starts import Places, read_places
 from holdfast.converge.workspace_job import Beginnings, Job, prepared, usual_method
 from holdfast.errors import InputError
 from holdfast.studies.convergence_job import law_of
@@ -37,7 +37,7 @@ class WorkspaceJob:
         """See :class:`holdfast.study.Job`."""
         ready(self, self._made, alone)
 
-    def _made(self) -> tuple[Job, Beginnings]:
+    def _made(self) -> tuple[Job, Places]:
         p = self.plan
         law = law_of(p)
         method = usual_method(law)
@@ -45,7 +45,7 @@ class WorkspaceJob:
         if not job.reached:
             raise InputError(f"no configuration of '{law.arm.name}' was found at the target; choose one within its reach")
         places = read_places(law.arm, law.task, self.rows, np.random.default_rng(p["seed"]))
-        return job, Beginnings(law, places, p["configurations"], method, p["seed"])
+        return job, places
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
@@ -53,6 +53,6 @@ class WorkspaceJob:
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        job, begin = shared(self, self._made)
-        one = Beginnings(job.law, begin.places, job.configurations, job.method, chunk.own_seed)
-        return job.analyse(*one.of(chunk.start, chunk.stop), len(chunk))
+        job, places = shared(self, self._made)
+        begin = Beginnings(job.law, places, job.configurations, job.method, chunk.own_seed)
+        return job.analyse(*begin.of(chunk.start, chunk.stop), len(chunk))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import queue
 import time
 from collections.abc import Iterator
@@ -32,6 +33,8 @@ class Cluster:
             raise InputError(
                 "a scheduler needs Dask, which is not installed; install it with: pip install 'holdfast[cluster]'"
             ) from error
+        for part in ("client", "core", "comm"):  # its tracebacks; what matters comes back as one sentence
+            logging.getLogger(f"distributed.{part}").setLevel(logging.CRITICAL)
         self.address = address
         self._own: Any = None
         if address.startswith(_LOCAL):
