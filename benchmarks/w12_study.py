@@ -36,12 +36,12 @@ def study(folder: Path, chunks: int, chunk: int):
     return read(file)
 
 
-def timed(folder: Path, asked, runner, stop=None) -> float:
+def timed(folder: Path, asked, runner, stop=None, part=(1, 1)) -> float:
     from holdfast.study import Study
 
     s = Study.create(folder, asked.name, asked.seed, asked.cells, asked.text)
     begin = time.perf_counter()
-    s.run(asked.cells, runner, stop=stop or (lambda: False))
+    s.run(asked.cells, runner, stop=stop or (lambda: False), part=part)
     return time.perf_counter() - begin
 
 
@@ -53,7 +53,7 @@ def after(count: int):
 
 def warm(folder: Path, asked, runner) -> None:
     """Let everybody compile and import."""
-    timed(folder, asked, runner, after(3))
+    timed(folder, asked, runner, part=(1, asked.cells[0].count))
 
 
 def threads(count: int):
@@ -136,8 +136,7 @@ def main() -> None:
         say("stopped and resumed / at one go, 1 thread", f"{(first + second) / one:.3f} x")
         if not given.no_dask:
             with Cluster("local:1") as cluster:
-                while not Path(folder / "warm3" / "cells").exists():
-                    warm(folder / "warm3", asked, cluster)
+                warm(folder / "warm3", asked, cluster)
                 dask = timed(folder / "dask", asked, cluster)
             say("Dask, 1 worker with 1 thread / 1 thread", f"{dask / one:.3f} x")
         say("status of 100,000 chunks", f"{status(folder, 100_000):.2f} s")

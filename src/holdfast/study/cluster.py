@@ -14,6 +14,7 @@ from holdfast.study.runner import Result, Stop, Task, compute
 
 _POLL = 0.5  # s between looks at the scheduler
 _PATIENCE = 15.0  # s without the scheduler before it counts as gone
+_GRACE = 10.0  # s that chunks in hand get once a stop is asked for
 _LOCAL = "local:"
 
 
@@ -81,7 +82,7 @@ class Cluster:
         finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
         waiting: dict[str, tuple[Any, Task]] = {}
         looked, room, heard = 0.0, 1, time.monotonic()
-        more = True
+        more, asked = True, 0.0
         try:
             while True:
                 now = time.monotonic()
@@ -104,8 +105,10 @@ class Cluster:
                 try:
                     future = finished.get(timeout=_POLL)
                 except queue.Empty:
-                    if stop():  # what the workers have in hand is given up: they may be far away and slow
-                        return
+                    if stop():
+                        asked = asked or now
+                        if now - asked > _GRACE:  # the workers may be far away and slow: it is given up
+                            return
                     continue
                 _, task = waiting.pop(future.key)
                 yield self._taken(future, task)
