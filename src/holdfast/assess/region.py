@@ -239,21 +239,50 @@ class Region:
             for unit in self._unit(first, seed, sampling, 1):
                 yield self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
         else:
-            low = np.array(self.center) - np.array(self.size) / 2
             for unit in self._unit(first, seed, sampling, len(self.center)):
-                unit *= np.array(self.size)
-                unit += low
-                yield unit
+                yield self._placed(unit)
+
+    def samples(self, start: int, stop: int, block: int, seed: int, sampling: Sampling, count: int) -> Array:
+        """Samples ``start`` up to ``stop`` of ``count``, at most a block of them, from the random numbers of one block.
+
+        Those of :meth:`blocks` if ``start`` is where that block begins. ``sobol`` points and poses of a list that has
+        ``count`` go by their number alone.
+
+        Args:
+            start: First sample.
+            stop: Sample after the last.
+            block: Number of the block whose seed is used.
+            seed: Of the run.
+            sampling: ``random`` or ``sobol``.
+            count: Samples in all.
+        """
+        if self.listed is not None and count == len(self.listed):
+            return np.arange(start, stop, dtype=np.float64)[:, None]
+        if sampling == "random":
+            return next(self.blocks(block, seed, sampling, count))[: stop - start]
+        engine = self._sobol(seed, 1 if self.listed is not None else len(self.center), start)
+        unit = engine.random(stop - start)
+        return self.listed.pick(unit[:, 0])[:, None].astype(np.float64) if self.listed is not None else self._placed(unit)
+
+    def _placed(self, unit: Array) -> Array:
+        """Samples of a box from points (N, w) of the unit cube, which they replace."""
+        unit *= np.array(self.size)
+        unit += np.array(self.center) - np.array(self.size) / 2
+        return unit
+
+    @staticmethod
+    def _sobol(seed: int, width: int, start: int) -> Any:
+        """Scrambled low-discrepancy points (width,) from number ``start`` on."""
+        from scipy.stats import qmc
+
+        engine = qmc.Sobol(width, scramble=True, rng=np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))))
+        if start:
+            engine.fast_forward(start)
+        return engine
 
     def _unit(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[Array]:
         """Blocks (block, width) uniform in the unit cube."""
-        engine = None
-        if sampling == "sobol":
-            from scipy.stats import qmc
-
-            engine = qmc.Sobol(width, scramble=True, rng=np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))))
-            if number:
-                engine.fast_forward(number * self.block)
+        engine = self._sobol(seed, width, number * self.block) if sampling == "sobol" else None
         while True:
             if engine is not None:
                 yield engine.random(self.block)
@@ -383,3 +412,16 @@ def builtin_region(arm: str) -> Region | None:
         return None
     quarter = np.pi / 2
     return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
+
+
+def default_region(spec: str, arm: Arm) -> Region:
+    """The region of an arm for which none is given: the paper's for the paper's arm, else around its home.
+
+    Args:
+        spec: What the arm was called: a built-in name, or a file.
+        arm: The arm.
+    """
+    from holdfast import arms
+
+    known = builtin_region(spec)
+    return Region.around(arm, arms.about(spec).home if spec in arms.names() else None) if known is None else known

@@ -21,6 +21,7 @@ from holdfast.cli import (
     simulate_commands,
     stationary_commands,
     studio_commands,
+    study_commands,
     susceptibility_commands,
     swing_commands,
     teleop_commands,
@@ -73,6 +74,7 @@ workspace_commands.add(app)
 stationary_commands.add(app)
 trade_off_commands.add(app)
 studio_commands.add(app)
+study_commands.add(app)
 teleop_commands.add(app)
 export_commands.add(app)
 

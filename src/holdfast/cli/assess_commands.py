@@ -251,16 +251,10 @@ def check_thresholds(at_least: list[float] | None) -> None:
 
 def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
     """--region, or a region about the arm's home; for the paper's arm the paper's."""
-    from holdfast import arms
     from holdfast.assess import Region
-    from holdfast.assess.region import builtin_region
+    from holdfast.assess.region import default_region
 
-    if path is not None:
-        return Region.load(path)
-    known = builtin_region(spec)
-    if known is not None:
-        return known
-    return Region.around(arm, arms.about(spec).home if spec in arms.names() else None)
+    return default_region(spec, arm) if path is None else Region.load(path)
 
 
 def add(app: typer.Typer) -> None:

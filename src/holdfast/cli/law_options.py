@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import TARGET_HELP, read_numbers
-from holdfast.errors import InputError
+from holdfast.cli.options import TARGET_HELP
+from holdfast.written import read_labelled_law as read_labelled_law
+from holdfast.written import read_numbers
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -48,27 +49,6 @@ LawsOption = Annotated[
         show_default="pseudoinverse and failure-tolerant",
     ),
 ]
-
-
-def read_labelled_law(text: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
-    """A law as its label says, ``slug`` or ``slug:setting``; ``option`` is what an error calls it."""
-    from holdfast.control import by_name
-    from holdfast.control.laws import BY_NAME
-
-    slug, colon, value = text.partition(":")
-    setting = BY_NAME[slug].setting if slug in BY_NAME else ""
-    given: dict[str, Any] = dict(more)
-    if colon:
-        if slug in BY_NAME and not setting:
-            raise InputError(f"{option} '{text}': the {BY_NAME[slug].name} takes no setting; write {slug} alone")
-        numbers = read_numbers(f"{option} {slug}", value, f"{slug}:NUMBER")
-        if numbers.size == 1 and setting != "weights":
-            given[setting] = float(numbers[0])
-        elif setting == "weights":
-            given[setting] = numbers
-        else:
-            raise InputError(f"{option} '{text}' has {numbers.size} numbers after the colon; give one")
-    return by_name(slug, arm, task=task, **given)
 
 
 def read_law(

@@ -15,13 +15,18 @@ import typer
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
+from holdfast.written import default_task as default_task
+from holdfast.written import is_number
+from holdfast.written import read_failures as read_failures
+from holdfast.written import read_joint as read_joint
+from holdfast.written import read_numbers as read_numbers
+from holdfast.written import read_task as read_task
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
-    from holdfast.failures import FailureSpec
     from holdfast.indices import Objective
 
 ArmArgument = Annotated[
@@ -91,60 +96,12 @@ def read_arm(spec: str, base: str | None, tip: str | None) -> Arm:
     return arms.resolve(spec, base, tip)
 
 
-def default_task(spec: str, arm: Arm) -> str:
-    """The task of an arm for which none was given: its own, or planar if it moves in a plane, or pose."""
-    from holdfast import arms
-    from holdfast.arm.task import plane_normal
-
-    if spec in arms.names():
-        return arms.about(spec).task
-    return "planar" if plane_normal(arm) is not None else "pose"
-
-
-def read_task(text: str | None, spec: str, arm: Arm) -> str | Task:
-    """--task as the library takes it."""
-    if text is None:
-        return default_task(spec, arm)
-    from holdfast.arm.task import ROWS, rows_task
-
-    frame, _, rest = text.rpartition(":")
-    if frame not in ("", "base", "tool"):
-        raise InputError(f"--task: frame '{frame}' is not known; write rows as 'tool:vx,vy,wz' or 'base:vx,vy,wz'")
-    rows = [x.strip() for x in rest.split(",") if x.strip()]
-    if frame or len(rows) > 1 or rest in ROWS:
-        return rows_task(rows, "tool" if frame == "tool" else "base")
-    return rest
-
-
-def read_joint(arm: Arm, text: str) -> int:
-    """A joint by name or number from 1, as an index from 0."""
-    text = text.strip()
-    if text in arm.joint_names:
-        return arm.joint_index(text)
-    if text.isdecimal():
-        if 1 <= int(text) <= arm.n:
-            return int(text) - 1
-        raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
-    return arm.joint_index(text)
-
-
-def read_failures(arm: Arm, text: str) -> FailureSpec:
-    """--failures as the library takes it."""
-    text = text.strip()
-    if text in ("single", "pairs"):
-        return text
-    # A lone number could be a joint or how many: it is how many, as --help says.
-    if text.isdecimal():
-        return int(text)
-    return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]
-
-
 def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | int, float]:
     """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1."""
     found: dict[str | int, float] = {}
     for text in texts or []:
         joint, equals, value = text.rpartition("=")
-        if not equals or not _is_number(value):
+        if not equals or not is_number(value):
             raise InputError(f"{option} '{text}' is not joint=number; write for example {option} {arm.joint_names[0]}=0.3")
         name = arm.joint_names[read_joint(arm, joint)]
         if name in found:
@@ -160,16 +117,6 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
     if not np.isfinite(q).all():
         raise InputError(f"{option} holds NaN or infinity; give {arm.n} finite numbers")
     return np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
-
-
-def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
-    """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
-    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
-    try:
-        return np.array([float(x) for x in parts])
-    except ValueError as error:
-        wrong = next(x for x in parts if not _is_number(x))
-        raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
 
 
 def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
@@ -267,7 +214,7 @@ def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
         return np.eye(arm.n)[read_joint(arm, text if text in arm.joint_names else number)]
     if text in ("effort", "worst-case") or text.lower().endswith(".csv"):
         return read_weights(option, text)
-    if not all(_is_number(x) for x in text.split(",")):
+    if not all(is_number(x) for x in text.split(",")):
         raise InputError(
             f"{option}: weights '{text}' of {name} are not known; use effort, worst-case, a joint by name or as joint2, "
             f"{arm.n} numbers separated by commas, or a .csv file of them"
@@ -325,14 +272,6 @@ def read_target(task: Task, text: str) -> NDArray[np.float64]:
 def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:
     """Names of the joints of which q (n,) is beyond a limit."""
     return [j.name for j, x in zip(arm.joints, q, strict=True) if not j.lower <= x <= j.upper]
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def plain(value: Any) -> Any:

@@ -2,7 +2,8 @@
 
 Knows no robots: rows have named columns. The folder holds ``samples.zarr``, readable with ``xarray.open_zarr``, and
 ``run.json``, which says what is computed and which chunks are done. A chunk counts only once ``run.json`` names it,
-and ``run.json`` is replaced in one step; whatever a crash leaves behind is computed again.
+and ``run.json`` is replaced in one step; whatever a crash leaves behind is computed again. A folder of very many chunks,
+as those of a study, names them in a journal instead, each with the checksum of its values.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
+from holdfast.study.folder import digest, held
+from holdfast.study.journal import Entry, Journal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,14 +65,21 @@ class Column:
 class Store:
     """A results folder opened for writing or reading; see :meth:`create`, :meth:`open`."""
 
+    JOURNAL = "done.journal"
+
     def __init__(self, path: Path, run: dict[str, Any]) -> None:
         self.path = path
         self._run = run
+        self._journal = Journal(path / self.JOURNAL) if run.get("journal") else None
+        self._entries: dict[int, Entry] | None = None  # of the journal, once it is read
+        self._arrays: dict[str, Any] = {}  # open for writing
 
     # ---- opening ---------------------------------------------------------------------------------------------------
 
     @classmethod
-    def create(cls, path: str | Path, plan: Mapping[str, Any], columns: list[Column], rows: int, chunk: int) -> Store:
+    def create(
+        cls, path: str | Path, plan: Mapping[str, Any], columns: list[Column], rows: int, chunk: int, journal: bool = False
+    ) -> Store:
         """A new folder, or the existing one if it belongs to the same plan, ready to go on.
 
         Args:
@@ -78,6 +88,7 @@ class Store:
             columns: What each row holds.
             rows: Number of rows.
             chunk: Rows per chunk.
+            journal: Name chunks that are done in a journal, with checksums, instead of in ``run.json``.
 
         Raises:
             StoreError: Not writable, not a results folder, or a folder of another plan; the message names the difference.
@@ -111,6 +122,7 @@ class Store:
             "done": [],
             "columns": [[c.name, c.dtype, [list(d) for d in c.dims], c.units, c.about] for c in columns],
             "notes": {},
+            **({"journal": True} if journal else {}),
         }
         store = cls(folder, run)
         try:
@@ -150,25 +162,11 @@ class Store:
     @contextmanager
     def writing(self) -> Iterator[None]:
         """Hold the folder: a second program that tries is told so instead of spoiling the run."""
-        lock = self.path / _LOCK
-        try:
-            handle = os.open(lock, os.O_CREAT | os.O_RDWR, 0o644)
-        except OSError as error:
-            raise StoreError(f"cannot write to '{self.path}': {error.strerror}; choose another folder") from error
-        try:
-            try:
-                import fcntl
-
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except ImportError:  # no such locks on this system
-                pass
-            except OSError as error:
-                raise StoreError(f"another program is writing to '{self.path}'; wait for it or stop it") from error
+        with held(self.path, _LOCK):
             # Another program may have gone on with the run since it was opened.
             self._run = Store.open(self.path)._run
+            self._entries = None
             yield
-        finally:
-            os.close(handle)
 
     # ---- what is there ---------------------------------------------------------------------------------------------
 
@@ -185,6 +183,19 @@ class Store:
         return notes
 
     @property
+    def columns(self) -> list[Column]:
+        """What each row holds."""
+        return [
+            Column(name, dtype, tuple((d, n) for d, n in dims), units, about)
+            for name, dtype, dims, units, about in self._run["columns"]
+        ]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows of the finished run, and of a chunk."""
+        return self.rows, int(self._run["chunk"])
+
+    @property
     def rows(self) -> int:
         """Number of rows of the finished run."""
         return int(self._run["rows"])
@@ -192,19 +203,43 @@ class Store:
     @property
     def chunks(self) -> list[tuple[int, int]]:
         """First row and row after the last of every chunk."""
+        return [self.span(k) for k in range(self.count)]
+
+    @property
+    def count(self) -> int:
+        """Number of chunks."""
+        return -(-self.rows // int(self._run["chunk"]))
+
+    def span(self, chunk: int) -> tuple[int, int]:
+        """First row and row after the last of a chunk."""
         size = int(self._run["chunk"])
-        return [(start, min(start + size, self.rows)) for start in range(0, self.rows, size)]
+        return chunk * size, min((chunk + 1) * size, self.rows)
 
     @property
     def done(self) -> list[int]:
         """Chunks that are committed."""
-        return list(self._run["done"])
+        return list(self._run["done"]) if self._journal is None else sorted(self.entries)
+
+    @property
+    def entries(self) -> dict[int, Entry]:
+        """What the journal says of the chunks that are committed; empty without one.
+
+        Raises:
+            StoreError: It cannot be read.
+        """
+        if self._entries is None:
+            try:
+                found = {} if self._journal is None else self._journal.read()
+            except OSError as error:
+                raise StoreError(f"'{self.path / self.JOURNAL}' cannot be read: {error.strerror or error}") from error
+            self._entries = {k: e for k, e in found.items() if 0 <= k < self.count}
+        return self._entries
 
     @property
     def missing(self) -> list[int]:
         """Chunks still to compute."""
         done = set(self.done)
-        return [k for k in range(len(self.chunks)) if k not in done]
+        return [k for k in range(self.count) if k not in done]
 
     @property
     def complete(self) -> bool:
@@ -213,30 +248,92 @@ class Store:
 
     # ---- rows ------------------------------------------------------------------------------------------------------
 
-    def write(self, chunk: int, columns: Mapping[str, NDArray[Any]]) -> None:
+    def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], seconds: float = 0.0, maker: int = 0) -> None:
         """Write all columns of a chunk, then commit it.
+
+        Args:
+            chunk: Its number.
+            columns: Its values.
+            seconds: For the journal: time it took.
+            maker: For the journal: number of what made it.
 
         Raises:
             StoreError: The disk refuses; chunks committed before stay valid.
         """
         import zarr
 
-        start, stop = self.chunks[chunk]
+        start, stop = self.span(chunk)
         try:
-            group = zarr.open_group(self.path / _SAMPLES, mode="r+")
-            arrays = {name: group[name] for name in columns}
+            if self._journal is None or not self._arrays:
+                group = zarr.open_group(self.path / _SAMPLES, mode="r+")
+                self._arrays = {name: group[name] for name in columns}
+            arrays = self._arrays
         except (OSError, KeyError, ValueError) as error:
             raise self._damaged(error) from error
         try:
             for name, values in columns.items():
                 arrays[name][start:stop] = values
-            self._run["done"] = sorted({*self.done, chunk})
-            self._commit()
+            if self._journal is None:
+                self._run["done"] = sorted({*self.done, chunk})
+                self._commit()
+            else:
+                stored = {name: np.ascontiguousarray(values, arrays[name].dtype) for name, values in columns.items()}
+                entry = Entry(digest(stored), self._settled(chunk), seconds, maker)
+                self._journal.add(chunk, entry)
+                self.entries[chunk] = entry
         except OSError as error:
             raise StoreError(
                 f"cannot write chunk {chunk + 1} to '{self.path}': {error.strerror or error}; "
                 "what was committed before is safe: make room and run the same command again"
             ) from error
+
+    def drop(self, chunks: Sequence[int]) -> None:
+        """Chunks of a journal that are damaged: they are missing from now on.
+
+        Raises:
+            StoreError: The disk refuses, or there is no journal.
+        """
+        if self._journal is None:
+            raise StoreError(f"'{self.path}' keeps no journal, so no chunk of it can be dropped; run it in a new folder")
+        try:
+            self._journal.drop(chunks)
+        except OSError as error:
+            raise StoreError(f"cannot write to '{self.path}': {error.strerror or error}; make room") from error
+        for k in chunks:
+            self.entries.pop(k, None)
+
+    def wrong(self, chunk: int) -> str | None:
+        """What is wrong with a committed chunk of a journal, all of its values read; None if it is sound."""
+        try:
+            found = self.read(chunk, [name for name, *_ in self._run["columns"]])
+        except StoreError as error:
+            return str(error)
+        return None if digest(found) == self.entries[chunk].digest else "its values are not those that were written"
+
+    def size(self, chunk: int) -> int:
+        """Bytes of the files of a chunk; files of nothing but fill values are not written."""
+        return sum(f.stat().st_size for f in self._files(chunk) if f.exists())
+
+    def _settled(self, chunk: int) -> int:
+        """Bytes of the files of a chunk, which are on the disk when this returns."""
+        size = 0
+        for file in self._files(chunk):
+            try:
+                handle = os.open(file, os.O_RDONLY)
+            except FileNotFoundError:
+                continue
+            try:
+                os.fsync(handle)
+                size += os.fstat(handle).st_size
+            finally:
+                os.close(handle)
+        return size
+
+    def _files(self, chunk: int) -> list[Path]:
+        return [
+            self.path / _SAMPLES / name / "c" / "/".join([str(chunk), *["0"] * len(dims)])
+            for name, _, dims, *_ in self._run["columns"]
+        ]
 
     def note(self, **facts: Any) -> None:
         """Add facts about how the run went."""
@@ -257,7 +354,7 @@ class Store:
         """
         import zarr
 
-        start, stop = self.chunks[chunk]
+        start, stop = self.span(chunk)
         try:
             group = zarr.open_group(self.path / _SAMPLES, mode="r")
             return {name: np.asarray(group[name][start:stop]) for name in names}

@@ -1,0 +1,91 @@
+"""Assessments as cells of a study: each is the run that :func:`holdfast.assess` would make, in chunks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from holdfast.assess.binned import FACTS, Counts, edges
+from holdfast.assess.plan import Plan, Rows
+from holdfast.status import Status
+from holdfast.studies.process import ready, shared
+from holdfast.study import Chunk, Column
+
+Keep = Literal["rows", "counts"]
+_SAMPLES = (("", "index", "worst"), ("optimised_", "optimised_index", "optimised_worst"))
+
+
+@dataclass(frozen=True)
+class AssessJob:
+    """Poses of a region, solved and evaluated.
+
+    Attributes:
+        plan: As :meth:`holdfast.assess.plan.Plan.to_dict` gives it.
+        rows, chunk: Poses, in all and of a chunk.
+        keep: ``rows``: every pose, a folder that :func:`holdfast.load` reads; ``counts``: only how values are distributed.
+    """
+
+    plan: dict[str, Any]
+    rows: int
+    chunk: int
+    keep: Keep = "rows"
+
+    def __hash__(self) -> int:
+        return hash((self.plan["fingerprint"], self.rows, self.chunk, self.keep))
+
+    def prepare(self, alone: bool) -> None:
+        """See :class:`holdfast.study.Job`."""
+        ready(self, self._compiled, alone)
+
+    def _compiled(self) -> Plan:
+        plan = Plan.from_dict(self.plan, self.rows)
+        plan.compile()
+        return plan
+
+    def columns(self) -> list[Column]:
+        """See :class:`holdfast.study.Job`."""
+        plan = shared(self, self._compiled)
+        if self.keep == "rows":
+            return plan.columns()
+        found = []
+        bins, failures = len(edges(plan.index)) - 1, len(plan.index.failures)
+        for before, _, _ in _SAMPLES[: 1 + plan.optimise]:
+            found += [
+                Column(f"{before}bins", "int64", (("bin", bins),), "1", "values in each bin of the index"),
+                Column(f"{before}facts", "float64", (("fact", len(FACTS)),), "1", ", ".join(FACTS)),
+                Column(f"{before}worst_counts", "int64", (("failure", failures),), "1", "how often each failure is the worst"),
+            ]
+        return found
+
+    def run(self, chunk: Chunk) -> Rows:
+        """See :class:`holdfast.study.Job`."""
+        plan = shared(self, self._compiled)
+        if self.keep == "rows":
+            parts = list(self._blocks(plan, chunk))
+            return {name: np.concatenate([p[name] for p in parts]) for name in parts[0]}
+        samples = [(Counts(plan.index), np.zeros(len(plan.index.failures), np.int64)) for _ in _SAMPLES[: 1 + plan.optimise]]
+        for rows in self._blocks(plan, chunk):
+            reached = (rows["status"] == Status.OK) | (rows["status"] == Status.SINGULAR)
+            for (before, index, worst), (counts, often) in zip(_SAMPLES, samples, strict=False):
+                good = reached
+                if before and "optimised_status" in rows:
+                    good = reached & (rows["optimised_status"] != Status.INFEASIBLE)
+                counts.add(rows[index][good], int((~good).sum()), int((rows[worst][good] < 0).sum()))
+                often += np.bincount(rows[worst][rows[worst] >= 0], minlength=often.size)
+        found: Rows = {}
+        for (before, _, _), (counts, often) in zip(_SAMPLES, samples, strict=False):
+            values = (counts.bins[None], counts.facts[None], often[None])
+            found |= dict(zip((f"{before}bins", f"{before}facts", f"{before}worst_counts"), values, strict=True))
+        return found
+
+    def _blocks(self, plan: Plan, chunk: Chunk) -> Iterator[Rows]:
+        """Rows of a chunk, a block at a time: those of an assessment where chunks are whole blocks."""
+        size = plan.region.block
+        first = chunk.number * -(-self.chunk // size)
+        for k, start in enumerate(range(chunk.start, chunk.stop, size)):
+            stop = min(start + size, chunk.stop)
+            samples = plan.region.samples(start, stop, first + k, plan.seed, plan.sampling, self.rows)
+            yield plan.evaluate(samples, first + k)

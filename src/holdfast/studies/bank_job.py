@@ -1,0 +1,72 @@
+"""Task banks as cells of a study: random tasks that the computer drives under a law, healthy and failed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.control.law import Law
+from holdfast.studies.convergence_job import law_of
+from holdfast.studies.process import ready, shared
+from holdfast.study import Chunk, Column
+from holdfast.teleop.measures import RECORDED
+from holdfast.teleop.point_task import Scenario
+from holdfast.teleop.tasks import task_bank
+from holdfast.written import read_law_setting
+
+Rows = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class BankJob:
+    """Tasks as :func:`holdfast.teleop.task_bank` makes them; a row is a task for each joint that fails.
+
+    Attributes:
+        plan: Arm, task, law, distance.
+    """
+
+    plan: dict[str, Any]
+
+    def __hash__(self) -> int:
+        return hash((self.plan["fingerprint"], self.plan["law"]))
+
+    def prepare(self, alone: bool) -> None:
+        """See :class:`holdfast.study.Job`."""
+        ready(self, self._law, alone)
+
+    def _law(self) -> Law:
+        return law_of(self.plan)
+
+    def columns(self) -> list[Column]:
+        """See :class:`holdfast.study.Job`."""
+        law = shared(self, self._law)
+        joints = ("failing", law.arm.n)
+        cases = ("healthy_or_failed", 2)
+        return [
+            Column("q0", "float64", (joints, ("joint", law.arm.n)), "rad or m", "configuration at the start"),
+            Column("target", "float64", (joints, ("row", law.task.m)), "m", "where the hand should go"),
+            Column("end", "uint8", (joints, cases), "1", "how the trial ended; 0 arrived"),
+            Column("measures", "float64", (joints, cases, ("measure", RECORDED)), "mixed", "M1 to M11 of Goel et al. 2003"),
+        ]
+
+    def run(self, chunk: Chunk) -> Rows:
+        """See :class:`holdfast.study.Job`."""
+        law = shared(self, self._law)
+        count, n = len(chunk), law.arm.n
+        slug, options = read_law_setting(self.plan["law"], "laws")
+        scenarios = [Scenario(k + 1, slug, failed, options) for k, failed in enumerate((False, True))]
+        bank = task_bank(law.arm, count, None, self.plan["distance"], law.task, chunk.own_seed, scenarios)
+
+        def by_row(values: NDArray[Any]) -> NDArray[Any]:
+            """(n * count, ...), joint by joint, as (count, n, ...)."""
+            return np.ascontiguousarray(values.reshape(n, count, *values.shape[1:]).swapaxes(0, 1))
+
+        return {
+            "q0": by_row(bank.tasks.q0),
+            "target": by_row(bank.tasks.target),
+            "end": by_row(bank.end.T),
+            "measures": by_row(bank.measures.swapaxes(0, 1)),
+        }

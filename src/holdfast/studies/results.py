@@ -1,0 +1,229 @@
+"""What the cells of a study found, read a chunk at a time, whatever their number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.assess.assess import ZERO
+from holdfast.assess.binned import Counts
+from holdfast.assess.distribution import Distribution
+from holdfast.assess.plan import Plan
+from holdfast.assess.run import Tally
+from holdfast.converge.convergence_map import NONE, shared
+from holdfast.converge.workspace import mean_intervals, mean_over
+from holdfast.errors import StoreError
+from holdfast.interval import Difference, Interval
+from holdfast.simulate import Outcome
+from holdfast.study import Store, Study
+from holdfast.study.folder import digest
+from holdfast.teleop.trials import End
+
+Array = NDArray[np.float64]
+Rows = dict[str, NDArray[Any]]
+
+
+def chunks(study: Study, cell: int) -> Iterator[Rows]:
+    """The committed chunks of a cell, each checked against its checksum.
+
+    Raises:
+        StoreError: A chunk is damaged.
+    """
+    if not study.folder(cell).exists():
+        return
+    store = study.store(cell)
+    names = [c.name for c in store.columns]
+    for k in store.done:
+        rows = store.read(k, names)
+        if digest(rows) != store.entries[k].digest:
+            raise StoreError(
+                f"chunk {k + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged; give "
+                f"'holdfast study verify {study.path}', then the run again"
+            )
+        yield rows
+
+
+@dataclass(frozen=True)
+class Assessed:
+    """An index over a region.
+
+    Attributes:
+        labels: Of the cell.
+        plan: What was computed.
+        plain, optimised: Distributions; None where nothing is computed, or was not asked for.
+        worst: Name of the failure that is the worst most often, and its share; None if there is none.
+        left: Share of the poses left after a lock, mean over the joints; None if not asked for.
+    """
+
+    labels: dict[str, Any]
+    plan: Plan
+    plain: Distribution | None
+    optimised: Distribution | None
+    worst: tuple[str, float] | None
+    left: float | None
+
+    def interval(self, threshold: float, optimised: bool) -> Interval | None:
+        """Probability that the index meets a threshold."""
+        d = self.optimised if optimised else self.plain
+        if d is None or not d.samples:
+            return None
+        larger = self.plan.index.better == "larger"
+        return d.interval(at_least=threshold) if larger else d.interval(at_most=threshold)
+
+
+def assessed(study: Study, cell: int) -> Assessed:
+    """The result of an assessment."""
+    labels = study.cells[cell]["labels"]
+    store = study.store(cell)
+    plan = Plan.from_dict(store.plan, study.cells[cell]["rows"])
+    if labels["keep"] == "counts":
+        return _from_counts(study, cell, labels, plan)
+    tally, some = Tally(plan), False
+    for rows in chunks(study, cell):
+        tally.add(rows)
+        some = True
+    plain = tally.found.finish() if some else None
+    best = tally.optimised.finish() if some and tally.optimised is not None else None
+    left = None
+    if some and tally.survivors is not None and plain is not None:
+        left = float(np.mean(tally.survivors) / plain.total_weight())
+    return Assessed(labels, plan, plain, best, _worst(plan, tally.found.worst), left)
+
+
+def _from_counts(study: Study, cell: int, labels: dict[str, Any], plan: Plan) -> Assessed:
+    befores = ["", *["optimised_"] * plan.optimise]
+    counts = {before: Counts(plan.index) for before in befores}
+    often = np.zeros(len(plan.index.failures), dtype=np.int64)
+    some = False
+    for rows in chunks(study, cell):
+        some = True
+        often += rows["worst_counts"][0]
+        for before, c in counts.items():
+            c.join(rows[f"{before}bins"][0], rows[f"{before}facts"][0])
+    found = [c.finish() if some else None for c in counts.values()]
+    return Assessed(labels, plan, found[0], found[1] if plan.optimise else None, _worst(plan, often), None)
+
+
+def _worst(plan: Plan, counts: NDArray[Any]) -> tuple[str, float] | None:
+    if not counts.sum() > 0:
+        return None
+    return plan.index.failure_names[int(counts.argmax())], float(counts.max() / counts.sum())
+
+
+def threshold(found: list[Assessed]) -> float:
+    """One for several arms where none is given: half of the smallest bound, or about the middle of the medians."""
+    bounds = [a.plan.index.bound for a in found]
+    some = [b for b in bounds if b is not None]
+    if some and len(some) == len(bounds):
+        return float(f"{min(some) / 2:.2g}")
+    medians = [float(a.plain.quantile(0.5)) for a in found if a.plain is not None and a.plain.reached]
+    medians = [m for m in medians if np.isfinite(m) and abs(m) > ZERO]
+    return float(f"{np.median(medians):.2g}") if medians else 1.0
+
+
+@dataclass(frozen=True)
+class Driven:
+    """Motions under a law; shares are over the motions, each the mean over the joints that may have locked.
+
+    Attributes:
+        labels: Of the cell.
+        joints: Names.
+        motions: Those that had a configuration to start from.
+        ends: Shares of converged, stuck, moving and undecided, of each locked joint and of none, (n + 1, 4).
+        arrives: (n + 1,) shares that arrive, with intervals.
+        each: (R,) of every motion the share of the joints with which it arrives; NaN where there was no start.
+        any: Its mean, with its interval.
+        in_reach: Share of the runs with a locked joint in which the target was in reach.
+    """
+
+    labels: dict[str, Any]
+    joints: tuple[str, ...]
+    motions: int
+    ends: Array
+    arrives: tuple[Interval, ...]
+    each: Array
+    any: Interval
+    in_reach: float
+
+
+def driven(study: Study, cell: int) -> Driven | None:
+    """The result of a map of convergence; None where there is none."""
+    store = study.store(cell)
+    parts = [(rows["code"], rows["in_reach"]) for rows in chunks(study, cell)]
+    if not parts:
+        return None
+    code = np.concatenate([c for c, _ in parts])
+    reach = np.concatenate([r for _, r in parts])
+    known = code[:, 0] != NONE
+    runs = int(known.sum())
+    if not runs:
+        return None
+    ends = np.stack([(code[known] == k).mean(axis=0) for k in Outcome], axis=1)
+    there = code == Outcome.CONVERGED
+    each = np.where(known, there[:, :-1].mean(axis=1), np.nan)
+    arrives = tuple(Interval.of(int(there[known, k].sum()), runs) for k in range(code.shape[1]))
+    joints = tuple(j["name"] for j in store.plan["arm"]["joints"] if j["type"] != "fixed")
+    whole = shared(each, runs * (code.shape[1] - 1), 0.95)
+    labels = study.cells[cell]["labels"]
+    return Driven(labels, joints, runs, ends, arrives, each, whole, float(reach[known, :-1].mean()))
+
+
+def gain(first: Driven, second: Driven) -> Difference | None:
+    """What the second law gains over the first, on the same motions."""
+    both = ~np.isnan(first.each) & ~np.isnan(second.each) if first.each.shape == second.each.shape else np.zeros(1, bool)
+    return Difference.of_means(second.each[both] - first.each[both]) if both.sum() > 1 else None
+
+
+@dataclass(frozen=True)
+class Table:
+    """What else was computed: names of quantities, with values and ends of intervals as text.
+
+    Attributes:
+        labels: Of the cell.
+        samples: Starts, or sets of tasks.
+        values: (value, low, high) by name; NaN where there is none.
+    """
+
+    labels: dict[str, Any]
+    samples: int
+    values: dict[str, tuple[float, float, float]]
+
+
+def workspace(study: Study, cell: int) -> Table | None:
+    """Means over the starts of the measures of a workspace, for an arbitrary joint, percent."""
+    parts = list(chunks(study, cell))
+    if not parts:
+        return None
+    runs = int(sum((p["configurations"] - p["lost"]).sum() for p in parts))
+    found = {}
+    for name in ("R100", "Ravg", "F100", "Favg"):
+        column = np.concatenate([p[name][:, -1] for p in parts])
+        low, high = mean_intervals(column[:, None], runs, 0.95)[0]
+        found[name] = (float(mean_over(column[:, None], 0)[0]), float(low), float(high))
+    return Table(study.cells[cell]["labels"], sum(len(p["lost"]) for p in parts), found)
+
+
+def bank(study: Study, cell: int) -> Table | None:
+    """Shares of the tasks that the computer completes, healthy and failed, and the median time, cycles."""
+    parts = list(chunks(study, cell))
+    if not parts:
+        return None
+    end = np.concatenate([p["end"] for p in parts])
+    cycles = np.concatenate([p["measures"][..., 0] for p in parts])
+    found = {}
+    for k, case in enumerate(("healthy", "failed")):
+        there = end[..., k] == End.ARRIVED
+        share = Interval.of(int(there.sum()), there.size)
+        found[f"arrived, {case}"] = (100 * share.value, 100 * share.low, 100 * share.high)
+        middle = float(np.median(cycles[..., k][there])) if there.any() else np.nan
+        found[f"time, {case}"] = (middle, np.nan, np.nan)
+    return Table(study.cells[cell]["labels"], len(end), found)
+
+
+def store_size(store: Store) -> int:
+    """Bytes of the committed chunks of a store."""
+    return sum(e.size for e in store.entries.values())

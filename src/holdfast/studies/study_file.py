@@ -1,0 +1,289 @@
+"""Study files: YAML, validated, and the cells that they ask for.
+
+.. code-block:: yaml
+
+    name: two arms
+    seed: 1
+    poses: 2000            # of each cell
+    chunk: 500             # computed and committed together
+    arms: [panda, {file: my_arm.urdf, tip: tool0}]
+    assess:                # every arm with every index, task, region and failure set
+      indices: [relative-manipulability, manipulability]
+      optimise: true
+    convergence:           # every arm with every law
+      laws: [pseudoinverse, failure-tolerant:0.3]
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import yaml
+from pydantic import Field, ValidationError
+
+from holdfast.errors import HoldfastError, InputError
+from holdfast.study import Cell
+from holdfast.yaml_file import Number, Strict, content, sentence
+
+if TYPE_CHECKING:
+    from holdfast.arm import Arm
+    from holdfast.arm.task import Task
+
+_EXAMPLE = "'holdfast study new'"
+_Count = Annotated[int, Field(ge=1, strict=True)]
+_Names = Annotated[list[str], Field(min_length=1)]
+_DEFAULT = "default"
+
+
+class _ArmFile(Strict):
+    file: str
+    base: str | None = None
+    tip: str | None = None
+
+
+class _Block(Strict):
+    chunk: _Count | None = None
+
+
+class _Assess(_Block):
+    poses: _Count | None = None
+    indices: _Names = Field(default_factory=lambda: ["relative-manipulability"])
+    tasks: _Names = Field(default_factory=lambda: [_DEFAULT])
+    regions: _Names = Field(default_factory=lambda: [_DEFAULT])
+    failures: _Names = Field(default_factory=lambda: ["single"])
+    optimise: bool = False
+    after_lock: bool = False
+    clearance: bool | None = None
+    sampling: Literal["random", "sobol"] = "random"
+    restarts: _Count = 100
+    length: Number = 1.0
+    keep: Literal["rows", "counts"] = "rows"
+    thresholds: dict[str, Number] = Field(default_factory=dict)
+
+
+class _Laws(_Block):
+    laws: _Names = Field(default_factory=lambda: ["pseudoinverse", "failure-tolerant"])
+    tasks: _Names = Field(default_factory=lambda: [_DEFAULT])
+    time_limit: Annotated[Number, Field(gt=0)] | None = None
+
+
+class _Convergence(_Laws):
+    motions: _Count | None = None
+
+
+class _Workspace(_Laws):
+    targets: Annotated[list[Annotated[list[Number], Field(min_length=2, max_length=3)]], Field(min_length=1)]
+    starts: _Count | None = None
+    configurations: _Count = 8
+    points: Annotated[int, Field(ge=0, strict=True)] = 3
+
+
+class _Bank(_Laws):
+    sets: _Count | None = None
+    distance: Annotated[Number, Field(gt=0)] | None = None
+
+
+class _File(Strict):
+    name: str = "study"
+    seed: Annotated[int, Field(ge=0, strict=True)] = 0
+    poses: _Count
+    chunk: _Count
+    arms: Annotated[list[str | _ArmFile], Field(min_length=1)]
+    assess: _Assess | None = None
+    convergence: _Convergence | None = None
+    workspace: _Workspace | None = None
+    bank: _Bank | None = None
+
+
+@dataclass(frozen=True)
+class StudyFile:
+    """What a study file asks for.
+
+    Attributes:
+        name: Of the study.
+        seed: Of all its cells.
+        cells: What is computed.
+        text: The file.
+    """
+
+    name: str
+    seed: int
+    cells: tuple[Cell, ...]
+    text: str
+
+
+def read(path: str | Path) -> StudyFile:
+    """The study in a file.
+
+    Raises:
+        InputError: Unreadable, a key that is unknown, missing or wrong, or an arm, index, task or law that is; the message
+            names it.
+    """
+    file = Path(path)
+    try:
+        text, model = _parsed(file)
+        cells = tuple(_named(_cells(model, file.parent)))
+    except HoldfastError as error:
+        raise InputError(f"study file '{file}': {error}") from error
+    return StudyFile(model.name, model.seed, cells, text)
+
+
+def thresholds(text: str) -> dict[str, float]:
+    """Values of the indices that a report asks for, from the text of a study file that was sound."""
+    block = (yaml.safe_load(text) or {}).get("assess") or {}
+    return {index: float(value) for index, value in (block.get("thresholds") or {}).items()}
+
+
+def _parsed(file: Path) -> tuple[str, _File]:
+    data = content(file, _EXAMPLE, "poses, chunk, arms and a job")
+    try:
+        model = _File.model_validate(data)
+    except ValidationError as error:
+        raise InputError(sentence(error, _File, ("_ArmFile", "str"))) from error
+    if not any((model.assess, model.convergence, model.workspace, model.bank)):
+        raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
+    return file.read_text(encoding="utf-8"), model
+
+
+def _named(cells: Iterator[Cell]) -> Iterator[Cell]:
+    """With names that are folders, and none twice."""
+    used: set[str] = set()
+    for cell in cells:
+        name = re.sub(r"[^A-Za-z0-9._=-]+", "-", cell.name).strip("-.")[:120] or "cell"
+        unique = next(n for n in itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2))) if n not in used)
+        used.add(unique)
+        yield Cell(unique, cell.job, cell.plan, cell.rows, cell.chunk, cell.summed, cell.labels)
+
+
+def _cells(model: _File, folder: Path) -> Iterator[Cell]:
+    for given in model.arms:
+        spec, arm, label = _arm(given, folder)
+        if model.assess is not None:
+            yield from _assess_cells(model, model.assess, spec, arm, label, folder)
+        for kind, block in (("convergence", model.convergence), ("workspace", model.workspace), ("bank", model.bank)):
+            if block is not None:
+                yield from _law_cells(model, kind, block, spec, arm, label)
+
+
+def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
+    """What it is called, the arm, and its name for people."""
+    from holdfast import arms
+
+    if isinstance(given, str) and given in arms.names():
+        return given, arms.load(given), given
+    file = given if isinstance(given, str) else given.file
+    more = (None, None) if isinstance(given, str) else (given.base, given.tip)
+    spec = str(folder / file) if Path(file).suffix else file
+    arm = arms.resolve(spec, *more)
+    return spec, arm, arm.name
+
+
+def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str, folder: Path) -> Iterator[Cell]:
+    from holdfast.assess.plan import make_plan
+    from holdfast.assess.region import Region, default_region
+    from holdfast.indices import BY_NAME, by_name
+    from holdfast.studies.assess_job import AssessJob
+    from holdfast.written import read_failures, read_task
+
+    for name in block.thresholds:
+        if name not in block.indices:
+            raise InputError(f"assess.thresholds: '{name}' is not among the indices; name one of {', '.join(block.indices)}")
+    rows, chunk = block.poses or model.poses, block.chunk or model.chunk
+    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
+        if index not in BY_NAME:
+            raise InputError(f"assess.indices: index '{index}' is not known; use one of {', '.join(BY_NAME)}")
+        rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
+        measure = by_name(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+        place = default_region(spec, arm) if region == _DEFAULT else Region.load(folder / region)
+        plan = make_plan(
+            arm,
+            place,
+            measure,
+            rows,
+            model.seed,
+            block.sampling,
+            block.restarts,
+            block.optimise,
+            block.after_lock,
+            clearance=block.clearance,
+        )
+        if block.keep == "counts" and (plan.weighted or plan.after_lock):
+            what = "poses have weights" if plan.weighted else "after_lock needs every pose"
+            raise InputError(f"assess.keep: counts cannot be kept where {what}; use keep: rows")
+        data = plan.to_dict()
+        if chunk % place.block:
+            data["seeds"] = f"as for an assessment, blocks of at most {place.block} poses counted anew in chunks of {chunk}"
+        if block.keep == "counts":
+            data["kind"] = "assess-counts"
+        labels: dict[str, Any] = {
+            "job": "assess",
+            "arm": label,
+            "index": index,
+            "task": measure.task.name,
+            "region": place.name,
+        }
+        labels |= {"failures": failures, "keep": block.keep, "optimise": block.optimise}
+        name = "-".join([label, index, *_said(task, region, failures)])
+        yield Cell(name, AssessJob(data, rows, chunk, block.keep), data, rows, chunk, block.keep == "counts", labels)
+
+
+def _said(task: str, region: str, failures: str) -> list[str]:
+    """What is not as usual."""
+    usual = ((task, _DEFAULT), (Path(region).stem, _DEFAULT), (failures, "single"))
+    return [text for text, default in usual if text != default]
+
+
+def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: str) -> Iterator[Cell]:
+    from holdfast.arm.serial import to_dict
+    from holdfast.arm.task import as_task
+    from holdfast.studies.bank_job import BankJob
+    from holdfast.studies.convergence_job import ConvergenceJob
+    from holdfast.studies.workspace_job import WorkspaceJob
+    from holdfast.written import read_labelled_law, read_task
+
+    chunk = block.chunk or model.chunk
+    for task, text in itertools.product(block.tasks, block.laws):
+        law = read_labelled_law(text, arm, _law_task(task, spec, arm, kind, read_task), f"{kind}.laws")
+        t = as_task(arm, law.task)
+        plan: dict[str, Any] = {
+            "kind": kind,
+            "arm": to_dict(arm),
+            "fingerprint": arm.fingerprint,
+            "task": {"name": t.name, "rows": t.rows.tolist(), "frame": t.frame, "length": t.length},
+            "law": text,
+            "time_limit": block.time_limit,
+            "seed": model.seed,
+            "seeds": "of chunk c: SeedSequence(seed, spawn_key=(c,))",
+        }
+        labels = {"job": kind, "arm": label, "law": law.label, "task": t.name}
+        name = "-".join([label, *_said(task, _DEFAULT, "single"), text])
+        if kind == "convergence":
+            yield Cell(name, ConvergenceJob(plan), plan, block.motions or model.poses, chunk, labels=labels)
+        elif kind == "bank":
+            from holdfast.teleop.plant import check_rows
+            from holdfast.teleop.tasks import DISTANCE
+
+            check_rows(t)
+            plan["distance"] = DISTANCE if block.distance is None else block.distance
+            yield Cell(f"bank-{name}", BankJob(plan), plan, block.sets or model.poses, chunk, labels=labels)
+        else:
+            rows = block.starts or model.poses
+            for k, target in enumerate(block.targets):
+                mine = {**plan, "target": target, "configurations": block.configurations, "points": block.points}
+                where = {**labels, "target": target}
+                yield Cell(f"workspace-{name}-{k + 1}", WorkspaceJob(mine, rows), mine, rows, chunk, labels=where)
+
+
+def _law_task(task: str, spec: str, arm: Arm, kind: str, read_task: Any) -> str | Task:
+    """The task of a law; where none is given, for a stick what a stick moves."""
+    from holdfast.arm.task import plane_normal
+
+    if task == _DEFAULT and kind in ("bank", "workspace"):
+        return "planar" if plane_normal(arm) is not None else "position"
+    found: str | Task = read_task(None if task == _DEFAULT else task, spec, arm, f"{kind}.tasks")
+    return found

@@ -1,0 +1,151 @@
+"""A study file to begin with, every line of it explained."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import yaml
+
+from holdfast import arms
+from holdfast.errors import InputError, StoreError
+
+_TEXT = """\
+# A study of holdfast: what is computed is every combination of the lists below.
+#
+#   holdfast study run {file} --dry-run        what it would compute, how long it would take, how large it would be
+#   holdfast study run {file} --out DIR        compute; Ctrl-C stops, and the same command goes on
+#   holdfast study status|verify|report DIR    how far it is; is every chunk sound; one HTML page
+#
+# Folders of different seeds are different studies. Everything but name and thresholds defines the results.
+
+name: {name}
+
+# The same seed gives the same bits, whatever computes it: threads, a Dask cluster, with or without a stop.
+seed: {seed}
+
+# Samples of each cell, and how many of them are computed and committed together: a chunk of a second to a minute is good.
+# A crash costs at most the chunks in hand.
+poses: {poses}
+chunk: {chunk}
+
+# Built-in names (see 'holdfast arms') or files, relative to this one: {{file: my_arm.urdf, base: base_link, tip: tool0}}
+arms: {arms}
+
+# The probability that an arm keeps its dexterity when a joint fails, over a region: see 'holdfast assess --help'.
+assess:
+  # relative-manipulability, manipulability, mean-singular-value, geometric-mean-singular-value, minimum-singular-value,
+  # condition-number
+  indices: {indices}
+  tasks: [default]          # pose, pointing, position, planar, planar-pose, or rows as "tool:vx,vy"; default: the arm's
+  regions: [default]        # region files, relative to this one; default: around the arm's home
+  failures: [single]        # single, pairs, a number of joints, or sets such as "joint2; joint1+joint4"
+  optimise: {optimise}           # also the best configuration of each pose
+  after_lock: false         # also which poses are left once each joint has locked
+  sampling: random          # or sobol
+  restarts: 100             # random starts before a pose counts as not reached
+  keep: rows                # every pose; counts keeps only how values are distributed, for very many samples
+  # thresholds: {{relative-manipulability: 0.3}}    # what the report asks for; half of the bound, or the median, if not given
+
+# Whether an arm with an unidentified locked joint still arrives, under each control law: see 'holdfast workspace --map --help'.
+{convergence}
+# Further jobs: workspace (laws, targets, starts, configurations, points) and bank (laws, sets, distance); see the guide
+# "From laptop to cluster".
+"""
+
+_LAWS = """\
+convergence:
+  laws: {laws}        # pseudoinverse, damped:0.05, failure-tolerant:0.3, "weighted:1,2,3"
+  motions: {motions}              # random motions of each cell; poses, if not given
+  chunk: {motions_chunk}
+"""
+
+
+def write(
+    file: str | Path,
+    arm: Sequence[str],
+    poses: int,
+    chunk: int,
+    seed: int,
+    indices: Sequence[str] = ("relative-manipulability",),
+    laws: Sequence[str] = (),
+    optimise: bool = False,
+    base: str | None = None,
+    tip: str | None = None,
+) -> Path:
+    """Write a study file with comments.
+
+    Args:
+        file: Where; there must be none yet.
+        arm: Built-in names, or arm files.
+        poses: Samples of each cell.
+        chunk: Of them computed and committed together.
+        seed: Of everything random.
+        indices: Of the assessments.
+        laws: Of the maps of convergence; none if empty.
+        optimise: Also the best configurations.
+        base: Link of an arm file on which it stands.
+        tip: Link of an arm file that is the tool.
+
+    Raises:
+        InputError: Wrong numbers, an unknown arm, index or law, or there is such a file already.
+        StoreError: It cannot be written.
+    """
+    from holdfast.studies.study_file import read
+
+    path = Path(file)
+    for what, number, least in (("--poses", poses, 1), ("--chunk", chunk, 1), ("--seed", seed, 0)):
+        if number < least:
+            raise InputError(f"{what} is {number}; it must be {least} or more")
+    if not arm:
+        raise InputError("no arm is named; give --arm, a built-in name or a file")
+    for spec in arm:
+        arms.resolve(spec, base, tip)
+    if path.exists():
+        raise InputError(f"'{path}' exists; give another name, or remove it first")
+    motions = min(poses, 200)
+    block = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
+    if laws:
+        block = _LAWS.format(laws=_listed(laws), motions=motions, motions_chunk=min(chunk, 50, motions))
+    text = _TEXT.format(
+        file=path.name,
+        name=_one_line(path.stem),
+        seed=seed,
+        poses=poses,
+        chunk=min(chunk, poses),
+        arms=_listed(_beside(spec, path, base, tip) for spec in arm),
+        indices=_listed(indices),
+        optimise=str(optimise).lower(),
+        convergence=block,
+    )
+    try:
+        with path.open("x", encoding="utf-8", newline="\n") as out:
+            out.write(text)
+    except OSError as error:
+        raise StoreError(f"cannot write study file '{path}': {error.strerror or error}; choose another path") from error
+    try:
+        read(path)
+    except InputError:
+        path.unlink()
+        raise
+    return path
+
+
+def _beside(spec: str, file: Path, base: str | None, tip: str | None) -> str | dict[str, str]:
+    """A built-in name, or the path of an arm file as seen from the study file, with its base and tip."""
+    if spec in arms.names():
+        return spec
+    place = Path(os.path.relpath(spec, file.parent)).as_posix()
+    more = {name: link for name, link in (("base", base), ("tip", tip)) if link is not None}
+    return {"file": place, **more} if more else place
+
+
+def _listed(items: Iterable[str | dict[str, str]]) -> str:
+    return _one_line(list(items))
+
+
+def _one_line(data: object) -> str:
+    """YAML in one line."""
+    text: str = yaml.safe_dump(data, default_flow_style=True, width=10_000, allow_unicode=True)
+    return text.removesuffix("...\n").strip()

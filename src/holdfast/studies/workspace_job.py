@@ -1,0 +1,58 @@
+"""Workspaces as cells of a study: from which starts the hand still comes to a target."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.converge.starts import Places, read_places
+from holdfast.converge.workspace_job import Beginnings, Job, prepared, usual_method
+from holdfast.errors import InputError
+from holdfast.studies.convergence_job import law_of
+from holdfast.studies.process import ready, shared
+from holdfast.study import Chunk, Column
+
+Rows = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class WorkspaceJob:
+    """Starts, random ones, looked at as :func:`holdfast.workspace` does; a row is a start.
+
+    Attributes:
+        plan: Arm, task, law, target, configurations and points of each start, time limit, seed.
+        rows: Starts in all.
+    """
+
+    plan: dict[str, Any]
+    rows: int
+
+    def __hash__(self) -> int:
+        return hash((self.plan["fingerprint"], self.plan["law"], self.rows))
+
+    def prepare(self, alone: bool) -> None:
+        """See :class:`holdfast.study.Job`."""
+        ready(self, self._made, alone)
+
+    def _made(self) -> tuple[Job, Places]:
+        p = self.plan
+        law = law_of(p)
+        method = usual_method(law)
+        job = prepared(law, p["target"], p["configurations"], p["points"], method, time_limit=p["time_limit"], seed=p["seed"])
+        if not job.reached:
+            raise InputError(f"no configuration of '{law.arm.name}' was found at the target; choose one within its reach")
+        places = read_places(law.arm, law.task, self.rows, np.random.default_rng(p["seed"]))
+        return job, places
+
+    def columns(self) -> list[Column]:
+        """See :class:`holdfast.study.Job`."""
+        return shared(self, self._made)[0].store_columns()
+
+    def run(self, chunk: Chunk) -> Rows:
+        """See :class:`holdfast.study.Job`."""
+        job, places = shared(self, self._made)
+        begin = Beginnings(job.law, places, job.configurations, job.method, chunk.own_seed)
+        return job.analyse(*begin.of(chunk.start, chunk.stop), len(chunk))

@@ -1,0 +1,362 @@
+"""A study: a folder of cells, each with its chunks, that outlives the program, the worker and the machine."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from holdfast.errors import HoldfastError, StoreError
+from holdfast.study.folder import held, replaced
+from holdfast.study.job import Cell
+from holdfast.study.journal import Entry, Journal
+from holdfast.study.made import Made
+from holdfast.study.runner import Runner, Stop
+from holdfast.study.store import Store
+from holdfast.study.work import Progress, Work
+
+_FORMAT, _VERSION = "holdfast-study", 1
+_FILE, LOCK, _CELLS = "study.json", "study.lock", "cells"
+_KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
+
+
+@dataclass(frozen=True)
+class CellStatus:
+    """How far a cell is.
+
+    Attributes:
+        name: Of the cell.
+        labels: What it is in the sweep.
+        chunks, rows: In all.
+        chunks_done, rows_done: Committed.
+        seconds: Time that these took where they were computed.
+        makers: Numbers of what computed them, of :attr:`Study.makers`.
+    """
+
+    name: str
+    labels: Mapping[str, Any]
+    chunks: int
+    rows: int
+    chunks_done: int
+    rows_done: int
+    seconds: float
+    makers: tuple[int, ...]
+
+    @property
+    def complete(self) -> bool:
+        """All of it is there."""
+        return self.chunks_done == self.chunks
+
+
+@dataclass(frozen=True)
+class Damage:
+    """A committed chunk that is not as it was written; number from 0."""
+
+    cell: str
+    chunk: int
+    what: str
+
+
+class Study:
+    """A study's folder; see :meth:`create` and :meth:`open`.
+
+    Attributes:
+        path: The folder.
+        made: What computed it.
+    """
+
+    def __init__(self, path: Path, data: dict[str, Any]) -> None:
+        self.path = path
+        self.made = Made(path)
+        self._data = data
+
+    # ---- opening ---------------------------------------------------------------------------------------------------
+
+    @classmethod
+    def create(cls, path: str | Path, name: str, seed: int, cells: Sequence[Cell], source: str = "") -> Study:
+        """A new folder, or the existing one of the same study, to go on.
+
+        Args:
+            path: The folder.
+            name: Of the study.
+            seed: Of all its chunks.
+            cells: What is computed.
+            source: The study file, kept for people.
+
+        Raises:
+            StoreError: Not writable, not a study's folder, or that of another study.
+        """
+        folder = Path(path)
+        data = described(name, seed, cells, source)
+        if (folder / _FILE).exists():
+            study = cls.open(folder)
+            if study.digest != data["digest"]:
+                raise StoreError(
+                    f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
+                    "go on with it"
+                )
+            return study
+        if folder.exists() and not folder.is_dir():
+            raise StoreError(f"'{folder}' is a file; give a folder")
+        try:
+            if folder.exists() and any(folder.iterdir()):
+                raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
+            folder.mkdir(parents=True, exist_ok=True)
+            replaced(folder / _FILE, json.dumps(data, indent=1))
+        except OSError as error:
+            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        return cls(folder, data)
+
+    @classmethod
+    def open(cls, path: str | Path) -> Study:
+        """The study in a folder.
+
+        Raises:
+            StoreError: There is none, or it is damaged or of another version.
+        """
+        folder = Path(path)
+        file = folder / _FILE
+        if not file.exists():
+            raise StoreError(
+                f"'{folder}' is not a study: it has no {_FILE}; give the folder that 'holdfast study run --out' named"
+            )
+        try:
+            data = json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError) as error:
+            raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
+        if not isinstance(data, dict) or data.get("format") != _FORMAT:
+            raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
+        if data.get("version") != _VERSION:
+            raise StoreError(f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_VERSION}")
+        wrong = next((k for k, kind in _KEYS.items() if not isinstance(data.get(k), kind)), None)
+        wrong = wrong or ("digest" if _digest(data) != data["digest"] else None)
+        if wrong:
+            raise StoreError(
+                f"'{file}' is damaged: its {wrong} is missing or wrong; run the study file again with a new folder"
+            )
+        return cls(folder, data)
+
+    def copy(self, path: str | Path) -> Study:
+        """A new folder of this study, with nothing computed.
+
+        Raises:
+            StoreError: It exists, or cannot be written.
+        """
+        folder = Path(path)
+        try:
+            folder.mkdir(parents=True)
+            replaced(folder / _FILE, json.dumps(self._data, indent=1))
+        except OSError as error:
+            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        return Study(folder, self._data)
+
+    def check_same(self, other: Study) -> None:
+        """Refuse a folder that is not of this study.
+
+        Raises:
+            StoreError: It is not; the message names the difference.
+        """
+        if other.digest != self.digest:
+            raise StoreError(
+                f"'{other.path}' and '{self.path}' are not parts of one study ({self._unlike(other._data)}); merge folders of "
+                "one study file"
+            )
+
+    def _unlike(self, other: Mapping[str, Any]) -> str:
+        if self.seed != other["seed"]:
+            return f"its seed is {self.seed}, asked for is {other['seed']}"
+        mine, new = ({c["name"]: c for c in d["cells"]} for d in (self._data, other))
+        for name in [*mine, *new]:
+            if name not in new or name not in mine:
+                return f"cell '{name}' is {'not asked for' if name not in new else 'not in it'}"
+            for what in ("rows", "chunk"):
+                if mine[name][what] != new[name][what]:
+                    return f"cell '{name}' has {what} {mine[name][what]}, asked for is {new[name][what]}"
+        return next(f"cell '{n}' has other settings" for n in mine if mine[n] != new[n])
+
+    # ---- what is there ---------------------------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """Of the study."""
+        return str(self._data["name"])
+
+    @property
+    def seed(self) -> int:
+        """Of all chunks."""
+        return int(self._data["seed"])
+
+    @property
+    def digest(self) -> str:
+        """Of all that defines its values: folders with the same one belong together."""
+        return str(self._data["digest"])
+
+    @property
+    def source(self) -> str:
+        """The study file."""
+        return str(self._data["source"])
+
+    @property
+    def cells(self) -> list[dict[str, Any]]:
+        """Name, labels, rows, chunk and digest of each cell."""
+        return list(self._data["cells"])
+
+    def folder(self, cell: int) -> Path:
+        """Where a cell is."""
+        return self.path / _CELLS / str(self._data["cells"][cell]["name"])
+
+    def store(self, cell: int) -> Store:
+        """The rows of a cell.
+
+        Raises:
+            StoreError: None of it is computed, or it is damaged.
+        """
+        if not self.folder(cell).exists():
+            raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
+        return Store.open(self.folder(cell))
+
+    def entries(self, cell: int) -> dict[int, Entry]:
+        """What is done of a cell, by number of the chunk.
+
+        Raises:
+            StoreError: Its journal cannot be read.
+        """
+        try:
+            return Journal(self.folder(cell) / Store.JOURNAL).read()
+        except OSError as error:
+            raise StoreError(f"the journal of '{self.folder(cell)}' cannot be read: {error.strerror or error}") from error
+
+    def status(self) -> list[CellStatus]:
+        """How far each cell is, from the journals alone.
+
+        Raises:
+            StoreError: A journal cannot be read.
+        """
+        found = []
+        for k, c in enumerate(self._data["cells"]):
+            entries = self.entries(k)
+            count, rest = -(-c["rows"] // c["chunk"]), c["rows"] % c["chunk"]
+            done = [e for n, e in entries.items() if n < count]
+            short = c["chunk"] - rest if rest and count - 1 in entries else 0
+            found.append(
+                CellStatus(
+                    c["name"],
+                    c["labels"],
+                    count,
+                    c["rows"],
+                    len(done),
+                    len(done) * c["chunk"] - short,
+                    sum(e.seconds for e in done),
+                    tuple(sorted({e.maker for e in done})),
+                )
+            )
+        return found
+
+    @property
+    def complete(self) -> bool:
+        """Every cell is."""
+        return all(s.complete for s in self.status())
+
+    @property
+    def makers(self) -> list[dict[str, Any]]:
+        """Versions and processors that computed it, by their numbers in the journals."""
+        return self.made.makers
+
+    @property
+    def runs(self) -> list[dict[str, Any]]:
+        """When it was run, on what, for how long; a run that was killed is not among them."""
+        return self.made.runs
+
+    # ---- computing -------------------------------------------------------------------------------------------------
+
+    def run(
+        self,
+        cells: Sequence[Cell],
+        runner: Runner,
+        progress: Progress | None = None,
+        stop: Stop = lambda: False,
+        part: tuple[int, int] = (1, 1),
+    ) -> dict[str, HoldfastError]:
+        """Compute and commit what is missing.
+
+        Args:
+            cells: Those it was created with.
+            runner: Who computes.
+            progress: Called after every chunk.
+            stop: Asked now and then; once it says True, what is at work is finished and committed, and no more begun.
+            part: ``(1, 3)``: only the first of three shares, for machines that never see each other; see
+                :func:`holdfast.study.merge`.
+
+        Returns:
+            Cells that could not be computed, by name, and why.
+
+        Raises:
+            StoreError: The folder belongs to other cells, another program is at work in it, the disk is full, or the cluster
+                is gone. What was committed is safe.
+        """
+        if described(self.name, self.seed, cells, "")["digest"] != self.digest:
+            raise StoreError(f"'{self.path}' holds another study; give another folder")
+        with held(self.path, LOCK):
+            return Work(self, cells, progress).run(runner, stop, part)
+
+    # ---- checking and joining --------------------------------------------------------------------------------------
+
+    def verify(self, progress: Progress | None = None) -> list[Damage]:
+        """Read every committed chunk and compare its checksum; damaged ones are missing from then on, to be run again.
+
+        Raises:
+            StoreError: Another program is at work in the folder, or it is not writable.
+        """
+        found: list[Damage] = []
+        with held(self.path, LOCK):
+            total, at = sum(s.chunks_done for s in self.status()), 0
+            for k, c in enumerate(self._data["cells"]):
+                if not self.folder(k).exists():
+                    continue
+                store = self.store(k)
+                bad = []
+                for chunk in store.done:
+                    what = store.wrong(chunk)
+                    if what is not None:
+                        bad.append(chunk)
+                        found.append(Damage(c["name"], chunk, what))
+                    at += 1
+                    if progress is not None:
+                        progress(at, total, None)
+                if bad:
+                    store.drop(bad)
+        return found
+
+
+def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[str, Any]:
+    """The file of a study."""
+    data: dict[str, Any] = {
+        "format": _FORMAT,
+        "version": _VERSION,
+        "name": name,
+        "seed": seed,
+        "source": source,
+        "cells": [
+            {
+                "name": c.name,
+                "labels": dict(c.labels),
+                "rows": c.rows,
+                "chunk": c.chunk,
+                "summed": c.summed,
+                "digest": c.digest,
+            }
+            for c in cells
+        ],
+    }
+    return {**data, "digest": _digest(data)}
+
+
+def _digest(data: Mapping[str, Any]) -> str:
+    try:
+        text = json.dumps([data["seed"], [[c["name"], c["rows"], c["chunk"], c["digest"]] for c in data["cells"]]])
+    except (KeyError, TypeError):
+        return ""
+    return sha256(text.encode()).hexdigest()[:16]

@@ -1,0 +1,110 @@
+"""Tasks, joints, failures and laws as people write them, on the command line and in study files."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.arm import Arm
+    from holdfast.arm.task import Task
+    from holdfast.control import Law
+    from holdfast.failures import FailureSpec
+
+
+def default_task(spec: str, arm: Arm) -> str:
+    """The task of an arm for which none was given: its own, or planar if it moves in a plane, or pose."""
+    from holdfast import arms
+    from holdfast.arm.task import plane_normal
+
+    if spec in arms.names():
+        return arms.about(spec).task
+    return "planar" if plane_normal(arm) is not None else "pose"
+
+
+def read_task(text: str | None, spec: str, arm: Arm, option: str = "--task") -> str | Task:
+    """A task as the library takes it; ``option`` is what an error calls it."""
+    if text is None:
+        return default_task(spec, arm)
+    from holdfast.arm.task import ROWS, rows_task
+
+    frame, _, rest = text.rpartition(":")
+    if frame not in ("", "base", "tool"):
+        raise InputError(f"{option}: frame '{frame}' is not known; write rows as 'tool:vx,vy,wz' or 'base:vx,vy,wz'")
+    rows = [x.strip() for x in rest.split(",") if x.strip()]
+    if frame or len(rows) > 1 or rest in ROWS:
+        return rows_task(rows, "tool" if frame == "tool" else "base")
+    return rest
+
+
+def read_joint(arm: Arm, text: str) -> int:
+    """A joint by name or number from 1, as an index from 0."""
+    text = text.strip()
+    if text in arm.joint_names:
+        return arm.joint_index(text)
+    if text.isdecimal():
+        if 1 <= int(text) <= arm.n:
+            return int(text) - 1
+        raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
+    return arm.joint_index(text)
+
+
+def read_failures(arm: Arm, text: str) -> FailureSpec:
+    """Failures as the library takes them."""
+    text = text.strip()
+    if text in ("single", "pairs"):
+        return text
+    # A lone number could be a joint or how many: it is how many, as --help says.
+    if text.isdecimal():
+        return int(text)
+    return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]
+
+
+def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
+    """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
+    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
+    try:
+        return np.array([float(x) for x in parts])
+    except ValueError as error:
+        wrong = next(x for x in parts if not is_number(x))
+        raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
+
+
+def read_law_setting(text: str, option: str = "--law") -> tuple[str, dict[str, Any]]:
+    """``slug`` or ``slug:setting`` as the law's slug and its options; ``option`` is what an error calls it."""
+    from holdfast.control.laws import BY_NAME
+
+    slug, colon, value = text.partition(":")
+    setting = BY_NAME[slug].setting if slug in BY_NAME else ""
+    if not colon:
+        return slug, {}
+    if slug in BY_NAME and not setting:
+        raise InputError(f"{option} '{text}': the {BY_NAME[slug].name} takes no setting; write {slug} alone")
+    numbers = read_numbers(f"{option} {slug}", value, f"{slug}:NUMBER")
+    if numbers.size == 1 and setting != "weights":
+        return slug, {setting: float(numbers[0])}
+    if setting != "weights":
+        raise InputError(f"{option} '{text}' has {numbers.size} numbers after the colon; give one")
+    return slug, {setting: numbers}
+
+
+def read_labelled_law(text: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
+    """A law as its label says, ``slug`` or ``slug:setting``; ``option`` is what an error calls it."""
+    from holdfast.control import by_name
+
+    slug, setting = read_law_setting(text, option)
+    return by_name(slug, arm, task=task, **more, **setting)
+
+
+def is_number(text: str) -> bool:
+    """It can be read as a number."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
