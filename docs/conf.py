@@ -26,7 +26,7 @@ exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
-    (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types)\..*"),
+    (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent)\..*"),
     (r"py:.*", r"(Array|ArrayLike|Flags|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
     (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),
     (r"py:.*", r"(optional|default.*)"),

@@ -129,7 +129,7 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
         larger = next(a for a in found if _key(a) == (index, task)).plan.index.better == "larger"
         asks = f"{'≥' if larger else '≤'} {as_given(asked[index, task])}"
         head.append(_stacked([index.replace("-", " "), f"{task}: {asks}" if tasks else asks]))
-    head += [_stacked([law, "arrives with a locked joint"]) for law, _ in names]
+    head += [_stacked([law, "arrives"]) for law, _ in names]
     body: list[list[Cell]] = []
     for row in rows:
         cells: list[Cell] = [_stacked([row[0], f"{row[1]}, {row[2]}"]) if regions else _whole(row[0])]
@@ -147,7 +147,7 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
             "interval; opt.: at the best configuration of each pose. Thresholds are one for all arms. "
         )
         if any(a.labels["region"] == "default region" for a in found):
-            caption += "Each arm is tried in a region about its own home, sized by its reach. "
+            caption += "Regions by default are about the home of each arm, sized by its reach, or the paper's. "
     if names:
         caption += (
             "Arrives: share of random motions that reach their target although one joint is locked from the start and the "
