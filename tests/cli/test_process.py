@@ -34,7 +34,14 @@ def joints(tmp_path):
 def start(folder, joints, poses):
     """A run whose first chunk is committed."""
     command = [*PROGRAM, "assess", "planar-3r", "--region", joints, "--poses", poses, "--seed", 3, "--out", folder]
-    process = subprocess.Popen([str(x) for x in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        [str(x) for x in command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # What runs in the background of a shell ignores Ctrl-C, and so would the program that it starts.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     end = time.monotonic() + 60
     while time.monotonic() < end:
         assert process.poll() is None, process.communicate()

@@ -77,7 +77,8 @@ def test_errors_and_angles_are_those_of_the_formulas(cases):
             np.testing.assert_allclose(found.angles[k], angles, atol=1e-7)
             assert found.healthy_error[k] == pytest.approx(healthy_error, abs=1e-9)
             assert found.healthy_angle[k] == pytest.approx(healthy_angle, abs=1e-7)
-            assert found.worst_joint[k] == errors.argmax()
+            # Two joints of a decoupled arm may tie, to rounding.
+            assert errors[found.worst_joint[k]] == pytest.approx(errors.max(), rel=1e-9)
         np.testing.assert_array_equal(law.peak_velocity_error(q, v), found.errors.max(axis=1))
         np.testing.assert_array_equal(law.peak_angular_deviation(q, v), found.angles.max(axis=1))
         np.testing.assert_array_equal(law.healthy_angle(q, v), found.healthy_angle)
