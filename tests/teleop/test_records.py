@@ -15,6 +15,7 @@ import holdfast as hf
 from holdfast.teleop.entries import Kind, State
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.measures import measures
+from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Training, read
 from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay
@@ -99,6 +100,17 @@ def test_replay_finds_a_changed_record(records):
         db.execute("UPDATE cycles SET q = ? WHERE trial = ? AND k = 4", (np.array([0.1, 0.2, 0.3]).tobytes(), number))
     db.close()
     assert [e.id for e in replay(records).differs] == [number]
+
+
+def test_replay_finds_a_trial_that_should_have_been_over(records):
+    code, tasks = records.add_subject().code, records.protocol.tasks.take(np.array([0]))
+    plant = records.protocol.plants[0]
+    q = tasks.q0  # a target around the start, and a command to stand
+    there = PointTasks(q, plant.position(q), tasks.joint)
+    number = records.begin_trial(code, Kind.TRIAL, 0, 0, there, 0)
+    records.append(number, 0, np.zeros(1), np.zeros((1, 2)), q)
+    records.finish(number, End.ABORTED, q[0])
+    assert replay(records).difference.tolist() == [np.inf]
 
 
 def test_simulated_experiment_follows_the_protocol(made, protocol):

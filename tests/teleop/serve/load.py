@@ -102,7 +102,9 @@ async def _station(url: str, protocol: Protocol, rate: float, seconds: float, tr
             if k == 0:
                 q = np.array(welcome.plan.training[position].q0)
                 await say(type="begin", kind="training", position=position)
-            velocity = protocol.stick.limited(rng.normal(0, 0.02, protocol.rows.m))
+            velocity = np.zeros(protocol.rows.m)
+            while not velocity.any():  # who stands inside the circle has arrived
+                velocity = protocol.stick.limited(rng.normal(0, 0.02, protocol.rows.m))
             await say(type="cycles", first=k, time=[k / rate], velocity=[velocity.tolist()], q=[q.tolist()])
             q, _ = plant.cycle(q, velocity, np.ones(plant.n))
             cycles, k = cycles + 1, k + 1

@@ -11,7 +11,7 @@ import numpy as np
 from holdfast.errors import InputError
 from holdfast.teleop.entries import Entry, Kind, State
 from holdfast.teleop.records import Records
-from holdfast.teleop.replay import replay
+from holdfast.teleop.replay import SAME, replay
 from holdfast.teleop.serve.live import Live
 from holdfast.teleop.serve.messages import Bye, Cycles, Hello, Refused, Sequenced, Welcome
 from holdfast.teleop.serve.station import Entered, Station, Taken, enter
@@ -22,7 +22,6 @@ from holdfast.teleop.trials import End
 if TYPE_CHECKING:
     from holdfast.teleop.serve.connection import Connection
 
-SAME = 1e-6  # rad and m: a replayed trial that differs by more is flagged
 DIFFERS = "replay differs"
 
 
@@ -267,6 +266,6 @@ def _differing(records: Records, number: int | None = None) -> list[tuple[Entry,
     for entry, difference, distance in zip(entries, result.difference.tolist(), away.tolist(), strict=True):
         outside = entry.end == End.ARRIVED and distance > records.protocol.radius + SAME
         if not difference <= SAME or outside:
-            # JSON has no infinity: a trial with another number of cycles has no difference.
+            # JSON has no infinity.
             out.append((entry, {"difference": difference if np.isfinite(difference) else None, "outside": outside}))
     return out
