@@ -82,6 +82,7 @@ class Cluster:
         finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
         waiting: dict[str, tuple[Any, Task]] = {}
         looked, room, heard = 0.0, 1, time.monotonic()
+        again: list[Task] = []  # of which a lost connection took the answer
         more, asked = True, 0.0
         try:
             while True:
@@ -92,15 +93,15 @@ class Cluster:
                         heard, room = now, 2 * self._threads() + 1
                     elif now - heard > _PATIENCE or self._client.status == "closed":
                         raise self._gone()
-                while more and len(waiting) < room and not stop():
-                    task = next(tasks, None)
+                while (again or more) and len(waiting) < room and self._client.status == "running" and not stop():
+                    task = again.pop() if again else next(tasks, None)
                     if task is None:
                         more = False
                         break
                     future = self._client.submit(compute, task, pure=False)
                     waiting[future.key] = future, task
                     future.add_done_callback(finished.put)
-                if not waiting:
+                if not waiting and (stop() or not (again or more)):
                     return
                 try:
                     future = finished.get(timeout=_POLL)
@@ -111,6 +112,9 @@ class Cluster:
                             return
                     continue
                 _, task = waiting.pop(future.key)
+                if future.status in ("cancelled", "lost"):
+                    again.append(task)
+                    continue
                 yield self._taken(future, task)
         finally:
             with suppress(Exception):
@@ -128,8 +132,6 @@ class Cluster:
     def _taken(self, future: Any, task: Task) -> Result:
         from distributed import KilledWorker
 
-        if future.status in ("cancelled", "lost"):
-            raise self._gone()
         try:
             result: Result = future.result(timeout=60)
         except KilledWorker as error:
