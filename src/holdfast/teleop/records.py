@@ -317,6 +317,11 @@ class Records:
         where = "WHERE (?1 IS NULL OR subject = ?1) AND (?2 IS NULL OR kind = ?2)"
         return [read_entry(row) for row in self._db.execute(f"SELECT {ENTRY} FROM trials {where} ORDER BY id", (subject, kind))]
 
+    def entry(self, trial: int) -> Entry | None:
+        """A trial by its number."""
+        row = self._db.execute(f"SELECT {ENTRY} FROM trials WHERE id = ?", (trial,)).fetchone()
+        return None if row is None else read_entry(row)
+
     def latest(self, subject: str) -> Entry | None:
         """The trial that a subject began last."""
         row = self._db.execute(f"SELECT {ENTRY} FROM trials WHERE subject = ? ORDER BY id DESC LIMIT 1", (subject,)).fetchone()

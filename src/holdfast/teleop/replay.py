@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from holdfast.teleop.entries import Entry
 from holdfast.teleop.records import Records
+from holdfast.teleop.trials import Trials
 
 Array = NDArray[np.float64]
 
@@ -21,11 +22,13 @@ class Replay:
 
     Attributes:
         entries: The N trials.
+        trials: What was recorded of them.
         difference: (N,) largest difference of a joint, in any cycle, from what was recorded, rad and m; infinite where the
             hand was told to stand inside the target circle and the trial went on.
     """
 
     entries: list[Entry]
+    trials: Trials
     difference: Array
 
     @property
@@ -61,4 +64,4 @@ def replay(records: Records, entries: list[Entry] | None = None) -> Replay:
         cycles = slice(trials.first[i], trials.first[i + 1])
         path = np.concatenate([tasks.q0[i : i + 1], reached[cycles]])
         difference[i] = np.inf if over[cycles].any() else np.abs(path - trials.configurations(i)).max()
-    return Replay(chosen, difference)
+    return Replay(chosen, trials, difference)

@@ -257,11 +257,12 @@ def _flagged(records: Records) -> dict[str, int]:
 
 def _differing(records: Records, number: int | None = None) -> list[tuple[Entry, dict[str, Any]]]:
     """Finished trials, all or one, that do not come out as recorded when the Python kernel is given their commands."""
-    entries = [e for e in records.entries() if e.ended is not None and number in (None, e.id)]
+    found = records.entries() if number is None else [records.entry(number)]
+    entries = [e for e in found if e is not None and e.ended is not None]
     if not entries:
         return []
-    result, trials = replay(records, entries), records.trials(entries)
-    away = np.linalg.norm(trials.x_end - trials.target, axis=1)
+    result = replay(records, entries)
+    away = np.linalg.norm(result.trials.x_end - result.trials.target, axis=1)
     out: list[tuple[Entry, dict[str, Any]]] = []
     for entry, difference, distance in zip(entries, result.difference.tolist(), away.tolist(), strict=True):
         outside = entry.end == End.ARRIVED and distance > records.protocol.radius + SAME
