@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -14,6 +12,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.errors import StoreError
+from holdfast.whole_file import replaced
 
 Cell = str | Markup
 
@@ -137,17 +136,8 @@ def write(page: Page, path: str | Path) -> Path:
     """
     file = Path(path)
     text = render(page)
-    temporary = file.parent / f".holdfast-{os.getpid()}-{secrets.token_hex(4)}.tmp"
     try:
-        try:
-            # Not tempfile: its files are private, a report should get the permissions every new file gets.
-            with temporary.open("x", encoding="utf-8", errors="replace", newline="\n") as out:
-                out.write(text)
-                out.flush()
-                os.fsync(out.fileno())
-            temporary.replace(file)
-        finally:
-            temporary.unlink(missing_ok=True)
+        replaced(file, text, errors="replace")
     except OSError as error:
         raise StoreError(f"cannot write report '{file}': {error.strerror or error}; choose another path") from error
     return file

@@ -1,10 +1,9 @@
-"""What every folder of results needs: a lock, checksums, and files that are replaced in one step."""
+"""What every folder of results needs: a lock, and checksums."""
 
 from __future__ import annotations
 
 import hashlib
 import os
-import secrets
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -49,20 +48,3 @@ def digest(columns: Mapping[str, NDArray[Any]]) -> str:
         found.update(f"{name} {values.dtype.str} {values.shape}".encode())
         found.update(values.view(np.uint8).data if values.size else b"")
     return found.hexdigest()
-
-
-def replaced(path: Path, text: str) -> None:
-    """Write a file, all of it or nothing.
-
-    Raises:
-        OSError: The disk refuses; what was there is as it was.
-    """
-    temporary = path.with_name(f".{path.name}-{os.getpid()}-{secrets.token_hex(4)}")
-    try:
-        with temporary.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)

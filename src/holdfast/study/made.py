@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from holdfast.errors import StoreError
-from holdfast.study.folder import replaced
+from holdfast.whole_file import replaced
 
 _FILE = "made.json"
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -24,6 +23,7 @@ from numpy.typing import NDArray
 from holdfast.errors import StoreError
 from holdfast.study.folder import digest, held
 from holdfast.study.journal import Entry, Journal
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -402,17 +402,7 @@ class Store:
             array.attrs.update({"units": c.units, "long_name": c.about})
 
     def _commit(self) -> None:
-        handle, temporary = tempfile.mkstemp(dir=self.path, prefix=".run-")
-        try:
-            with os.fdopen(handle, "w") as file:
-                json.dump(self._run, file, indent=1)
-                file.flush()
-                os.fsync(file.fileno())
-            Path(temporary).chmod(0o644)  # mkstemp makes private files; results are for sharing
-            Path(temporary).replace(self.path / _RUN)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
+        replaced(self.path / _RUN, json.dumps(self._run, indent=1))
 
 
 def _wrong(run: Mapping[str, Any]) -> str | None:

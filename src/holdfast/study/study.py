@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from holdfast.errors import HoldfastError, StoreError
-from holdfast.study.folder import held, replaced
+from holdfast.study.folder import held
 from holdfast.study.job import Cell
 from holdfast.study.journal import Entry, Journal
 from holdfast.study.made import Made
 from holdfast.study.runner import Runner, Stop
 from holdfast.study.store import Store
 from holdfast.study.work import Progress, Work
+from holdfast.whole_file import replaced
 
 _FORMAT, _VERSION = "holdfast-study", 1
 _FILE, LOCK, _CELLS = "study.json", "study.lock", "cells"
