@@ -6,6 +6,7 @@ import io
 import socket
 import threading
 from contextlib import redirect_stdout
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -101,14 +102,15 @@ def serve(arm: Arm, state: State | None = None, host: str = LOOPBACK, port: int 
         InputError: The port is in use, or the host is not an address of this machine.
         TaskError: A task that does not fit the arm.
     """
-    try:
-        import viser
-    except ImportError as error:
-        raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'") from error
+    if find_spec("viser") is None:
+        raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'")
     if state is None:
         state = State(arm.name, arm.joint_names, tuple(middle(arm)), "pose")
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
+    threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
+    import viser  # takes as long as the kernels do, which are compiled meanwhile
+
     parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
     server = _private_server(viser, host, free)
     server.initial_camera.position, server.initial_camera.look_at = _camera(machine, np.array(state.q))
@@ -116,9 +118,7 @@ def serve(arm: Arm, state: State | None = None, host: str = LOOPBACK, port: int 
     server.scene.configure_environment_map(hdri=None)
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_light_ambient("/ambient", intensity=1.6)
-    studio = Studio(server, machine, state, parts, note)
-    threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
-    return studio
+    return Studio(server, machine, state, parts, note)
 
 
 def _private_server(viser: Any, host: str, port: int) -> Any:
@@ -192,7 +192,7 @@ def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, .
 
 
 def _warm(machine: Machine, state: State) -> None:
-    """Compile while the browser loads the page."""
+    """Compile while the server starts and the browser loads the page."""
     q = np.array(state.q)
     try:
         machine.read(q, state.failed, state.index, state.susceptibility)
