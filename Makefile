@@ -57,7 +57,7 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
 
-soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 30 s without network (15 minutes).
+soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 30 s without network, ... (18 minutes).
 	$(BIN)/python tests/soak.py
 
 lock:  ## Write requirements.lock anew from pyproject.toml.

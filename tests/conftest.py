@@ -31,8 +31,18 @@ def pytest_configure(config):
         folder = tempfile.mkdtemp(prefix="holdfast-tests-")
         _MADE.append(folder)
         os.environ["HOLDFAST_CACHE"] = folder
+    config.addinivalue_line("markers", "interpreted: kernels made in the test run on CasADi's machine; for arms of its own.")
     for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS"):
         os.environ.pop(name, None)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item):
+    # Compiling for arms that a test makes, asks about a few rows and throws away takes nearly all of its time.
+    with pytest.MonkeyPatch.context() as patch:
+        if item.get_closest_marker("interpreted") and not os.environ.get("HOLDFAST_COMPILED"):
+            patch.setenv("HOLDFAST_BACKEND", "casadi")
+        return (yield)
 
 
 def pytest_unconfigure(config):

@@ -7,6 +7,8 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_SECONDS    of this load, 600
     HOLDFAST_FUZZ       malformed messages, 100000, read, and once more over the network
     HOLDFAST_OUTAGE     seconds without network in mid-trial, in a browser, 30
+    HOLDFAST_KILLS      of a program that writes records, 40
+    HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
 The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
 a message changed anything, or the 99th percentile of the acknowledgements is above 50 ms.
@@ -30,6 +32,8 @@ from load import Figures, load  # noqa: E402
 MOST = 50.0  # ms
 FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server.py")
 OUTAGE = ("browser/test_session.py",)
+KILLED = ("teleop/test_records.py",)
+COMPILED = ("arm", "test_kinematics.py")
 
 
 def _tests(files: tuple[str, ...], which: str, name: str, value: str) -> tuple[bool, float]:
@@ -46,12 +50,14 @@ def main() -> int:
     def option(name: str, default: str) -> str:
         return os.environ.get(f"HOLDFAST_{name}", default)
 
-    fuzz, outage = option("FUZZ", "100000"), option("OUTAGE", "30")
+    fuzz, outage, kills = option("FUZZ", "100000"), option("OUTAGE", "30"), option("KILLS", "40")
     with tempfile.TemporaryDirectory() as folder:
         stations, rate, seconds = option("STATIONS", "8"), option("RATE", "60"), option("SECONDS", "600")
         figures: Figures = load(Path(folder), int(stations), float(rate), float(seconds))
     fuzzed, fuzz_s = _tests(FUZZED, "malformed", "HOLDFAST_FUZZ", fuzz)
     kept, outage_s = _tests(OUTAGE, "network", "HOLDFAST_OUTAGE", outage)
+    survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
+    compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
     begin, middle, end = figures.memory
     rows = [
@@ -64,12 +70,14 @@ def main() -> int:
         ("of one core", f"{figures.busy:.0%}"),
         (f"{fuzz} malformed messages, twice", f"{'all refused, nothing changed' if fuzzed else 'FAILED'} ({fuzz_s:.0f} s)"),
         (f"{outage} s without network in mid-trial", f"{'nothing lost' if kept else 'FAILED'} ({outage_s:.0f} s)"),
+        (f"{kills} times killed", f"{'nothing lost' if survived else 'FAILED'} ({kills_s:.0f} s)"),
+        ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
     for name, value in rows:
         print(f"  {name:<50} {value}")
     lost = figures.lost != 0 or figures.differing != 0
-    return int(lost or not fuzzed or not kept or figures.p99 > MOST)
+    return int(lost or not (fuzzed and kept and survived and compiled) or figures.p99 > MOST)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,7 @@ def test_pinocchio_agrees(arm, q):
         np.testing.assert_allclose(j, theirs, atol=3e-14)
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("types", ["CPR", "RPRPR", "RPRRRPRR"])
 def test_jacobian_derivative(types, rng):
     arm = oracles.random_arm(rng, types=types)
@@ -77,6 +78,7 @@ def test_tool_jacobian_is_the_jacobian_in_the_tool_frame(arm, q):
     np.testing.assert_allclose(ours, np.concatenate([turn @ j[:, :3], turn @ j[:, 3:]], axis=1), atol=3e-14)
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("types", ["RRRRRR", "RPRRRRR", "RRRRRRRRR", "PRRRRPRR"])
 def test_invariant_jacobian_is_a_unimodular_change_of_rows(types, rng):
     arm = oracles.random_arm(rng, types=types)

@@ -6,7 +6,6 @@ the browser's tests sits down at it.
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,13 +15,14 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page
 
 ROOT = Path(__file__).parents[1]
 OUT = ROOT / "docs" / "_static" / "study"
 sys.path.insert(0, str(ROOT / "tests"))
 
-from browser.conftest import FLAGS, Served, command_line  # noqa: E402
+import chromium  # noqa: E402
+from browser.conftest import Served, command_line  # noqa: E402
 from browser.station import OPERATOR, Station  # noqa: E402
 from holdfast.teleop.experiment import simulate_experiment  # noqa: E402
 from holdfast.teleop.protocol import Training, read  # noqa: E402
@@ -48,10 +48,7 @@ def begin(folder: Path) -> None:
 
 def take(served: Served) -> None:
     """Sit down, and go as far as the first rating."""
-    path = shutil.which("chromium")
-    if path is None:
-        sys.exit("there is no 'chromium' here: apt-get install chromium")
-    with sync_playwright() as p, p.chromium.launch(executable_path=path, args=FLAGS) as browser:
+    with chromium.opened() as browser:
         context = browser.new_context(viewport={"width": 1280, "height": 720})
         context.set_default_timeout(120_000)
         context.add_init_script(path=OPERATOR)

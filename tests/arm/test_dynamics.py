@@ -46,6 +46,7 @@ def pinocchio(arm, q, qd, qdd):
     return bare + [j.armature for j in arm.joints] * qdd + [j.friction for j in arm.joints] * qd
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("types", [None, "R", "P", "PP", "RPRPR", "PRRPRR"])
 def test_random_arms_against_pinocchio(types, rng):
     for payload in (False, True, False, True):
@@ -74,6 +75,7 @@ def test_built_in_arms_against_pinocchio(name, rng):
     close(np.diag(m), arm.inertia_diagonal(q[0]))
 
 
+@pytest.mark.interpreted
 def test_power_is_the_rate_of_energy(rng):
     """Along any motion the torques' power is what friction takes and what kinetic and potential energy gain."""
     for types in ("RPRR", "PRRP"):

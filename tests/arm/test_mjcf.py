@@ -68,6 +68,7 @@ BALL = "<geom size='.1' pos='.3 0 0'/>"
 ONE = f"<body name='a'>{hinge()}{BALL}</body>"
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("case", range(8))
 def test_random_trees_agree_with_mujoco(rng, tmp_path, case):
     forest = Forest(rng)

@@ -60,6 +60,7 @@ def axes(arm, q):
     return np.stack([t[:, :3, :3] @ j.origin[:3, :3] @ j.axis for t, j in zip(made, arm.joints, strict=False)], 1)
 
 
+@pytest.mark.interpreted
 def test_random_arms_against_pinocchio(rng):
     import pinocchio as pin
 
@@ -100,6 +101,7 @@ def test_built_in_arms_against_pinocchio(name, rng):
     np.testing.assert_array_equal(arm.inertia_diagonal(q[3]), inertia[3])
 
 
+@pytest.mark.interpreted
 def test_composite_bodies_are_plain_sums_over_links(rng):
     """Eq. (9), (10), (26), (27)."""
     for trial in range(8):
@@ -125,6 +127,7 @@ def test_composite_bodies_are_plain_sums_over_links(rng):
         )
 
 
+@pytest.mark.interpreted
 @pytest.mark.parametrize("types", ["RPRRPR", "PRRPR", "RRRR"])
 def test_the_derivatives_of_the_paper_against_differences(types, rng):
     """Eq. (14)-(17) and (31), (33)-(35), all pairs of joints."""
@@ -182,6 +185,7 @@ def test_links_of_which_nothing_is_known_are_refused(rng):
             ask(np.zeros(3))
 
 
+@pytest.mark.interpreted
 def test_massless_links_and_points_pass_but_impossible_inertias_do_not(rng):
     arm = oracles.with_bodies(oracles.random_arm(rng, types="RRR"), rng)
     massless, point = hf.Link(0.0, np.zeros(3), np.zeros((3, 3))), hf.Link(2.0, np.array([0.1, 0.2, 0.3]), np.zeros((3, 3)))

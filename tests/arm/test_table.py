@@ -52,6 +52,7 @@ def random_rows(rng: np.random.Generator, n: int) -> list[dict]:
     ]
 
 
+@pytest.mark.interpreted
 @settings(max_examples=20, deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1), convention=st.sampled_from(["standard", "modified"]), angles=st.sampled_from(["rad", "deg"])
@@ -78,6 +79,7 @@ def test_forward_kinematics_is_the_textbook_product(
     assert arm.name == "arm"
 
 
+@pytest.mark.interpreted
 def test_a_modified_table_of_the_same_arm_gives_the_same_arm() -> None:
     """Shifting a and alpha one row down turns a standard table into a modified one; the last pair becomes the tool."""
     rng = np.random.default_rng(7)

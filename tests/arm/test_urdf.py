@@ -195,6 +195,7 @@ class Forest:
         return "\n".join(["<robot name='forest'>", *(lines[i] for i in self.rng.permutation(len(lines))), "</robot>"])
 
 
+@pytest.mark.interpreted
 @settings(max_examples=40, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_random_trees_agree_with_pinocchio(tmp_path_factory: pytest.TempPathFactory, seed: int) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,35 +13,19 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 
+import chromium
 from browser.line import Line
 from browser.station import OPERATOR
 from holdfast.teleop.point_task import Scenario
 from holdfast.teleop.protocol import Protocol, Training, read
 from holdfast.teleop.stick import Stick
 
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-component-update",
-    "--disable-sync",
-]
-
 
 # Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.
 @pytest.fixture(scope="package")
 def browser() -> Iterator:
-    from playwright.sync_api import sync_playwright
-
-    path = shutil.which("chromium")
-    if path is None:
-        pytest.fail("these tests drive the page in Chromium, and there is no 'chromium' here: apt-get install chromium")
-    with sync_playwright() as p:
-        opened = p.chromium.launch(executable_path=path, args=FLAGS)
+    with chromium.opened(pytest.fail) as opened:
         yield opened
-        opened.close()
 
 
 @pytest.fixture(scope="package")

@@ -25,7 +25,7 @@ from holdfast.teleop.tasks import task_bank
 def tiny(tmp_path_factory):
     whole = read()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
-    few = replace(few, training=Training(at_least=2, in_a_row=2, limit=90, most=12), subjects=6)
+    few = replace(few, training=Training(at_least=2, in_a_row=2, limit=90, most=12), subjects=6, substeps=1)
     return few.write(tmp_path_factory.mktemp("protocol") / "tiny.yaml")
 
 

@@ -2,33 +2,24 @@
 
 from __future__ import annotations
 
-import shutil
-
 import pytest
-from studio_pages import FLAGS, wait_for
+from studio_pages import wait_for
 
+import chromium
 from holdfast import arms
 
 
 # Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.
 @pytest.fixture(scope="module")
-def chromium():
-    """A running headless Chromium; tests that need one are skipped where there is none."""
-    api = pytest.importorskip("playwright.sync_api")
-    pytest.importorskip("viser")
-    path = shutil.which("chromium") or shutil.which("google-chrome")
-    if path is None:
-        pytest.skip("no Chromium is installed")
-    with api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield browser
-        browser.close()
+def browser():
+    """A running headless Chromium."""
+    with chromium.opened(pytest.fail, scenes=True) as opened:
+        yield opened
 
 
 @pytest.fixture
 def studio():
     """``studio(name, **state)``: a page that is served until the test ends."""
-    pytest.importorskip("viser")
     from holdfast.studio import State, serve
 
     open_pages = []
@@ -47,13 +38,13 @@ def studio():
 
 
 @pytest.fixture
-def visit(chromium):
+def visit(browser):
     """``visit(studio)``: a page that has opened it, and the window behind that page."""
     contexts = []
 
     def go(served, width=900, height=620):
         before = set(served.windows)
-        context = chromium.new_context(viewport={"width": width, "height": height}, accept_downloads=True)
+        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True)
         contexts.append(context)
         page = context.new_page()
         page.set_default_timeout(60_000)

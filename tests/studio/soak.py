@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import gc
 import resource
-import shutil
 import sys
 import time
 from dataclasses import replace
@@ -17,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parent))
-from studio_pages import FLAGS
+sys.path.insert(0, str(Path(__file__).parents[1]))
+import chromium
 
 ALLOWED = 0.05  # growth of the resident memory, as a share, from the first third (warm) to the end
 SLACK = 16.0  # MB that are forgiven anyway
@@ -81,20 +80,14 @@ def main() -> None:
     options.add_argument("--arm", default="planar-3r")
     chosen = options.parse_args()
 
-    from playwright.sync_api import sync_playwright
-
     from holdfast import arms
     from holdfast.studio import State, serve
 
     rng, arm = np.random.default_rng(0), arms.load(chosen.arm)
     state = State(chosen.arm, arm.joint_names, arms.about(chosen.arm).home, arms.about(chosen.arm).task)
-    chromium = shutil.which("chromium") or shutil.which("google-chrome")
-    if chromium is None:
-        sys.exit("the soak needs Chromium")
     sizes: list[tuple[float, float]] = []
     begin = time.monotonic()
-    with serve(arm, state, port=0) as studio, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+    with chromium.opened(scenes=True) as browser, serve(arm, state, port=0) as studio:
         rounds = 0
         while time.monotonic() - begin < 60 * chosen.minutes:
             # A page that is opened and closed again is part of the use; Chromium's own memory is not ours.
@@ -116,7 +109,6 @@ def main() -> None:
             context.close()
             while studio.windows:
                 time.sleep(0.02)
-        browser.close()
     third = sizes[len(sizes) // 3][1]
     last = float(np.median([size for _, size in sizes[-3:]]))
     print(f"resident after the first third {third:.1f} MB, at the end {last:.1f} MB")

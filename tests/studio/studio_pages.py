@@ -4,15 +4,6 @@ from __future__ import annotations
 
 import time
 
-# Drawing by the processor; nothing is asked of other hosts.
-FLAGS = [
-    "--no-sandbox",
-    "--disable-background-networking",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-]
-
 
 def wait_for(page, condition, seconds=60.0):
     """Let the page live until a condition holds."""

@@ -33,8 +33,8 @@ def closing():
         page.stop()
 
 
-def test_the_first_steps_for_the_panda(chromium, closing, tmp_path):
-    served, page, window = tour.panda_start(chromium, tmp_path)
+def test_the_first_steps_for_the_panda(browser, closing, tmp_path):
+    served, page, window = tour.panda_start(browser, tmp_path)
     closing.append(served)
     assert coloured(tmp_path / "panda-start.png") > 0.01
     assert "panda_joint4 has failed" in page.inner_text("body")
@@ -42,8 +42,8 @@ def test_the_first_steps_for_the_panda(chromium, closing, tmp_path):
     page.context.close()
 
 
-def test_an_arm_not_made_for_holdfast_wears_its_own_shapes(chromium, closing):
-    served, page, window = tour.open_page(chromium, tour.CRANE, (0.1, 0.5, 0.3, 1.2, 0.4, 0.7, 0.2))
+def test_an_arm_not_made_for_holdfast_wears_its_own_shapes(browser, closing):
+    served, page, window = tour.open_page(browser, tour.CRANE, (0.1, 0.5, 0.3, 1.2, 0.4, 0.7, 0.2))
     closing.append(served)
     assert "camera.stl" in page.locator("[data-message]").first.inner_text()
     assert len(window.stage.parts) > 8

@@ -5,15 +5,17 @@ The test suite takes the first of them as well, so that the tour cannot fall beh
 
 from __future__ import annotations
 
-import shutil
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parent))
-from studio_pages import FLAGS, wait_for
+from studio_pages import wait_for
+
+import chromium
 
 CRANE = str(Path(__file__).parent / "arms" / "inspection-crane.urdf")
 SIZE = {"width": 1200, "height": 780}
@@ -111,17 +113,12 @@ def crane(browser, folder):
 
 
 def main() -> None:
-    from playwright.sync_api import sync_playwright
-
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    with sync_playwright() as playwright:
-        path = shutil.which("chromium") or shutil.which("google-chrome")
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+    with chromium.opened(scenes=True) as browser:
         panda_rest(*panda_start(browser, folder), folder)
         pa10(browser, folder)
         crane(browser, folder)
-        browser.close()
     for file in sorted(folder.glob("*.png")):
         print(file)
 

@@ -218,7 +218,9 @@ def _files(runs: Runs, csv: Path | None, plot: Path | None, out: Path | None, ph
 
 
 def _write(runs: Runs, path: MotionPath, file: Path) -> None:
-    joints = [f"{j.name}_{j.unit}" for j in runs.law.arm.joints]
+    from holdfast.arm.joint_table import joint_columns
+
+    joints = joint_columns(runs.law.arm)
     header = ",".join(["time_cycles" if runs.cycles else "time_s", *joints, "tool_x_m", "tool_y_m", "tool_z_m", "error"])
     rows = np.column_stack([path.time, path.q, path.x, path.error])
     try:

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm.joint_table import joint_columns, read_joint_table
 from holdfast.arm.model import Arm
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
@@ -49,7 +50,7 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
     try:
         with file.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream)
-            writer.writerow([name, *(f"{j.name}_{j.unit}" for j in arm.joints)])
+            writer.writerow([name, *joint_columns(arm)])
             writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])
     except OSError as error:
         raise StoreError(f"cannot write waypoints '{file}': {error.strerror or error}; choose another path") from error
@@ -62,33 +63,11 @@ def read_waypoints(arm: Arm, path: str | Path) -> Array:
     Raises:
         InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
     """
-    file = Path(path)
-    try:
-        lines = [row for row in csv.reader(file.read_text(encoding="utf-8-sig").splitlines()) if row]
-    except OSError as error:
-        raise InputError(f"cannot read waypoints '{file}': {error.strerror or error}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"waypoints '{file}' are not a CSV table: {error}") from error
-    head = [cell.strip() for cell in lines[0]] if lines else []
-    wanted = [f"{j.name}_{j.unit}" for j in arm.joints]
-    for name in wanted:
-        if head.count(name) != 1:
-            raise InputError(
-                f"waypoints '{file}': column '{name}' is missing or there twice; '{arm.name}' needs {', '.join(wanted)}"
-            )
-    odd = [name for name in head if name not in wanted and name not in FIRST]
+    table, wanted = read_joint_table(arm, Path(path), "waypoints", FIRST[0]), joint_columns(arm)
+    odd = [name for name in table.head if name not in wanted and name not in FIRST]
     if odd:
-        raise InputError(f"waypoints '{file}': column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *wanted])}")
-    out = []
-    for number, row in enumerate(lines[1:], 2):
-        try:
-            out.append([float(row[head.index(name)]) for name in wanted])
-        except (ValueError, IndexError) as error:
-            raise InputError(f"waypoints '{file}', line {number}: it must hold {len(head)} numbers") from error
-    q = np.array(out).reshape(len(out), arm.n)
-    if not len(q) or not np.isfinite(q).all():
-        raise InputError(f"waypoints '{file}': there must be one line or more below the header, all of finite numbers")
-    return q
+        raise InputError(f"{table.title}: column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *wanted])}")
+    return table.numbers(wanted)
 
 
 @dataclass(frozen=True)

@@ -344,6 +344,8 @@ def bar_figure(
 def finished(figure: Figure) -> Figure:
     """With its layout settled and every tick made while the style holds."""
     FigureCanvasAgg(figure)
-    figure.draw_without_rendering()
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)  # drawing it would do the same, and then draw for nobody
     figure.set_layout_engine("none")  # it is settled: doing it again would double the time
     return figure

@@ -20,7 +20,6 @@ from holdfast.errors import StoreError
 from holdfast.interval import Difference, Interval
 from holdfast.simulate import Outcome
 from holdfast.study import Store, Study
-from holdfast.study.folder import digest
 from holdfast.teleop.trials import End
 
 Array = NDArray[np.float64]
@@ -36,14 +35,14 @@ def chunks(study: Study, cell: int) -> Iterator[Rows]:
     if not study.folder(cell).exists():
         return
     store = study.store(cell)
-    names = [c.name for c in store.columns]
     for k in store.done:
-        rows = store.read(k, names)
-        if digest(rows) != store.entries[k].digest:
+        try:
+            rows = store.checked(k)
+        except StoreError as error:
             raise StoreError(
-                f"chunk {k + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged; give "
+                f"chunk {k + 1} of cell '{study.cells[cell]['name']}' in '{study.path}' is damaged ({error}); give "
                 f"'holdfast study verify {study.path}', then the run again"
-            )
+            ) from error
         yield rows
 
 

@@ -15,13 +15,12 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control import Law
-from holdfast.control import by_name as law_by_name
-from holdfast.control.laws import BY_NAME as LAWS
-from holdfast.errors import ArmError, HoldfastError, InputError, TaskError
+from holdfast.errors import ArmError, HoldfastError, TaskError
 from holdfast.indices import BY_NAME, Index, Objective, by_name, susceptibility
 from holdfast.kernels import Kernel
 from holdfast.solve.inverse import solver
 from holdfast.studio.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
+from holdfast.written import read_labelled_law
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6  # m and rad, of a hand that is dragged
@@ -148,14 +147,11 @@ class Machine:
         """A control law as its label says, ``slug`` or ``slug:setting``; compiled once.
 
         Raises:
-            InputError: It is not known, or its setting is none.
+            InputError: It is not known, or its setting is none, or it takes none.
         """
         with self._making:
             if text not in self._laws:
-                slug, _, value = text.partition(":")
-                setting = LAWS[slug].setting if slug in LAWS else ""
-                given = {setting: _numbers(text, value)} if value and setting else {}
-                self._laws[text] = law_by_name(slug, self.arm, task=self.task, **given)
+                self._laws[text] = read_labelled_law(text, self.arm, self.task, "law")
             return self._laws[text]
 
     def read(self, q: Array, failed: Sequence[int], index: str, weight: str) -> Reading:
@@ -216,14 +212,6 @@ class Machine:
     def self_motions(self, q: Array, failed: Sequence[int]) -> Array:
         """Unit directions (r, n) of the self-motions of q."""
         return null_directions(self._task_jacobian(q).reshape(self.task.m, self.arm.n), failed)
-
-
-def _numbers(text: str, value: str) -> float | list[float]:
-    try:
-        numbers = [float(x) for x in value.split(",")]
-    except ValueError as error:
-        raise InputError(f"law '{text}' is not slug:number; write for example failure-tolerant:0.5") from error
-    return numbers[0] if len(numbers) == 1 else numbers
 
 
 def sentence(error: BaseException) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.joint_table import joint_columns, read_joint_table
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.studio.machine import Machine
@@ -59,28 +59,13 @@ def read_motion(arm: Arm, path: str | Path) -> Motion:
         if not inside:
             raise InputError(f"folder '{file}' holds no motion; give one that follow, simulate or recover wrote with --out")
         file = inside[0]
-    try:
-        lines = [row for row in csv.reader(file.read_text(encoding="utf-8-sig").splitlines()) if row]
-    except OSError as error:
-        raise InputError(f"cannot read motion '{file}': {error.strerror or error}; give a CSV file") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"motion '{file}' is not a CSV table: {error}") from error
-    head = [cell.strip() for cell in lines[0]] if lines else []
-    time = next((name for name in TIMES if name in head), None)
-    wanted = [f"{j.name}_{j.unit}" for j in arm.joints]
-    absent = [name for name in wanted if head.count(name) != 1]
-    if time is None or absent:
-        column = absent[0] if absent else TIMES[0]
-        raise InputError(
-            f"motion '{file}': column '{column}' is missing or there twice; '{arm.name}' needs {TIMES[0]}, {', '.join(wanted)}"
-        )
-    places = [head.index(time), *(head.index(name) for name in wanted)]
-    try:
-        rows = np.array([[float(row[k]) for k in places] for row in lines[1:]], dtype=np.float64)
-    except (ValueError, IndexError) as error:
-        raise InputError(f"motion '{file}': every line below the header must hold {len(head)} numbers") from error
-    if not len(rows) or not np.isfinite(rows).all() or (np.diff(rows[:, 0]) < 0).any():
-        raise InputError(f"motion '{file}': there must be finite numbers below the header, and time must not run backwards")
+    table = read_joint_table(arm, file, "motion", TIMES[0])
+    time = next((name for name in TIMES if name in table.head), None)
+    if time is None:
+        raise InputError(f"{table.title}: a column '{TIMES[0]}' is missing; it says when the arm is there")
+    rows = table.numbers([time, *joint_columns(arm)])
+    if (np.diff(rows[:, 0]) < 0).any():
+        raise InputError(f"{table.title}: time must not run backwards; sort the lines by '{time}'")
     return Motion(file.name, rows[:, 0], time.rpartition("_")[2], rows[:, 1:])
 
 

@@ -19,6 +19,7 @@ from holdfast.studio.compute import Extremes
 from holdfast.studio.machine import SLIDE, Machine, sentence
 from holdfast.studio.motions import Motion, read_motion
 from holdfast.studio.panel import Panel
+from holdfast.studio.saving import Saver
 from holdfast.studio.stage import GREEN, ORANGE, PURPLE, Stage
 from holdfast.studio.state import State
 from holdfast.studio.work import Clock, Latest, Worker
@@ -28,7 +29,6 @@ Check = Callable[[], None]
 
 TICK = 1 / 30  # s between two pictures of what moves by itself
 SPEED = 0.8  # rad/s along a self-motion at the end of its slider
-PICTURE = (900, 1200)  # largest height and width of a PNG
 
 
 class Window:
@@ -54,11 +54,11 @@ class Window:
         self.live = Latest(self._complain)
         self._clock = Clock(self.live, TICK)
         self.work = Worker(self._complain)
-        self._saver = Worker(self._complain)
         with client.atomic():
             self.stage = Stage(client.scene, machine, parts)
             self.stage.move(machine.frames(self.q), gizmo=True)
             self.panel = Panel(client.gui, machine, state, self.ask)
+        self._saver = Saver(client, machine, self.stage, self._saved, self._complain)
         for k, handles in self.stage.figure.joints.items():
             for handle in handles:
                 self._click(handle, k)
@@ -403,48 +403,17 @@ class Window:
 
         self._clock.start(on)
 
-    # ---- saving ----------------------------------------------------------------------------------------------------
+    # ---- showing ---------------------------------------------------------------------------------------------------
 
     def _on_png(self, _: Any) -> None:
-        camera, name = self.client.camera, f"{self.machine.arm.name}.png"
-        height = min(PICTURE[0], int(camera.image_height))
-        width = min(PICTURE[1], int(camera.image_width))
-
-        def job(_: Check) -> None:
-            from holdfast.studio.picture import png
-
-            handles = [h for h in (self.stage.gizmo, self.stage.target) if h.visible]
-            for handle in handles:
-                handle.visible = False
-            try:
-                picture = self.client.get_render(height, width, transport_format="png", timeout=60.0)
-            finally:
-                for handle in handles:
-                    handle.visible = True
-            self._send(name, png(picture))
-
-        self._saver.ask(job)
+        self._saver.png()
 
     def _on_svg(self, _: Any) -> None:
-        state, ghosts = self.state, list(self._ghosts)
-        machine, name = self.machine, f"{self.machine.arm.name}.svg"
-
-        def job(_: Check) -> None:
-            from holdfast.studio.picture import drawing
-
-            self._send(name, drawing(machine, state, ghosts).encode())
-
-        self._saver.ask(job)
-
-    def _send(self, name: str, content: bytes) -> None:
-        self.client.send_file_download(name, content, save_immediately=True)
-        self.live.put("saved", lambda: self.panel.say(f"Saved {name}."))
+        self._saver.svg(self.state, list(self._ghosts))
 
     def _on_losses(self, value: bool) -> None:
         self.stage.show_losses(value)
         self._refresh()
-
-    # ---- showing ---------------------------------------------------------------------------------------------------
 
     def _place(self, q: Array) -> None:
         self.state = replace(self.state, q=tuple(float(x) for x in q))
@@ -462,6 +431,9 @@ class Window:
             self.stage.read(reading, frames[-1])
             self.panel.read(reading, state)
         self.updates += 1
+
+    def _saved(self, text: str) -> None:
+        self.live.put("saved", lambda: self.panel.say(text))
 
     def _complain(self, error: BaseException) -> None:
         if not self._closed:

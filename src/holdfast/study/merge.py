@@ -86,22 +86,22 @@ class _Merge:
                     self._progress(self._at, self._total, None)
 
     def _chunk(self, cell: str, chunk: int, source: Store, mine: Store, numbers: list[int]) -> None:
-        names = [column.name for column in source.columns]
         entry, have = source.entries[chunk], mine.entries.get(chunk)
         if have is not None and have.digest == entry.digest:
             self.both += 1
             return
-        wrong = source.wrong(chunk)
-        if wrong is not None:
+        try:
+            values = source.checked(chunk)
+        except StoreError as error:
             raise StoreError(
-                f"chunk {chunk + 1} of cell '{cell}' in '{source.path}' is damaged ({wrong}); give 'holdfast study verify' "
+                f"chunk {chunk + 1} of cell '{cell}' in '{source.path}' is damaged ({error}); give 'holdfast study verify' "
                 "with that folder, then compute it again"
-            )
+            ) from error
         if have is None:
             maker = numbers[entry.maker] if entry.maker < len(numbers) else 0
-            mine.write(chunk, source.read(chunk, names), entry.seconds, maker)
+            mine.write(chunk, values, entry.seconds, maker)
             self.added += 1
-        elif _alike(mine.read(chunk, names), source.read(chunk, names)):
+        elif _alike(mine.read(chunk, list(values)), values):
             self.close += 1
         else:
             self.apart.append((cell, chunk))

@@ -302,13 +302,16 @@ class Store:
         for k in chunks:
             self.entries.pop(k, None)
 
-    def wrong(self, chunk: int) -> str | None:
-        """What is wrong with a committed chunk of a journal, all of its values read; None if it is sound."""
-        try:
-            found = self.read(chunk, [name for name, *_ in self._run["columns"]])
-        except StoreError as error:
-            return str(error)
-        return None if digest(found) == self.entries[chunk].digest else "its values are not those that were written"
+    def checked(self, chunk: int) -> dict[str, NDArray[Any]]:
+        """All values of a committed chunk of a journal, compared with their checksum.
+
+        Raises:
+            StoreError: They cannot be read, or are not those that were written.
+        """
+        found = self.read(chunk, [name for name, *_ in self._run["columns"]])
+        if digest(found) != self.entries[chunk].digest:
+            raise StoreError("its values are not those that were written")
+        return found
 
     def size(self, chunk: int) -> int:
         """Bytes of the files of a chunk; files of nothing but fill values are not written."""

@@ -320,10 +320,11 @@ class Study:
                 store = self.store(k)
                 bad = []
                 for chunk in store.done:
-                    what = store.wrong(chunk)
-                    if what is not None:
+                    try:
+                        store.checked(chunk)
+                    except StoreError as error:
                         bad.append(chunk)
-                        found.append(Damage(c["name"], chunk, what))
+                        found.append(Damage(c["name"], chunk, str(error)))
                     at += 1
                     if progress is not None:
                         progress(at, total, None)

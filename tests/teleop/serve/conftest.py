@@ -23,7 +23,7 @@ def protocol():
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9])), ["a", "b"])
     training = Training(at_least=1, in_a_row=1, limit=80.0, most=3)
     scenarios = tuple(Scenario(k + 1, "pseudoinverse", failed) for k, failed in enumerate((False, True)))  # compiled quickly
-    return replace(few, training=training, scenarios=scenarios, subjects=6, cycle_limit=40)
+    return replace(few, training=training, scenarios=scenarios, subjects=6, cycle_limit=40, substeps=1)
 
 
 @pytest.fixture(scope="session")
