@@ -1,0 +1,1 @@
+"""Which arm to build: designs that keep what a failure leaves."""
