@@ -27,7 +27,6 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.dh import DH
 from holdfast.arm.model import Arm
-from holdfast.control.inverses import Weighted
 from holdfast.control.law import Law
 from holdfast.converge.equations import metric
 from holdfast.converge.linearisation import ZERO_BAND
@@ -68,7 +67,7 @@ class Radial:
 
     @property
     def guaranteed(self) -> Flags:
-        """(D, K) the healthy arm reaches the ring and whichever joint locks, nothing can hold it while the target is in reach."""
+        """(D, K) the healthy arm reaches the ring, and whichever joint locks, nothing holds it while the target is in reach."""
         return np.asarray(self.reached & self.clear.all(axis=1))
 
     @property
@@ -99,8 +98,8 @@ class PlanarRest:
         found = ThreeLinks.of(law.arm, law.task)
         if found is None:
             raise InputError(
-                f"'{law.arm.name}' is not a planar arm of three revolute joints that turn all the way, with its position as the "
-                "task; sample: exact=False"
+                f"'{law.arm.name}' is not a planar arm of three revolute joints that turn all the way, with its position as "
+                "the task; sample: exact=False"
             )
         self.law, self.lengths = law, found.lengths
         self._a, self._damping = np.diag(form[0]), form[1]
