@@ -119,3 +119,34 @@ def _view(arm: Arm, scenes: Sequence[Scene]) -> View:
         return View(0, 1, "Top view")
     size = np.ptp(np.concatenate([s.chain for s in scenes]), axis=0)
     return View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
+
+
+def parameters_figure(names: Sequence[str], values: Array, value: Array, start: tuple[Array, float], label: str) -> Figure:
+    """What is guaranteed against each parameter by itself, a panel each.
+
+    Args:
+        names: Of the parameters, with their units.
+        values: (D, k) as people read them.
+        value: (D,) guaranteed values.
+        start: The given arm's values (k,), and what it guarantees.
+        label: Of the value.
+    """
+    columns = min(3, len(names))
+    rows = -(-len(names) // columns)
+    with style():
+        figure = Figure(figsize=(WIDTH, 2.5 * rows + 0.5))
+        panels = figure.subplots(rows, columns, squeeze=False, sharey=True)
+        for k, axes in enumerate(panels.flat):
+            if k >= len(names):
+                axes.set_axis_off()
+                continue
+            axes.scatter(values[:, k], value, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
+            axes.plot(start[0][k], start[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
+            axes.set(xlabel=plain(names[k]), ylim=(0, None))
+        figure.supylabel(label, fontsize=9.5)
+        handles = [
+            Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="a design"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
+        return finished(figure)
