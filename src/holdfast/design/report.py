@@ -113,15 +113,15 @@ def _remarks(d: Designs) -> list[Block]:
         what = "is at its bound" if len(stuck) == 1 else "are at their bounds"
         blocks.append(
             Callout(
-                f"{', '.join(stuck)} of the best design {what}: a wider one may give more, if it can be built.", title="Bounds"
+                f"{', '.join(stuck)} of the best design {what}: wider ones may give more, if that can be built.", title="Bounds"
             )
         )
     lost, lost_before = (c.distribution.unreached_share for c in (d.checked.best, d.checked.given))
     if lost > lost_before + 0.005:
         blocks.append(
             Callout(
-                f"The best design does not reach {percent(lost)} of the poses of the region, the given arm {percent(lost_before)}. "
-                "They count as index 0.",
+                f"The best design does not reach {percent(lost)} of the poses of the region, the given arm "
+                f"{percent(lost_before)}. They count as index 0.",
                 "bad",
                 "Poses that are lost",
             )
@@ -148,8 +148,8 @@ def _parameters(d: Designs) -> Table:
         )
     head = ["Parameter", "what it is", "given arm", "best design", "unit", "bounds", ""]
     caption = (
-        "Rows and joints are numbered from the base, in the standard Denavit-Hartenberg table of the arm; the tool is in the frame "
-        "of the last row, roll, pitch and yaw as in URDF."
+        "Rows and joints are numbered from the base, in the standard Denavit-Hartenberg table of the arm; the tool is in the "
+        "frame of the last row, roll, pitch and yaw as in URDF."
     )
     return Table(rows, head, frozenset({2, 3, 5}), caption=caption, wide=True)
 
@@ -179,10 +179,10 @@ def _front(d: Designs) -> list[Block]:
     start = (d.start_reach, d.start_guaranteed)
     figure = front_figure(d.reach, d.guaranteed, d.front.tolist(), d.best, start, _label(d), d.index.bound)
     text = (
-        f"Guaranteed: the worst-case {d.index.name} that {percent(d.level)} of the {counted(d.poses, 'pose')} of the search have at "
-        "least, each at its best configuration; a pose that is not reached counts as 0. Reach: the largest distance of the tool "
-        "point from the base frame's origin within the joint limits. These are the poses on which designs were chosen; see "
-        "below for fresh ones."
+        f"Guaranteed: the worst-case {d.index.name} that {percent(d.level)} of the {counted(d.poses, 'pose')} of the search "
+        "have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: the largest distance of "
+        "the tool point from the base frame's origin within the joint limits. These are the poses on which designs were "
+        "chosen; see below for fresh ones."
     )
     picked = _spread(d.front, d.best)
     rows: list[list[Cell]] = []
@@ -317,8 +317,8 @@ def _method(d: Designs) -> list[Block]:
         ("Region", f"{d.region.name}: {d.region.describe()}; the same for all designs"),
         (
             "Guaranteed",
-            f"the {percent(1 - d.level)} quantile, over the poses of the region, of the index at the best configuration of each "
-            "pose; a pose that is not reached counts as 0",
+            f"the {percent(1 - d.level)} quantile, over the poses of the region, of the index at the best configuration of "
+            "each pose; a pose that is not reached counts as 0",
         ),
         *d.method,
         ("Seed", str(d.seed)),

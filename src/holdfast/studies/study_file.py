@@ -6,7 +6,7 @@
     seed: 1
     poses: 2000            # of each cell
     chunk: 500             # computed and committed together
-    arms: [panda, {file: my_arm.urdf, tip: tool0}, {arm: pa10-9dof, vary: [tool.z=0..0.3], designs: 500}]
+    arms: [panda, {file: my_arm.urdf, tip: tool0}, {arm: pa10-9dof, vary: {tool.z: [0, 0.3]}, designs: 500}]
     assess:                # every arm with every index, task, region and failure set
       indices: [relative-manipulability, manipulability]
       optimise: true
