@@ -22,7 +22,13 @@ Array = NDArray[np.float64]
 
 
 def front_figure(
-    reach: Array, value: Array, front: Sequence[int], best: int, start: tuple[float, float], label: str, bound: float | None
+    reach: Array,
+    value: Array,
+    front: Sequence[int],
+    best: int,
+    start: tuple[float, float] | None,
+    label: str,
+    bound: float | None,
 ) -> Figure:
     """Every design by its reach and what it guarantees, with those that no other one beats in both.
 
@@ -31,7 +37,7 @@ def front_figure(
         value: (D,) guaranteed values.
         front: Numbers of the designs of the front, by reach.
         best: Number of the design of the greatest value.
-        start: Reach and value of the given arm.
+        start: Reach and value of the given arm, if known.
         label: Of the value.
         bound: What no configuration can exceed, drawn if it is near.
     """
@@ -44,9 +50,10 @@ def front_figure(
         line = np.asarray(front, dtype=int)
         axes.step(reach[line], value[line], where="pre", color=BLUE, linewidth=1.4, zorder=2.5)
         axes.plot(reach[line], value[line], "o", color=BLUE, markersize=5, zorder=2.6)
-        axes.plot(*start, "s", color=ORANGE, markeredgecolor="white", markersize=10, zorder=3)
+        if start is not None:
+            axes.plot(*start, "s", color=ORANGE, markeredgecolor="white", markersize=10, zorder=3)
         axes.plot(reach[best], value[best], "*", color=INK, markeredgecolor="white", markersize=17, zorder=3.1)
-        top = max(float(value.max(initial=0.0)), start[1])
+        top = max(float(value.max(initial=0.0)), 0.0 if start is None else start[1])
         if bound is not None and bound < 1.6 * top:
             axes.axhline(bound, color=SOFT, linewidth=1.3, linestyle=(0, (1.2, 1.6)))
             axes.annotate(
@@ -121,14 +128,16 @@ def _view(arm: Arm, scenes: Sequence[Scene]) -> View:
     return View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
 
 
-def parameters_figure(names: Sequence[str], values: Array, value: Array, start: tuple[Array, float], label: str) -> Figure:
+def parameters_figure(
+    names: Sequence[str], values: Array, value: Array, start: tuple[Array, float] | None, label: str
+) -> Figure:
     """What is guaranteed against each parameter by itself, a panel each.
 
     Args:
         names: Of the parameters, with their units.
         values: (D, k) as people read them.
         value: (D,) guaranteed values.
-        start: The given arm's values (k,), and what it guarantees.
+        start: The given arm's values (k,), and what it guarantees, if known.
         label: Of the value.
     """
     columns = min(3, len(names))
@@ -141,7 +150,8 @@ def parameters_figure(names: Sequence[str], values: Array, value: Array, start: 
                 axes.set_axis_off()
                 continue
             axes.scatter(values[:, k], value, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
-            axes.plot(start[0][k], start[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
+            if start is not None:
+                axes.plot(start[0][k], start[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
             axes.set(xlabel=plain(names[k]), ylim=(0, None))
         figure.supylabel(label, fontsize=9.5)
         handles = [

@@ -27,9 +27,14 @@ def space_of(plan: dict[str, Any]) -> DesignSpace:
     return DesignSpace(from_dict(plan["arm"]), tuple(Parameter(*p) for p in plan["vary"]))
 
 
+def designs_of(space: DesignSpace, count: int, seed: int) -> NDArray[np.float64]:
+    """(count, k): the given arm first."""
+    return np.concatenate([space.start[None], space.draw(count, seed)])[:count]
+
+
 @dataclass(frozen=True)
 class DesignJob:
-    """Designs as :meth:`holdfast.DesignSpace.draw` spreads them, evaluated at the same poses; a row is a design.
+    """The given arm, then designs as :meth:`holdfast.DesignSpace.draw` spreads them, all at the same poses; a row is a design.
 
     Attributes:
         plan: Arm, what is varied, region, index, task, failures, level, poses, seed.
@@ -52,7 +57,7 @@ class DesignJob:
         task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
         family = Family(space, p["index"], task, [list(f) for f in p["failures"]])
         poses = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
-        return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), space.draw(self.rows, p["seed"])
+        return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs_of(space, self.rows, p["seed"])
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
