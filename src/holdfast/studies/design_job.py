@@ -81,5 +81,5 @@ class DesignJob:
             "guaranteed": guaranteed(found.value, self.plan["level"]),
             "median": np.median(found.value, axis=1),
             "reached": found.reached.mean(axis=1),
-            "reach": reaches(values),
+            "reach": reaches(values, evaluate.finite_limits(values))[0],
         }
