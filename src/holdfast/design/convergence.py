@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -17,6 +17,7 @@ from holdfast.design.arrival import Arrivals, Failures
 from holdfast.design.design_joints import DesignJoints, LawOfDesigns
 from holdfast.design.pattern import Box, improved
 from holdfast.design.planar_rest import PlanarRest, Radial
+from holdfast.design.space import DesignSpace, Vary, design_space
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
 
@@ -35,8 +36,7 @@ class ConvergenceDesigns:
 
     Attributes:
         law: The law, of the given arm.
-        joints: What is varied, a :class:`holdfast.design.DesignJoints`; its ``names`` are those of the columns of ``values``.
-        lower, upper: (k,) bounds, m and rad.
+        space: What is varied.
         values: (D, k) of all designs that were looked at, m and rad.
         measures: By name, (D,) each. ``guaranteed``: share of the targets (of the area, for planar arms) that whatever lock
             leaves within reach the arm arrives at, as far as no sink and no singular trap holds it (exact only);
@@ -52,9 +52,7 @@ class ConvergenceDesigns:
     """
 
     law: Law
-    joints: DesignJoints
-    lower: Array
-    upper: Array
+    space: DesignSpace
     values: Array
     measures: dict[str, Array]
     objective: Objective
@@ -64,14 +62,9 @@ class ConvergenceDesigns:
     _rest: PlanarRest | None = field(repr=False, default=None)
     _rings: Array | None = field(repr=False, default=None)
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """What is varied."""
-        return self.joints.names
-
     def arm(self, design: int | None = None) -> Arm:
         """The arm of a design, the best one if none is given, without inertial data."""
-        return self.joints.arm_of(self.values[self.best if design is None else design])
+        return self.space.arm_of(self.values[self.best if design is None else design])
 
     def radial(self, design: int | None = None) -> Radial:
         """Of a design, the best one if none is given: what locks leave of targets at every distance (exact only).
@@ -82,14 +75,14 @@ class ConvergenceDesigns:
         if self._rest is None or self._rings is None:
             raise InputError("only designs of planar arms with three joints are known by distance; these were sampled")
         chosen = self.values[[self.best if design is None else design]]
-        return self._rest.radial(_lengths(self._rest, self.joints, chosen), self._rings)
+        return self._rest.radial(_lengths(self._rest, self.space, chosen), self._rings)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         how = "from its stationary sets" if self.exact else "by simulation"
         lines = [f"'{self.law.arm.name}' under {self.law.describe()}: {len(self.values)} designs, {how}"]
         for word, k in (("given", 0), ("best", self.best)):
-            numbers = ", ".join(f"{n} {x:.4g}" for n, x in zip(self.names, self.values[k], strict=True))
+            numbers = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.space.parameters, self.values[k], strict=True))
             told = ", ".join(f"{name} {100 * m[k]:.1f} %" for name, m in self.measures.items())
             lines.append(f"{word}: {numbers}: {told}")
         if self.checked is not None:
@@ -109,7 +102,7 @@ class ConvergenceDesigns:
         """
         from holdfast.whole_file import replaced
 
-        lines = [",".join((*self.names, *self.measures))]
+        lines = [",".join((*self.space.names, *self.measures))]
         columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
         lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
         path = Path(folder) / "designs.csv"
@@ -119,7 +112,7 @@ class ConvergenceDesigns:
 
 def design_for_convergence(
     law: Law,
-    vary: Mapping[str, tuple[float, float]],
+    vary: Vary,
     targets: ArrayLike | int | None = None,
     objective: Objective = "guaranteed",
     designs: int = 256,
@@ -146,8 +139,8 @@ def design_for_convergence(
 
     Args:
         law: The law, with the given arm and the task; every design is driven by the same.
-        vary: Bounds of what is varied, m and rad: ``{"a2": (0.5, 1.5), "tool.z": (0.0, 0.2)}``; names as for
-            :class:`holdfast.design.DesignJoints`.
+        vary: What is varied, and between which bounds, m and rad: ``{"a2": (0.5, 1.5), "tool.z": (0.0, 0.2)}``, or whatever
+            else :func:`holdfast.design.design_space` takes; not joint limits.
         targets: Exact: the range of distances from the first joint, m; from 0 to the reach of the given arm if not given.
             Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's hand; 12 if not given.
         objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
@@ -171,27 +164,27 @@ def design_for_convergence(
     for what, number, least in (("designs", designs, 1), ("climbs", climbs, 0), ("failures", failures, 1)):
         if number < least:
             raise InputError(f"{what} is {number}; it must be {least} or more")
-    joints = DesignJoints.of(law.arm, tuple(vary))
-    box = Box.read(joints, vary, keep_reach)
+    space = design_space(law.arm, vary)
+    box = Box.read(space, keep_reach)
     rest = None
     if exact is not False:
         try:
-            rest = _planar(law, joints)
+            rest = _planar(law, space)
         except InputError:
             if exact:
                 raise
     if rest is not None:
-        if box.lower.min() <= 0:
+        if space.lower.min() <= 0:
             raise InputError("a link of length 0 or less is none; give bounds above 0")
-        return _exact(rest, joints, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
+        return _exact(rest, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
     if keep_reach:
         raise InputError("keep_reach belongs to the exact search for planar arms of three joints; leave it out")
-    return _sampled(law, joints, box, targets, designs, climbs, failures, seed, progress)
+    return _sampled(law, box, targets, designs, climbs, failures, seed, progress)
 
 
-def _planar(law: Law, joints: DesignJoints) -> PlanarRest:
+def _planar(law: Law, space: DesignSpace) -> PlanarRest:
     rest = PlanarRest(law)
-    other = [name for name in joints.names if name not in ("a1", "a2", "a3")]
+    other = [name for name in space.names if name not in ("a1", "a2", "a3")]
     if other:
         raise InputError(f"'{other[0]}' is no link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
     return rest
@@ -207,15 +200,14 @@ def _rings(rest: PlanarRest, targets: ArrayLike | int | None) -> Array:
     return np.linspace(*ends, RINGS + 1)
 
 
-def _lengths(rest: PlanarRest, joints: DesignJoints, values: Array) -> Array:
+def _lengths(rest: PlanarRest, space: DesignSpace, values: Array) -> Array:
     out = np.tile(rest.lengths, (len(values), 1))
-    out[:, [int(name[1:]) - 1 for name in joints.names]] = values
+    out[:, [int(name[1:]) - 1 for name in space.names]] = values
     return out
 
 
 def _exact(
     rest: PlanarRest,
-    joints: DesignJoints,
     box: Box,
     rings: Array,
     objective: Objective,
@@ -225,14 +217,12 @@ def _exact(
     progress: Progress | None,
 ) -> ConvergenceDesigns:
     def measured(values: Array) -> dict[str, Array]:
-        return planar_measures(rest.radial(_lengths(rest, joints, values), rings))
+        return planar_measures(rest.radial(_lengths(rest, box.space, values), rings))
 
     order = ("guaranteed", "free", "arrival") if objective == "guaranteed" else ("arrival",)
     values, measures = improved(box, measured, order, designs, climbs, seed, progress)
     best = _best(measures, order)
-    return ConvergenceDesigns(
-        rest.law, joints, box.lower, box.upper, values, measures, objective, True, best, None, rest, rings
-    )
+    return ConvergenceDesigns(rest.law, box.space, values, measures, objective, True, best, None, rest, rings)
 
 
 def planar_measures(radial: Radial) -> dict[str, Array]:
@@ -257,7 +247,6 @@ def _best(measures: dict[str, Array], order: tuple[str, ...]) -> int:
 
 def _sampled(
     law: Law,
-    joints: DesignJoints,
     box: Box,
     targets: ArrayLike | int | None,
     designs: int,
@@ -266,7 +255,7 @@ def _sampled(
     seed: int,
     progress: Progress | None,
 ) -> ConvergenceDesigns:
-    moved = LawOfDesigns(law, joints)
+    moved = LawOfDesigns(law, DesignJoints.of(box.space))
     search, check = np.random.SeedSequence(seed).spawn(2)
     given = TARGETS if targets is None else targets
     places = read_places(law.arm, law.task, given, np.random.default_rng(search))
@@ -275,7 +264,7 @@ def _sampled(
     def measured(values: Array) -> dict[str, Array]:
         a = seen.of(values)
         with np.errstate(invalid="ignore"):
-            free = a.arrived.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * joints.arm.n)
+            free = a.arrived.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
         return {"free": free, "arrival": a.arrival, "reached": a.reached}
 
     values, measures = improved(box, measured, ("arrival",), designs, climbs, seed, progress)
@@ -284,7 +273,7 @@ def _sampled(
     count = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
     fresh = read_places(law.arm, law.task, count, np.random.default_rng(check))
     again = Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])
-    return ConvergenceDesigns(law, joints, box.lower, box.upper, values, measures, "arrival", False, best, _compared(again))
+    return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, _compared(again))
 
 
 def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:

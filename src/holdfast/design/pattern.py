@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.design.design_joints import DesignJoints
+from holdfast.design.space import DesignSpace
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -25,55 +25,51 @@ class Box:
     """What designs there are.
 
     Attributes:
-        start: (k,) the given arm.
-        lower, upper: (k,) bounds; the given arm need not be within.
+        space: Parameters and their bounds.
         total: Sum that lengths keep; None: none.
-        lengths: (k,) which are link lengths.
     """
 
-    start: Array
-    lower: Array
-    upper: Array
+    space: DesignSpace
     total: float | None
-    lengths: NDArray[np.bool_]
 
     @classmethod
-    def read(cls, joints: DesignJoints, vary: Mapping[str, tuple[float, float]], keep_reach: bool) -> Box:
-        """From bounds as people give them.
+    def read(cls, space: DesignSpace, keep_reach: bool) -> Box:
+        """With the sum of the lengths of the given arm, if that is to be kept.
 
         Raises:
-            InputError: Bounds that are none, or a sum that cannot be kept.
+            InputError: A sum that cannot be kept.
         """
-        for name, bounds in vary.items():
-            ends = np.asarray(bounds, dtype=np.float64)
-            if ends.shape != (2,) or not np.isfinite(ends).all() or ends[0] >= ends[1]:
-                raise InputError(f"bounds of {name} are {bounds}; give (lower, upper), finite, the lower one first")
-        lower, upper = (np.array([float(vary[name][k]) for name in joints.names]) for k in (0, 1))
-        lengths = np.array([name[0] == "a" and name[1:].isdecimal() for name in joints.names])
-        total = float(joints.given.sum()) if keep_reach else None
-        if keep_reach and (lengths.sum() < 2 or not lengths.all()):
+        box = cls(space, float(space.start.sum()) if keep_reach else None)
+        if keep_reach and (box.lengths.sum() < 2 or not box.lengths.all()):
             raise InputError("keep_reach needs two or more varied link lengths, and nothing else varied")
-        if total is not None and not lower.sum() < total < upper.sum():
-            raise InputError(
-                f"the varied lengths of the given arm add up to {total:g} m, which the bounds do not allow; widen them"
-            )
-        return cls(joints.given, lower, upper, total, lengths)
+        return box
+
+    @property
+    def size(self) -> int:
+        """K."""
+        return len(self.space.parameters)
+
+    @property
+    def lengths(self) -> NDArray[np.bool_]:
+        """(k,) which parameters are link lengths."""
+        return np.array([p.kind == "a" for p in self.space.parameters])
 
     def holds(self, values: Array) -> NDArray[np.bool_]:
         """(N,) whether designs (N, k) are within the bounds."""
-        return np.asarray(((values >= self.lower - _SAME) & (values <= self.upper + _SAME)).all(axis=1))
+        return np.asarray(((values >= self.space.lower - _SAME) & (values <= self.space.upper + _SAME)).all(axis=1))
 
     def draw(self, count: int, seed: int) -> Array:
         """(count, k) designs of a scrambled Sobol sequence; where a sum is kept, the last one follows from the others."""
         from scipy.stats import qmc
 
-        free = self.start.size - (self.total is not None)
-        engine = qmc.Sobol(free, seed=seed)
-        found = np.empty((0, self.start.size))
+        if self.total is None:
+            return self.space.draw(count, seed)
+        low, width = self.space.lower[:-1], (self.space.upper - self.space.lower)[:-1]
+        engine = qmc.Sobol(self.size - 1, rng=np.random.default_rng(seed))
+        found = np.empty((0, self.size))
         for _ in range(_DRAWS):
-            values = self.lower[:free] + engine.random(1 << (max(count, 2) - 1).bit_length()) * (self.upper - self.lower)[:free]
-            if self.total is not None:
-                values = np.column_stack([values, self.total - values.sum(axis=1)])
+            values = low + engine.random(1 << (max(count, 2) - 1).bit_length()) * width
+            values = np.column_stack([values, self.total - values.sum(axis=1)])
             found = np.concatenate([found, values[self.holds(values)]])[:count]
             if len(found) == count:
                 break
@@ -81,7 +77,7 @@ class Box:
 
     def levelled(self, values: Array) -> Array:
         """Designs (N, k) with two lengths made equal to their mean, for every pair: (M, k), those within the bounds."""
-        made = [np.empty((0, self.start.size))]
+        made = [np.empty((0, self.size))]
         for i, j in combinations(np.flatnonzero(self.lengths).tolist(), 2):
             level = values.copy()
             level[:, [i, j]] = values[:, [i, j]].mean(axis=1, keepdims=True)
@@ -91,7 +87,7 @@ class Box:
 
     def moves(self) -> Array:
         """(M, k) directions of the pattern search: one number up or down, two together or against each other."""
-        k = self.start.size
+        k = self.size
         steps = [] if self.total is not None else [s * e for e in np.eye(k) for s in (1, -1)]
         for i, j in combinations(range(k), 2):
             for a, b in ((1, -1), (-1, 1)) if self.total is not None else ((1, -1), (-1, 1), (1, 1), (-1, -1)):
@@ -133,7 +129,7 @@ def improved(
     """
     drawn = box.draw(designs, seed)
     expected = 1 + 2 * len(drawn) + climbs * len(box.moves()) * 6
-    values = np.concatenate([box.start[None], drawn])
+    values = np.concatenate([box.space.start[None], drawn])
     values = np.concatenate([values, box.levelled(drawn)[: len(drawn)]])
     seen = measured(values)
     if progress is not None:
@@ -147,7 +143,8 @@ def improved(
         at, step = leader, _FIRST
         while step >= _LAST:
             # Lengths are moved alike, so that a sum is kept; other numbers by their own width.
-            width = np.where(box.lengths, (box.upper - box.lower)[box.lengths].min(initial=np.inf), box.upper - box.lower)
+            width = box.space.upper - box.space.lower
+            width = np.where(box.lengths, width[box.lengths].min(initial=np.inf), width)
             trial = values[at] + step * width * box.moves()
             trial = np.concatenate([trial, box.levelled(values[[at]])])
             trial = trial[box.holds(trial)]

@@ -32,6 +32,7 @@ from holdfast.converge.equations import metric
 from holdfast.converge.linearisation import ZERO_BAND
 from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.design.design_joints import DesignJoints
+from holdfast.design.space import design_space
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
 
@@ -104,7 +105,7 @@ class PlanarRest:
         self.law, self.lengths = law, found.lengths
         self._a, self._damping = np.diag(form[0]), form[1]
         rows = [DH(a=1.0, alpha=0.0) for _ in range(3)]
-        self._joints = DesignJoints.of(Arm.from_dh(rows), ("a1", "a2", "a3"))
+        self._joints = DesignJoints.of(design_space(Arm.from_dh(rows), {f"a{k}": (0.0, 2.0) for k in (1, 2, 3)}))
 
     @cached_property
     def _kernels(self) -> tuple[Kernel, Kernel]:
