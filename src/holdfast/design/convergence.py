@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 Objective = Literal["guaranteed", "arrival"]
 
-RINGS = 60
+RINGS = 40
 TARGETS, FAILURES = 12, 2  # of a sampled search; each failure is one of every joint
 _FRESH = 8  # times as many targets in the check of a sampled search
 
@@ -125,7 +125,7 @@ def design_for_convergence(
 ) -> ConvergenceDesigns:
     """Search for the arm that arrives most surely when a joint has locked and its controller does not know.
 
-    **Planar arms of three joints** (pseudoinverse, weighted by joint, damped): exact, up to a grid in one angle of 1 deg.
+    **Planar arms of three joints** (pseudoinverse, weighted by joint, damped): exact, up to a grid of 1.5 deg in one angle.
     Where the arm can come to rest away from the target is known for all targets at once, and so, for every distance of the
     target, at which locked angles that leave it within reach there is a sink, or a singular configuration that draws the arm
     in. No sink and no trap does not exclude limit cycles, of which one is known; see :func:`holdfast.converge.orbit`.

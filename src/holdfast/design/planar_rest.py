@@ -41,7 +41,8 @@ Flags = NDArray[np.bool_]
 
 TURN = 2 * np.pi
 _TINY = 1e-7  # of the reach: intervals of radii shorter than this are rounding
-_CHUNK = 24  # designs analysed together
+ANGLES = 120  # values of the angle that is run through, in half a turn
+_CHUNK = 16  # designs analysed together
 # Of each locked joint: the angle that is run through and the one that is solved for, as joints from 0.
 _RUN, _SOLVED = (1, 1, 2), (2, 2, 1)
 
@@ -122,13 +123,13 @@ class PlanarRest:
             Kernel("rest slopes", [q, v], [ca.jacobian(rates, q)[:, moving], moved]),
         )
 
-    def radial(self, lengths: Array, radii: Array, angles: int = 360) -> Radial:
+    def radial(self, lengths: Array, radii: Array, angles: int = ANGLES) -> Radial:
         """What locks leave of targets in rings.
 
         Args:
             lengths: (D, 3) of the links, above 0, m.
             radii: (K + 1,) ascending borders of the rings, m.
-            angles: At how many values the angle that is run through is looked at.
+            angles: At how many values in half a turn the angle that is run through is looked at.
         """
         chunks = [self._radial(lengths[k : k + _CHUNK], radii, angles) for k in range(0, len(lengths), _CHUNK)]
         in_reach, stuck, clear = (np.concatenate([c[k] for c in chunks]) for k in range(3))
@@ -146,14 +147,15 @@ class PlanarRest:
         middle = (radii[1:] + radii[:-1]) / 2
         clear = ~shapes.touched(radii)
         in_reach, stuck = np.zeros((2, len(shapes.lengths), middle.size))
-        locked = (np.arange(2 * angles) + 0.5) / (2 * angles) * TURN
+        cells = 6 * angles
+        locked = (np.arange(cells) + 0.5) / cells * TURN
         for k, r in enumerate(middle.tolist()):
             if shapes.joint:
                 reach = shapes.within(r)
                 held = shapes.held(r).any(axis=(1, 2)) & reach
             else:
                 reach = shapes.within_first(r, locked)
-                held = shapes.held_first(r, 2 * angles) & reach
+                held = shapes.held_first(r, cells) & reach
                 if not self._damping:
                     held |= self._trapped(shapes.lengths, r, locked) & reach
                     sides = [self._trapped(shapes.lengths, x, locked) for x in (radii[k], radii[k + 1])]
@@ -195,8 +197,9 @@ class _Shapes:
         hand, along: (D, 2, S, 2) the hand and the direction b, link 1 along x.
         trace: Two (D, 2, S): of M0 and of M1.
         det: Three (D, 2, S): of 1, lambda and lambda^2.
-        centre: (D, 2, S, 2) about what the two links turn that are left, and ...
-        low, high: (D, 2, S) ... between which distances they reach.
+        reach: Two (D, 2, S): from the hand to the middle about which the two links turn that are left, its product with b and
+            its square.
+        low, high: (D, 2, S) between which distances from the middle they reach.
     """
 
     lengths: Array
@@ -206,7 +209,7 @@ class _Shapes:
     along: Array
     trace: tuple[Array, Array]
     det: tuple[Array, Array, Array]
-    centre: Array
+    reach: tuple[Array, Array]
     low: Array
     high: Array
 
@@ -214,7 +217,8 @@ class _Shapes:
     def of(cls, rest: PlanarRest, lengths: Array, joint: int, angles: int) -> _Shapes:
         jacobian, slopes = rest._kernels
         joints, count = rest._joints, len(lengths)
-        angle = (np.arange(angles) + 0.5) / angles * TURN - np.pi
+        # The other half turn is the mirror image.
+        angle = (np.arange(angles) + 0.5) / angles * np.pi
         healthy = [k for k in range(3) if k != joint]
 
         def at(solved: Array | float) -> Array:
@@ -256,24 +260,30 @@ class _Shapes:
         else:
             one_link, other = first, np.abs(second + third * np.exp(1j * angle))
         low, high = (np.broadcast_to(x, hand.shape[:3]) for x in (np.abs(one_link - other), one_link + other))
-        return cls(lengths, joint, angle, hand, along, (t0, t1), (d0, d1, d2), centre, low, high)
+        away = hand - centre
+        reach = (away * along).sum(-1), (away**2).sum(-1)
+        return cls(lengths, joint, angle, hand, along, (t0, t1), (d0, d1, d2), reach, low, high)
 
     def sinks(self, far: Array) -> Flags:
         """(D, 2, S) whether the rest point is a sink whose target is ``far`` (D, 2, S) along b, and is in reach."""
-        trace = self.trace[0] + far * self.trace[1]
-        det = self.det[0] + far * (self.det[1] + far * self.det[2])
         with np.errstate(invalid="ignore"):
+            trace = self.trace[0] + far * self.trace[1]
+            det = self.det[0] + far * (self.det[1] + far * self.det[2])
             slowest = (trace + np.sqrt(np.maximum(trace**2 - 4 * det, 0.0))) / 2
-            away = self.hand - self.centre
-            distance = np.sqrt(np.maximum((away**2).sum(-1) + 2 * far * (away * self.along).sum(-1) + far**2, 0.0))
+            distance = self.reach[1] + far * (2 * self.reach[0] + far)
             sink = (trace < 0) & (slowest < -ZERO_BAND * np.maximum(1.0, np.abs(trace)))
-            return np.asarray(sink & (distance >= self.low) & (distance <= self.high))
+            return np.asarray(sink & (distance >= self.low**2) & (distance <= self.high**2))
+
+    @cached_property
+    def _line(self) -> tuple[Array, Array]:
+        middle = (self.hand * self.along).sum(-1)
+        return middle, middle**2 - (self.hand**2).sum(-1)
 
     def _far(self, r: float) -> Array:
         """(D, 2, 2, S) the two ways along b to a target at distance r; NaN where there is none."""
-        middle = (self.hand * self.along).sum(-1)
+        middle, least = self._line
         with np.errstate(invalid="ignore"):
-            root = np.sqrt(middle**2 - (self.hand**2).sum(-1) + r * r)
+            root = np.sqrt(least + r * r)
         return np.stack([-middle - root, -middle + root], axis=2)
 
     def held(self, r: float) -> Flags:
@@ -307,13 +317,13 @@ class _Shapes:
         design = np.broadcast_to(np.arange(len(far))[:, None, None, None], both.shape)
         np.add.at(edges, (design[both], first[both]), 1)
         np.add.at(edges, (design[both], last[both] + 1), -1)
-        return np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(far), 5, cells).any(axis=1))
+        covered = (np.cumsum(edges, axis=1) > 0.5).reshape(len(far), 5, cells).any(axis=1)
+        return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
     def touched(self, radii: Array) -> Flags:
         """(D, K) whether any target in a ring has a sink within its reach: by intervals of lambda, exact at each shape."""
         xb, xx = (self.hand * self.along).sum(-1), (self.hand**2).sum(-1)
-        away = self.hand - self.centre
-        yb, yy = (away * self.along).sum(-1), (away**2).sum(-1)
+        yb, yy = self.reach
         one = np.ones_like(xb)
         with np.errstate(divide="ignore", invalid="ignore"):
             ends = [*_roots(self.det[2], self.det[1], self.det[0]), -self.trace[0] / self.trace[1], -xb, 0 * xb]
