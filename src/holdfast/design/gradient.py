@@ -68,7 +68,7 @@ def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensit
     return Sensitivity(q, value, gradient, exact)
 
 
-def _by_limits(evaluator: Evaluator, design: Index, force: Array) -> Array:
+def _by_limits(evaluator: Evaluator, force: Array) -> Array:
     """What the limits that are parameters add to a gradient: ``force`` (R, n) of joints at their limits."""
     added = np.zeros((len(force), len(evaluator.family.space.parameters)))
     for i, p in enumerate(evaluator.family.space.parameters):
@@ -81,20 +81,42 @@ def _by_limits(evaluator: Evaluator, design: Index, force: Array) -> Array:
 def _of_missed(
     evaluator: Evaluator, values: Array, owner: Index, q: Array
 ) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
-    """Minus the miss and its gradient, at the configuration that comes nearest."""
+    """Minus the miss and its gradient, at the configuration that comes nearest: Newton's method within the limits."""
     family = evaluator.family
     p, r, x = evaluator.rows(owner, values)
     low, high = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
     m, n = family.task.m, family.arm.n
-    out = family.misses.rows(q, p, r, x)
-    e, pull, by_design = out[:, :m], out[:, m : m + n], out[:, m + n :]
+
+    def pulled(q: Array) -> tuple[Array, Array, Array]:
+        """Error (R, m), with what force it pulls at the joints (R, n), and derivative of half its square by the design."""
+        out = np.nan_to_num(family.misses.rows(q, p, r, x))
+        return out[:, :m], out[:, m : m + n], out[:, m + n :]
+
+    e, pull, by_design = pulled(q)
+    trust = np.full(len(q), _TRUST)
+    for _ in range(_NEWTON):
+        held = ((q <= low) & (pull < 0)) | ((q >= high) & (pull > 0))
+        curvature = np.stack(
+            [(pulled(q + h)[1] - pulled(q - h)[1]) / (2 * _APART) for h in _APART * np.eye(n)], axis=2
+        )
+        curvature = (curvature + curvature.swapaxes(1, 2)) / 2
+        curvature = np.where(held[:, :, None] | held[:, None, :], -np.eye(n), curvature)
+        size, axes = np.linalg.eigh(curvature)
+        # Away from the optimum the error may be curved the wrong way: then along the slope.
+        along = np.einsum("rij,ri->rj", axes, np.where(held, 0.0, pull)) / np.maximum(np.abs(size), 1e-4)
+        move = np.einsum("rij,rj->ri", axes, along)
+        move *= np.minimum(1.0, trust / np.maximum(np.abs(move).max(axis=1), 1e-300))[:, None]
+        ahead = np.clip(q + move, low, high)
+        e_ahead, pull_ahead, by_ahead = pulled(ahead)
+        better = (np.linalg.norm(e_ahead, axis=1) <= np.linalg.norm(e, axis=1) + 1e-12)[:, None]
+        q, e, pull = np.where(better, ahead, q), np.where(better, e_ahead, e), np.where(better, pull_ahead, pull)
+        by_design = np.where(better, by_ahead, by_design)
+        trust = np.where(better[:, 0], trust, trust / 4)
     miss = np.linalg.norm(e, axis=1)
-    # The force with which the hand pulls at a joint that stands at its limit; moved by dq the error falls by J dq.
-    force = np.where(((q <= low) & (pull < 0)) | ((q >= high) & (pull > 0)), pull, 0.0)
-    size = np.maximum(miss, 1e-12)[:, None]
-    gradient = (_by_limits(evaluator, owner, force) - by_design) / size
-    free = np.where(force == 0, pull, 0.0)
-    return q, -miss, np.nan_to_num(gradient), np.linalg.norm(free, axis=1) <= _SMALL * miss
+    # Moved by dq the error falls by J dq: a joint that is pulled against its limit would follow that limit.
+    held = ((q <= low) & (pull < 0)) | ((q >= high) & (pull > 0))
+    gradient = (_by_limits(evaluator, np.where(held, pull, 0.0)) - by_design) / np.maximum(miss, 1e-12)[:, None]
+    return q, -miss, gradient, np.abs(np.where(held, 0.0, pull)).max(axis=1) <= _SMALL * np.maximum(miss, _SMALL)
 
 
 def _of_reached(
@@ -113,7 +135,7 @@ def _of_reached(
     chosen = first.where(exact, last)
     out = problem.by_design(chosen)
     rate = out[:, 1:2]
-    gradient = rate * (out[:, 2:] + _by_limits(evaluator, owner, chosen.force))
+    gradient = rate * (out[:, 2:] + _by_limits(evaluator, chosen.force))
     gradient = np.where(np.isfinite(gradient), gradient, 0.0)
     return chosen.q, np.nan_to_num(out[:, 0]), gradient, exact
 
