@@ -59,8 +59,8 @@ def dh_table(arm: Arm) -> DHTable:
 
     Returns:
         The table. Its arm has the same forward kinematics to 1e-12, unless two neighbouring axes are parallel but for less
-        than 1e-5 rad, as where a URDF file says 3.14159 for pi: they become parallel, which moves the tool by that angle
-        times the length of the arm.
+        than 1e-5 rad, as where a URDF file says 3.14159 for pi: their normal is then that of parallel axes, which may move the
+        tool by that angle times the length of the arm.
 
     Source: Denavit and Hartenberg 1955; the choices above are ours.
     """

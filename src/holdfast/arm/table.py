@@ -112,8 +112,8 @@ def _degrees(angle: float) -> float:
 def _scalar(value: str | float) -> str:
     """One YAML value; numbers that are whole without their point."""
     if isinstance(value, str):
-        plain: str = yaml.safe_dump(value, default_flow_style=True, width=10_000, allow_unicode=True)
-        return plain.removesuffix("\n").removesuffix("...").strip()
+        listed: str = yaml.safe_dump([value], default_flow_style=True, width=10_000, allow_unicode=True)
+        return listed.strip()[1:-1]  # as it stands between braces
     return f"{value:.0f}" if value == round(value) and abs(value) < 1e15 else repr(float(value))
 
 

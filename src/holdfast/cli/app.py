@@ -13,6 +13,7 @@ from holdfast.cli import (
     assess_commands,
     compare_commands,
     configure_commands,
+    design_commands,
     export_commands,
     follow_commands,
     index_commands,
@@ -73,6 +74,7 @@ self_motion_commands.add(app)
 workspace_commands.add(app)
 stationary_commands.add(app)
 trade_off_commands.add(app)
+design_commands.add(app)
 studio_commands.add(app)
 study_commands.add(app)
 teleop_commands.add(app)

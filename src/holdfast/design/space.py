@@ -248,9 +248,9 @@ class DesignSpace:
         Raises:
             InputError: As :meth:`check`.
         """
-        design = self.check(values)
-        told = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.parameters, np.atleast_1d(design).tolist(), strict=True))
-        return self.table_of(design).arm(
+        table = self.table_of(values)
+        told = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.parameters, np.asarray(values).tolist(), strict=True))
+        return table.arm(
             name=name or f"{self.arm.name}-design", gravity=self.arm.gravity, source=f"design of {self.arm.name}: {told}"
         )
 
