@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.design.family import Family
-from holdfast.solve.optimise import FIRST_STEPS, LAST_STEPS, RADIUS, best_of_each
+from holdfast.solve.optimise import FIRST_STEPS, LAST_STEPS, RADIUS, best_of_each, default_starts
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -21,8 +21,7 @@ Index = NDArray[np.intp]
 TOLERANCE = 1e-6  # of the pose, m and rad
 _IK_STEPS = 40
 _KEPT = 2  # configurations of a design and pose that the next designs begin from
-_STARTS = 32  # random starts of the first design; later ones take what their neighbours found, and a few
-_FEWEST = 4
+_FEW = 8  # of a design with neighbours: the given number of random starts by this, besides what the neighbours found
 _RESTARTS = 24  # more starts of inverse kinematics where nothing was found
 _POOL = 1 << 12
 _BY_POSE, _BY_START = 2654435761, 40503  # odd: each pose walks through the whole pool of starts
@@ -77,14 +76,16 @@ class Evaluator:
 
     Attributes:
         family, poses: The same.
+        starts: Random starts of a design that has no neighbours, as :func:`holdfast.optimise` takes.
     """
 
     def __init__(self, family: Family, poses: Array, seed: int = 0) -> None:
         self.family, self.poses = family, poses
+        self.starts = default_starts(family.arm, family.task)
         self._targets = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
         self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(4,))).random((_POOL, family.arm.n))
 
-    def __call__(self, values: Array, near: Evaluated | None = None, fresh: int = _FEWEST) -> Evaluated:
+    def __call__(self, values: Array, near: Evaluated | None = None, fresh: int | None = None) -> Evaluated:
         """Evaluate designs.
 
         Args:
@@ -92,17 +93,18 @@ class Evaluator:
             near: Designs evaluated before: each new one begins from the configurations of the nearest two of them. If not
                 given, the first design is searched from many random starts, and the others grow from it, each round twice as
                 many as the one before.
-            fresh: Random starts of each design and pose besides.
+            fresh: Random starts of each design and pose besides; an eighth of ``starts`` if not given.
         """
+        fresh = self.starts // _FEW if fresh is None else fresh
         if near is not None:
             return self._grown(values, near, fresh)
         if not len(values):
             return self._empty()
-        done = [self._searched(values[:1], np.empty((1, len(self.poses), 0, self.family.arm.n)), _STARTS)]
+        done = [self._searched(values[:1], np.empty((1, len(self.poses), 0, self.family.arm.n)), self.starts)]
         start = 1
         while start < len(values):
             stop, rounds = min(2 * start, len(values)), int(start).bit_length()
-            done.append(self._grown(values[start:stop], Evaluated.joined(done), max(fresh, _STARTS >> rounds)))
+            done.append(self._grown(values[start:stop], Evaluated.joined(done), max(fresh, self.starts >> rounds)))
             start = stop
         return Evaluated.joined(done)
 
@@ -120,9 +122,7 @@ class Evaluator:
         starts = np.moveaxis(near.kept[pick], 1, 2)  # (D, P, 2, K, n)
         starts = starts.reshape(*starts.shape[:2], -1, starts.shape[-1])
         block = max(1, _ROWS // (len(self.poses) * (starts.shape[2] + fresh)))
-        parts = [
-            self._searched(values[a : a + block], starts[a : a + block], fresh) for a in range(0, len(values), block)
-        ]
+        parts = [self._searched(values[a : a + block], starts[a : a + block], fresh) for a in range(0, len(values), block)]
         return Evaluated.joined(parts) if parts else self._empty()
 
     # ---- configurations ----------------------------------------------------------------------------------------------

@@ -260,7 +260,9 @@ class Family:
         for score in scores[1:]:
             lowest = ca.if_else(score < lowest, score, lowest)
         both = ca.Function("value", [s], [value, ca.gradient(value, s)])
-        return Kernel("gradient of designs", [q, p, r, self.x, u, w], [ca.vertcat(*both(lowest), ca.gradient(lagrangian, self.x))])
+        return Kernel(
+            "gradient of designs", [q, p, r, self.x, u, w], [ca.vertcat(*both(lowest), ca.gradient(lagrangian, self.x))]
+        )
 
 
 def _stay_in_plane(space: DesignSpace) -> None:

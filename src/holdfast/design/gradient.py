@@ -78,9 +78,7 @@ def _by_limits(evaluator: Evaluator, force: Array) -> Array:
     return added
 
 
-def _of_missed(
-    evaluator: Evaluator, values: Array, owner: Index, q: Array
-) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+def _of_missed(evaluator: Evaluator, values: Array, owner: Index, q: Array) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     """Minus the miss and its gradient, at the configuration that comes nearest: Newton's method within the limits."""
     family = evaluator.family
     p, r, x = evaluator.rows(owner, values)
@@ -96,9 +94,7 @@ def _of_missed(
     trust = np.full(len(q), _TRUST)
     for _ in range(_NEWTON):
         held = ((q <= low) & (pull < 0)) | ((q >= high) & (pull > 0))
-        curvature = np.stack(
-            [(pulled(q + h)[1] - pulled(q - h)[1]) / (2 * _APART) for h in _APART * np.eye(n)], axis=2
-        )
+        curvature = np.stack([(pulled(q + h)[1] - pulled(q - h)[1]) / (2 * _APART) for h in _APART * np.eye(n)], axis=2)
         curvature = (curvature + curvature.swapaxes(1, 2)) / 2
         curvature = np.where(held[:, :, None] | held[:, None, :], -np.eye(n), curvature)
         size, axes = np.linalg.eigh(curvature)
@@ -119,9 +115,7 @@ def _of_missed(
     return q, -miss, gradient, np.abs(np.where(held, 0.0, pull)).max(axis=1) <= _SMALL * np.maximum(miss, _SMALL)
 
 
-def _of_reached(
-    evaluator: Evaluator, values: Array, owner: Index, q: Array
-) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+def _of_reached(evaluator: Evaluator, values: Array, owner: Index, q: Array) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     family = evaluator.family
     p, r, x = evaluator.rows(owner, values)
     low, high = (limit[owner // len(evaluator.poses)] for limit in family.limits(values))
