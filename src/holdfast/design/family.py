@@ -239,8 +239,10 @@ class Family:
 
     @cached_property
     def conditions(self) -> Kernel:
-        """(q, p, r, x) to what the conditions of an optimum are made of: scores (F,), their slopes (F, n), a smooth error of
-        the pose (m,) and its Jacobian (m, n)."""
+        """(q, p, r, x) to what the conditions of an optimum are made of.
+
+        Scores (F,), their slopes (F, n), a smooth error of the pose (m,) and its Jacobian (m, n).
+        """
         q, p, r = self._pose
         _, scores, slopes = self._scored
         c = smooth_error(self.arm, self.task, q, p, r)

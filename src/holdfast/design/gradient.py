@@ -299,7 +299,8 @@ def nearby(gap: Array, along: Array, null: Array, above: Array, below: Array) ->
         gap: (F,) scores less the lowest one.
         along: (F, r) their slopes.
         null: (n, r) how the joints move.
-        above, below: (n,) room to the limits.
+        above: (n,) room to the upper limits.
+        below: (n,) room to the lower limits.
 
     Returns:
         Multipliers of the scores (F,), which sum to 1, and of the limits (n,), above 0 at an upper one.
