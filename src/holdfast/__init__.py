@@ -24,6 +24,7 @@ from holdfast.converge import (
     tolerant_workspace,
     workspace,
 )
+from holdfast.design import Designs, DesignSpace, design
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -56,6 +57,8 @@ __all__ = [
     "Clearance",
     "Comparison",
     "ConvergenceMap",
+    "DesignSpace",
+    "Designs",
     "FreeSwing",
     "HoldfastError",
     "InputError",
@@ -89,6 +92,7 @@ __all__ = [
     "compare_laws",
     "control",
     "convergence_map",
+    "design",
     "follow",
     "free_swing",
     "indices",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +21,10 @@ from holdfast.design.gradient import sensitivity
 from holdfast.design.memory import Memory, Parts
 from holdfast.design.quantile import guaranteed, shares
 from holdfast.design.reach import Reaches
+from holdfast.design.result import Check, Checked, Designs
 from holdfast.design.space import DesignSpace, Vary, design_space
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec
-from holdfast.indices import Index
 from holdfast.interval import Interval
 
 Array = NDArray[np.float64]
@@ -38,95 +37,6 @@ _ITERATIONS = 30  # of a climb
 _TRAIL = 12  # designs of a climb that the next ones may begin from
 _CLIMB_FRESH = 2  # random starts of each pose in every step of a climb
 _CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
-
-
-@dataclass(frozen=True)
-class Checked:
-    """What an arm guarantees on fresh poses.
-
-    Attributes:
-        distribution: Of the index at the best configuration of every pose; one that is not reached counts as 0.
-        guaranteed: The quantile, with its 95 % confidence interval.
-    """
-
-    distribution: Distribution
-    guaranteed: Interval
-
-
-@dataclass(frozen=True)
-class Check:
-    """The given arm and the best design on the same fresh poses, which no choice was made on.
-
-    Attributes:
-        given, best: Each on those poses.
-        optimism: By how much the best design looked better on the poses it was chosen on.
-    """
-
-    given: Checked
-    best: Checked
-    optimism: float
-
-
-@dataclass(frozen=True)
-class Designs:
-    """What :func:`holdfast.design` found: D designs, the given arm first.
-
-    Attributes:
-        space: What was varied.
-        values: (D, k) rad and m.
-        guaranteed: (D,) index that a share ``level`` of the poses of the search has at least.
-        reach: (D,) largest distance of the tool point from the arm's base within the limits, m.
-        reached: (D,) share of the poses with a configuration.
-        front: Numbers of the designs that no other one beats in both reach and guaranteed value, by reach.
-        best: Number of the design with the greatest guaranteed value.
-        checked: The given arm and the best design on fresh poses.
-        index: Of the given arm.
-        region: The poses; the same for all designs.
-        level: Share of the poses for which the value is guaranteed.
-        poses: Number of poses of the search.
-        screened: Designs spread over the space.
-        climbs: Climbs from the best of them.
-        seed: Of everything random.
-        seconds: Time it took, or None where it went on from a folder.
-        method: How it was computed, for reports: words and texts.
-    """
-
-    space: DesignSpace
-    values: Array
-    guaranteed: Array
-    reach: Array
-    reached: Array
-    front: NDArray[np.intp]
-    best: int
-    checked: Check
-    index: Index
-    region: Region
-    level: float
-    poses: int
-    screened: int
-    climbs: int
-    seed: int
-    seconds: float | None
-    method: list[tuple[str, str]]
-
-    @property
-    def start_guaranteed(self) -> float:
-        """Of the given arm."""
-        return float(self.guaranteed[0])
-
-    @property
-    def start_reach(self) -> float:
-        """Of the given arm, m."""
-        return float(self.reach[0])
-
-    @property
-    def best_is_start(self) -> bool:
-        """True where no design beats the given arm."""
-        return self.best == 0
-
-    def arm(self, number: int | None = None) -> Arm:
-        """The arm of a design; the best one if no number is given."""
-        return self.space.arm_of(self.values[self.best if number is None else number])
 
 
 def design(
@@ -156,7 +66,8 @@ def design(
 
     Args:
         arm: The given arm; its values must lie within the bounds.
-        vary: What is open and its bounds: ``{"a3": (0.2, 0.6)}``, rad and m, or what :func:`holdfast.design.design_space` reads.
+        vary: What is open and its bounds: ``{"a3": (0.2, 0.6)}``, rad and m, or what
+            :func:`holdfast.design.design_space` reads.
         objective: An index by name, larger is better.
         region: The poses, the same for all designs. Default: that of the given arm, as for :func:`holdfast.assess`.
         task: Rows of the pose to keep.
@@ -365,12 +276,11 @@ class _Search:
 
     def _facts(self, found: Evaluated) -> Parts:
         extended = found.extended
+        weights = np.ones(extended.shape[1]) if self._weights is None else self._weights
         return {
             "smooth": (shares(extended, self.level, self._weights) * extended).sum(axis=1),
             "guaranteed": guaranteed(found.value, self.level, self._weights),
-            "reached": found.reached.mean(axis=1)
-            if self._weights is None
-            else found.reached @ self._weights / self._weights.sum(),
+            "reached": found.reached @ weights / weights.sum(),
             "reach": self._reaches(found.values, self.evaluator.finite_limits(found.values))[0],
         }
 
@@ -397,15 +307,13 @@ class _Search:
                 tried.append((value, float(reach[0]), x))
             return seen[key]
 
-        rules = (
-            [{"type": "ineq", "fun": lambda u: look(u)[2] - least, "jac": lambda u: look(u)[3]}] if np.isfinite(least) else []
-        )
+        long_enough = {"type": "ineq", "fun": lambda u: look(u)[2] - least, "jac": lambda u: look(u)[3]}
         minimize(
             lambda u: -look(u)[0],
             np.clip((start - space.lower) / width, 0.0, 1.0),
             jac=lambda u: -look(u)[1],
             bounds=[(0.0, 1.0)] * len(width),
-            constraints=rules,
+            constraints=[long_enough] if np.isfinite(least) else [],
             method="SLSQP",
             options={"maxiter": _ITERATIONS, "ftol": 1e-6},
         )

@@ -112,7 +112,7 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
 
 
 def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
-    """As the error of :func:`task_error`, with the sines of angles in place of angles: the same near 0, but with derivatives."""
+    """As the error of :func:`task_error`, with sines in place of angles: the same near 0, but with derivatives."""
     chain = kinematics.chain(arm, q)
     if _free_spin(task):
         turn = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
