@@ -14,7 +14,7 @@ from holdfast.arm.table import text as table_text
 from holdfast.assess.rerun import failures_option, region_files, task_option
 from holdfast.assess.run import provenance
 from holdfast.design.pictures import arms_figure, front_figure
-from holdfast.design.search import Designs
+from holdfast.design.result import Checked, Designs
 from holdfast.design.space import DesignSpace, Parameter
 from holdfast.failures import failure_sets
 from holdfast.report import figures, page
@@ -249,7 +249,7 @@ def _distributions(d: Designs) -> list[Block]:
     ]
 
 
-def _reached(checked: object) -> str:
+def _reached(checked: Checked) -> str:
     return percent(1 - checked.distribution.unreached_share)
 
 
@@ -287,7 +287,7 @@ def command(d: Designs) -> tuple[str, str]:
     if d.index.failures != failure_sets(space.arm, "single"):
         words.append(f"--failures {shlex.quote(failures_option(space.arm, d.index.failures))}")
     words += [f"--level {as_given(d.level)}", f"--poses {d.poses}", f"--designs {d.screened}", f"--climbs {d.climbs}"]
-    words.append(f"--seed {d.seed}")
+    words += [f"--fresh {d.checked.best.distribution.samples}", f"--seed {d.seed}"]
     lines = [f"holdfast design {shlex.quote(spec)}"]
     for word in words:
         if len(lines[-1]) + len(word) > 90:

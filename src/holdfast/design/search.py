@@ -187,9 +187,15 @@ def pareto(reach: Array, value: Array) -> NDArray[np.intp]:
     return np.array(front[::-1], dtype=np.intp)
 
 
-def region_poses(region: Region, count: int, seed: int) -> Array:
-    """The poses (P, 4, 4) on which designs are compared: low-discrepancy points where the region is a box, else random ones."""
-    return _drawn(region, count, seed, "sobol" if region.kind == "box" else "random")[0]
+def region_poses(region: Region, count: int, seed: int) -> tuple[Array, Array | None]:
+    """The poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all count alike.
+
+    Low-discrepancy points where the region is a box, else random ones.
+
+    Raises:
+        InputError: A region of joints.
+    """
+    return _drawn(region, count, seed, "sobol" if region.kind == "box" else "random")
 
 
 def _drawn(region: Region, count: int, seed: int, sampling: Any) -> tuple[Array, Array | None]:
@@ -255,7 +261,7 @@ class _Search:
 
     def __init__(self, family: Family, region: Region, level: float, poses: int, seed: int) -> None:
         self.family, self.region, self.level, self.seed = family, region, level, seed
-        drawn, self._weights = _drawn(region, poses, seed, "sobol" if region.kind == "box" else "random")
+        drawn, self._weights = region_poses(region, poses, seed)
         self.evaluator = Evaluator(family, drawn, seed)
         self._reaches = Reaches(family, seed)
         self._near: Evaluated | None = None
