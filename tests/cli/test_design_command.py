@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
-from wellformed import check
 
 import holdfast as hf
 from holdfast import arms
 from holdfast.design.memory import FILE
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
 
 REGION = "name: a bench\nbox: {center: [1.5, 0.6, 0], size: [0.8, 0.8, 0]}\n"
 SEARCH = ("planar-3r", "--vary", "a1=0.6..1.4", "--vary", "a3=0.6..1.4m", "--vary", "upper2=90..180deg", "--task", "planar",

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
-from wellformed import check
 
 import holdfast as hf
 from holdfast import arms
@@ -13,6 +15,9 @@ from holdfast.errors import InputError
 from holdfast.studies import read, report
 from holdfast.studies.results import swept
 from holdfast.study import Study, Threads
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
 
 TEXT = """
 name: links
