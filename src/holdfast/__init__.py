@@ -24,7 +24,7 @@ from holdfast.converge import (
     tolerant_workspace,
     workspace,
 )
-from holdfast.design import Designs, DesignSpace, design
+from holdfast.design import ConvergenceDesigns, Designs, DesignSpace, design, design_for_convergence
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -56,6 +56,7 @@ __all__ = [
     "Capsules",
     "Clearance",
     "Comparison",
+    "ConvergenceDesigns",
     "ConvergenceMap",
     "DesignSpace",
     "Designs",
@@ -93,6 +94,7 @@ __all__ = [
     "control",
     "convergence_map",
     "design",
+    "design_for_convergence",
     "follow",
     "free_swing",
     "indices",
