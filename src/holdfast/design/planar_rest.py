@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import casadi as ca
 import numpy as np
@@ -144,25 +145,45 @@ class PlanarRest:
 
     def _joint(self, shapes: _Shapes, radii: Array, angles: int) -> tuple[Array, Array, Array]:
         """In reach, stuck and clear (D, K) of one locked joint."""
-        middle = (radii[1:] + radii[:-1]) / 2
         clear = ~shapes.touched(radii)
-        in_reach, stuck = np.zeros((2, len(shapes.lengths), middle.size))
-        cells = 6 * angles
-        locked = (np.arange(cells) + 0.5) / cells * TURN
-        for k, r in enumerate(middle.tolist()):
-            if shapes.joint:
-                reach = shapes.within(r)
-                held = shapes.held(r).any(axis=(1, 2)) & reach
-            else:
-                reach = shapes.within_first(r, locked)
-                held = shapes.held_first(r, cells) & reach
-                if not self._damping:
-                    held |= self._trapped(shapes.lengths, r, locked) & reach
-                    sides = [self._trapped(shapes.lengths, x, locked) for x in (radii[k], radii[k + 1])]
-                    near = [shapes.within_first(x, locked) for x in (radii[k], radii[k + 1])]
-                    clear[:, k] &= ~((sides[0] & near[0]) | (sides[1] & near[1]) | held).any(axis=1)
+        in_reach, stuck = np.zeros((2, len(shapes.lengths), radii.size - 1))
+        for k, (low, high) in enumerate(pairwise(radii.tolist())):
+            _, reach, held = self._held(shapes, (low + high) / 2, angles)
             in_reach[:, k], stuck[:, k] = reach.mean(axis=1), held.mean(axis=1)
+            if shapes.joint == 0 and not self._damping:
+                for r in (low, high):
+                    locked = _cells(angles)
+                    trapped = self._trapped(shapes.lengths, r, locked) & shapes.within_first(r, locked)
+                    clear[:, k] &= ~trapped.any(axis=1)
+            clear[:, k] &= ~held.any(axis=1)
         return in_reach, stuck, clear.astype(float)
+
+    def _held(self, shapes: _Shapes, r: float, angles: int) -> tuple[Array, Flags, Flags]:
+        """Locked angles (A,), and (D, A) at which targets at distance r are in reach, and at which the arm can get stuck, too."""
+        if shapes.joint:
+            reach = shapes.within(r)
+            return shapes.angle, reach, shapes.held(r).any(axis=(1, 2)) & reach
+        locked = _cells(angles)
+        reach, held = shapes.within_first(r, locked), shapes.held_first(r, locked.size)
+        if not self._damping:
+            held |= self._trapped(shapes.lengths, r, locked)
+        return locked, reach, held & reach
+
+    def locked(self, lengths: Array, r: float, angles: int = ANGLES) -> list[tuple[Array, Flags, Flags]]:
+        """What locks at every angle leave of the targets at one distance, for one design.
+
+        Args:
+            lengths: (3,) of the links, above 0, m.
+            r: Distance of the targets from the first joint, m.
+            angles: As for :meth:`radial`.
+
+        Returns:
+            For each joint the angles (A,) at which it locks, rad: of joint 1 from the direction to the target, of joints 2 and 3
+            in half a turn, as the other half is the mirror image; (A,) where the target is in reach; (A,) where it is, and the
+            arm can get stuck.
+        """
+        found = [self._held(_Shapes.of(self, lengths[None], i, angles), r, angles) for i in range(3)]
+        return [(at, reach[0], held[0]) for at, reach, held in found]
 
     def _trapped(self, lengths: Array, r: float, locked: Array) -> Flags:
         """(D, A) whether a singular trap draws the arm in, with joint 1 at angles (A,) from the direction to the target."""
@@ -347,6 +368,11 @@ class _Shapes:
             np.add.at(out, (design, np.searchsorted(radii, low[wanted], side="right")), 1)
             np.add.at(out, (design, np.minimum(np.searchsorted(radii, high[wanted], side="left") + 1, radii.size)), -1)
         return np.asarray(np.cumsum(out, axis=1)[:, 1:-1] > 0.5)
+
+
+def _cells(angles: int) -> Array:
+    """Angles at which joint 1 locks, over a whole turn: that of the target can change quickly along a curve."""
+    return np.asarray((np.arange(6 * angles) + 0.5) / (6 * angles) * TURN)
 
 
 def _roots(a: Array, b: Array, c: Array) -> list[Array]:
