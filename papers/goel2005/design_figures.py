@@ -47,7 +47,8 @@ def design_map(shares: Array, maps: dict[str, dict[str, Array]], given: Array, b
         figure.text(
             0.5,
             -0.01,
-            f"Planar 3R, {len(shares)} designs, 40 rings of targets each; link 1 is what is left to 100 %. Circle: three equal links. "
+            f"Planar 3R, {len(shares)} designs, 40 rings of targets each; link 1 is what is left to 100 %. Circle: "
+            "three equal links. "
             "Star: the best found.\nDotted: links 2 and 3 equal. Dashed: their difference is link 1.",
             ha="center",
             va="top",

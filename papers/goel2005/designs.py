@@ -161,17 +161,22 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
     lines = [
         "# Arms that converge after an unidentified lock",
         "",
-        'Footnote 11 of Goel, Maciejewski and Balakrishnan (2005): the analysis procedure "can be extended to design manipulators '
-        'that are guaranteed to converge in the post-failure workspace". The paper does not say how. What follows is ours: for '
-        "planar arms of three links, from the stationary sets of all targets at once. Written by `python -m papers.goel2005.designs`.",
+        'Footnote 11 of Goel, Maciejewski and Balakrishnan (2005): the analysis procedure "can be extended to design '
+        'manipulators that are guaranteed to converge in the post-failure workspace". The paper does not say how. What follows is ours: for '
+        "planar arms of three links, from the stationary sets of all targets at once. Written by `python -m "
+        "papers.goel2005.designs`.",
         "",
-        "*Guaranteed*: share of the area of targets (up to the sum of the lengths) such that, whichever joint locks at whatever angle "
-        "that leaves the target within reach, there is no sink and no singular trap. *Free*: share of the locks that leave the target "
+        "*Guaranteed*: share of the area of targets (up to the sum of the lengths) such that, whichever joint locks "
+        "at whatever angle "
+        "that leaves the target within reach, there is no sink and no singular trap. *Free*: share of the locks "
+        "that leave the target "
         "within reach after which nothing can hold the arm, mean of the joints. *Arrival*: share of all locks that leave the "
         "target within reach with nothing to hold the arm. Locked angles of no width, as of a folded line, are left out.",
         "",
-        f"{RINGS} rings of targets, 120 values of one angle in half a turn. {len(every)} designs on a lattice of lengths took "
-        f"{seconds:.0f} s of processor time ({1000 * seconds / len(every):.0f} ms each) on a busy machine; all of them share one "
+        f"{RINGS} rings of targets, 120 values of one angle in half a turn. {len(every)} designs on a lattice of "
+        "lengths took "
+        f"{seconds:.0f} s of processor time ({1000 * seconds / len(every):.0f} ms each) on a busy machine; all of "
+        "them share one "
         "compiled program.",
         "",
         "![Map over the link lengths](figures/design-map.png)",
@@ -192,11 +197,13 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "",
         "## Simulated",
         "",
-        f"Of each design {LOCKS} random failures that leave the target within reach, {STARTS} random starts each, 2000/Ke; arrived: "
+        f"Of each design {LOCKS} random failures that leave the target within reach, {STARTS} random starts each, "
+        "2000/Ke; arrived: "
         "within 1 mm. *Lost*: the motion ran into a singular configuration. The angles are those at which the sets were "
         "computed, so that there is a prediction for each.",
         "",
-        "| design | predicted free: arrived | stuck | moving | lost | slow | something can hold it: arrived | stuck | moving | lost | slow | "
+        "| design | predicted free: arrived | stuck | moving | lost | slow | something can hold it: arrived | stuck "
+        "| moving | lost | slow | "
         "such failures | of them not always arrived |",
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
@@ -206,14 +213,20 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "",
         "## What is found",
         "",
-        "- With joint 1 locked everything depends on links 2 and 3. Where they differ by less than the length of link 1, the folded "
-        "forearm makes sinks at angles that leave the target within reach. Where they differ by more, the sinks are gone and a "
-        "singular configuration, all links in a line with the forearm folded, draws the arm in instead, in a finite time. Where the "
+        "- With joint 1 locked everything depends on links 2 and 3. Where they differ by less than the length of "
+        "link 1, the folded "
+        "forearm makes sinks at angles that leave the target within reach. Where they differ by more, the sinks are "
+        "gone and a "
+        "singular configuration, all links in a line with the forearm folded, draws the arm in instead, in a finite "
+        "time. Where the "
         "difference is just the first link, the hand comes to the first joint, and is caught there too.",
-        "- Only with equal links 2 and 3 all of that shrinks to single locked angles of no width: equal links are what guarantees "
-        "convergence. The paper's arm has them. It is not guaranteed at 0.29 to 0.35 of its reach, where the small windows of "
+        "- Only with equal links 2 and 3 all of that shrinks to single locked angles of no width: equal links are "
+        "what guarantees "
+        "convergence. The paper's arm has them. It is not guaranteed at 0.29 to 0.35 of its reach, where the small "
+        "windows of "
         "joint 2 are; a first link well shorter or longer than the others has no such windows.",
-        "- It is a knife's edge: the second figure shows how much a difference of the two costs. Single angles of no width still "
+        "- It is a knife's edge: the second figure shows how much a difference of the two costs. Single angles of "
+        "no width still "
         "slow the arm nearby.",
         "- No sink and no trap does not exclude limit cycles, of which one is known for the paper's arm, in windows of a few "
         "tenths of a degree.",

@@ -89,8 +89,9 @@ def test_what_is_predicted_to_be_free_arrives(lengths, rng):
     runs = hf.simulate(
         moved, joints.configurations(lengths, q), [r, 0.0], locked=joints.moving[joint], time_limit=500, tolerance=1e-8
     )
-    # Beside what holds the arm in place it creeps: what is slow is not there yet.
-    failed = (runs.error > 1e-3) & (runs.reason != Reason.SLOW)
+    # What is slow is not there yet. Beside the angle at which equal links fold to a whole line of rest points it creeps.
+    folded = (lengths[1] == lengths[2]) & (joint == 0) & (np.abs(r * np.cos(q[:, 0]) - lengths[0]) < 0.03)
+    failed = (runs.error > 1e-3) & (runs.reason != Reason.SLOW) & ~folded
     assert not (failed & ~held).any()
     assert failed.any() == held.any()
 
@@ -112,8 +113,8 @@ def test_equal_links_are_guaranteed_and_unequal_ones_are_not():
 
 
 def test_search_keeps_its_bounds_and_finds_what_is_guaranteed():
-    options = {"designs": 8, "climbs": 1, "keep_reach": True, "seed": 3}
-    found = design_for_convergence(planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, **options)
+    vary, options = {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, {"designs": 4, "keep_reach": True, "seed": 3}
+    found = design_for_convergence(planar(), vary, climbs=1, **options)
     np.testing.assert_allclose(found.values.sum(axis=1), 3.0)
     assert (found.values >= 0.5 - 1e-9).all()
     assert (found.values <= 1.6 + 1e-9).all()
@@ -122,14 +123,17 @@ def test_search_keeps_its_bounds_and_finds_what_is_guaranteed():
     assert found.measures["guaranteed"][found.best] > found.measures["guaranteed"][0]
     assert found.radial().guaranteed.shape == (1, 40)
     assert np.linalg.norm(found.arm().forward_kinematics(np.zeros(3))[:3, 3]) == pytest.approx(3.0)
-    again = design_for_convergence(planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, **options)
-    np.testing.assert_array_equal(found.values, again.values)
+    again = design_for_convergence(planar(), vary, climbs=0, **options)
+    np.testing.assert_array_equal(found.values[: len(again.values)], again.values)
+    for name, values in again.measures.items():
+        np.testing.assert_array_equal(found.measures[name][: len(values)], values)
     assert any("best" in line for line in found.describe())
 
 
 def test_sampled_search(tmp_path):
+    law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
     found = hf.design_for_convergence(
-        planar(), {"a2": (0.5, 1.5), "a3": (0.5, 1.5)}, 4, designs=4, climbs=0, failures=1, exact=False, seed=2
+        law, {"a2": (0.5, 1.5), "a3": (0.5, 1.5)}, 4, designs=4, climbs=0, failures=1, exact=False, seed=2
     )
     assert not found.exact
     assert found.checked is not None

@@ -15,7 +15,7 @@ from holdfast.errors import InputError
 Array = NDArray[np.float64]
 Measured = Callable[[Array], dict[str, Array]]
 
-_FIRST, _LAST = 1 / 8, 1 / 256  # steps of the pattern search, of the width of the bounds
+_FIRST, _LAST = 1 / 8, 1 / 128  # steps of the pattern search, of the width of the bounds
 _SAME = 1e-9
 _DRAWS = 64  # times as many drawn as wanted, at most, where the sum is kept
 

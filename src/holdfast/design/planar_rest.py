@@ -159,7 +159,7 @@ class PlanarRest:
         return in_reach, stuck, clear.astype(float)
 
     def _held(self, shapes: _Shapes, r: float, angles: int) -> tuple[Array, Flags, Flags]:
-        """Locked angles (A,), and (D, A) at which targets at distance r are in reach, and at which the arm can get stuck, too."""
+        """Locked angles (A,); (D, A) where targets at distance r are in reach, and where the arm can get stuck besides."""
         if shapes.joint:
             reach = shapes.within(r)
             return shapes.angle, reach, shapes.held(r).any(axis=(1, 2)) & reach
@@ -178,9 +178,9 @@ class PlanarRest:
             angles: As for :meth:`radial`.
 
         Returns:
-            For each joint the angles (A,) at which it locks, rad: of joint 1 from the direction to the target, of joints 2 and 3
-            in half a turn, as the other half is the mirror image; (A,) where the target is in reach; (A,) where it is, and the
-            arm can get stuck.
+            For each joint the angles (A,) at which it locks, rad: of joint 1 from the direction to the target, of joints 2 and
+            3 in half a turn, as the other half is the mirror image; (A,) where the target is in reach; (A,) where it is, and
+            the arm can get stuck.
         """
         found = [self._held(_Shapes.of(self, lengths[None], i, angles), r, angles) for i in range(3)]
         return [(at, reach[0], held[0]) for at, reach, held in found]
