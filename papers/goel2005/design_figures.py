@@ -44,16 +44,11 @@ def design_map(shares: Array, maps: dict[str, dict[str, Array]], given: Array, b
             ax.set_xlabel("link 2, % of the reach")
         for ax in axes[:, 0]:
             ax.set_ylabel("link 3, % of the reach")
-        figure.text(
-            0.5,
-            -0.01,
-            f"Planar 3R, {len(shares)} designs, 40 rings of targets each; link 1 is what is left to 100 %. Circle: "
-            "three equal links. "
-            "Star: the best found.\nDotted: links 2 and 3 equal. Dashed: their difference is link 1.",
-            ha="center",
-            va="top",
-            color=SOFT,
+        caption = (
+            f"Planar 3R, {len(shares)} designs, 40 rings of targets each; link 1 is what is left to 100 %. Circle: three equal "
+            "links. Star: the best found.\nDotted: links 2 and 3 equal. Dashed: their difference is link 1."
         )
+        figure.supxlabel(caption, fontsize=9, color=SOFT)
         save_png(figure, path, 110)
 
 
@@ -70,12 +65,6 @@ def mismatch(off: Array, free: Array, path: Path) -> None:
             ylabel="locks that nothing\ncan hold, %",
             title="Pseudoinverse, link 1 a third of the reach",
         )
-        figure.text(
-            0.5,
-            -0.02,
-            f"{off.size} designs, 40 rings of targets each, mean of the three joints",
-            ha="center",
-            va="top",
-            color=SOFT,
-        )
+        caption = f"{off.size} designs, 40 rings of targets each, mean of the three joints"
+        figure.supxlabel(caption, fontsize=9, color=SOFT)
         save_png(figure, path, 110)

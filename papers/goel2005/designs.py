@@ -162,7 +162,8 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "# Arms that converge after an unidentified lock",
         "",
         'Footnote 11 of Goel, Maciejewski and Balakrishnan (2005): the analysis procedure "can be extended to design '
-        'manipulators that are guaranteed to converge in the post-failure workspace". The paper does not say how. What follows is ours: for '
+        'manipulators that are guaranteed to converge in the post-failure workspace". The paper does not say how. What '
+        "follows is ours: for "
         "planar arms of three links, from the stationary sets of all targets at once. Written by `python -m "
         "papers.goel2005.designs`.",
         "",
@@ -220,16 +221,21 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "singular configuration, all links in a line with the forearm folded, draws the arm in instead, in a finite "
         "time. Where the "
         "difference is just the first link, the hand comes to the first joint, and is caught there too.",
-        "- Only with equal links 2 and 3 all of that shrinks to single locked angles of no width: equal links are "
-        "what guarantees "
-        "convergence. The paper's arm has them. It is not guaranteed at 0.29 to 0.35 of its reach, where the small "
-        "windows of "
-        "joint 2 are; a first link well shorter or longer than the others has no such windows.",
+        "- Only with equal links 2 and 3 all of that shrinks to single locked angles of no width: with the "
+        "pseudoinverse equal "
+        "links are what guarantees convergence. The paper's arm has them. It is not guaranteed at 0.29 to 0.35 of "
+        "its reach, where "
+        "the small windows of joint 2 are; where the first link differs from the others by a tenth or so there are none. The "
+        "shorter the first link is, the more locks leave targets within reach.",
         "- It is a knife's edge: the second figure shows how much a difference of the two costs. Single angles of "
         "no width still "
-        "slow the arm nearby.",
-        "- No sink and no trap does not exclude limit cycles, of which one is known for the paper's arm, in windows of a few "
-        "tenths of a degree.",
+        "slow the arm nearby: runs of designs with equal links that were slow stood beside one.",
+        "- Damping makes sinks of the singular traps, and fewer of them. Where the difference of links 2 and 3 is "
+        "just the first "
+        "link, that is where one of them is half of the reach, it leaves next to none.",
+        "- No run that was predicted to be free got stuck, went on moving or was lost. No sink and no trap still "
+        "does not exclude "
+        "limit cycles, of which one is known for the paper's arm, in windows of a few tenths of a degree.",
         "",
     ]
     from holdfast.whole_file import replaced

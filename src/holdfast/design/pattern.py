@@ -128,9 +128,8 @@ def improved(
         All designs that were looked at, the given one first, and their measures.
     """
     drawn = box.draw(designs, seed)
-    expected = 1 + 2 * len(drawn) + climbs * len(box.moves()) * 6
-    values = np.concatenate([box.space.start[None], drawn])
-    values = np.concatenate([values, box.levelled(drawn)[: len(drawn)]])
+    values = np.concatenate([box.space.start[None], drawn, box.levelled(drawn)])
+    expected = len(values) + climbs * len(box.moves()) * 6
     seen = measured(values)
     if progress is not None:
         progress(len(values), max(expected, len(values)))
