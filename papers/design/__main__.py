@@ -26,7 +26,8 @@ def main() -> None:
         "",
         "## Known optima",
         "",
-        "No configuration of n joints has more than sqrt((n - m) / n) of worst-case relative manipulability at a task of m rows.",
+        "With n joints and a task of m rows no configuration has more worst-case relative manipulability than "
+        "sqrt((n - m) / n).",
         "",
         *searches,
         "",
