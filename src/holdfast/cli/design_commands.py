@@ -55,6 +55,7 @@ def design(
     poses: Annotated[int, typer.Option("--poses", help="Poses on which designs are compared.")] = 256,
     designs: Annotated[int, typer.Option("--designs", help="Designs spread over the bounds that are tried first.")] = 512,
     climbs: Annotated[int, typer.Option("--climbs", help="Climbs with exact gradients from the best of them.")] = 8,
+    fresh: Annotated[int, typer.Option("--fresh", help="Poses of the final check, which no choice was made on.")] = 2000,
     seed: SeedOption = 0,
     out: Annotated[
         Path | None,
@@ -95,6 +96,7 @@ def design(
             poses=poses,
             designs=designs,
             climbs=climbs,
+            fresh=fresh,
             seed=seed,
             store=out,
             progress=progress,

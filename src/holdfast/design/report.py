@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from pathlib import Path
 
@@ -14,13 +15,14 @@ from holdfast.arm.table import text as table_text
 from holdfast.assess.rerun import failures_option, region_files, task_option
 from holdfast.assess.run import provenance
 from holdfast.design.pictures import arms_figure, front_figure
-from holdfast.design.search import Designs
+from holdfast.design.result import Checked, Designs
 from holdfast.design.space import DesignSpace, Parameter
 from holdfast.failures import failure_sets
+from holdfast.interval import Interval
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.report.words import as_given, counted, either, interval, number, percent
+from holdfast.report.words import article, as_given, counted, either, number, percent
 
 Array = NDArray[np.float64]
 
@@ -58,7 +60,7 @@ def build(designs: Designs) -> Page:
     sections = [
         Section("", _remarks(d)),
         Section("What to build", [_parameters(d)]),
-        Section("Before and after", _arms(d)),
+        Section("Before and after", [] if d.best_is_start else _arms(d)),
         Section("What is guaranteed against how far the arm reaches", _front(d)),
         Section("How the index is distributed, before and after", _distributions(d)),
         Section("The best arm as a file", _file(d)),
@@ -76,7 +78,7 @@ def build(designs: Designs) -> Page:
 def headline(d: Designs) -> str:
     """The answer in one or two sentences."""
     given, best = d.checked.given, d.checked.best
-    name, share = d.index.name, percent(d.level)
+    name, share = d.index.name, _share(d.level)
     if not best.guaranteed.value > 0:
         return (
             f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses are "
@@ -85,16 +87,32 @@ def headline(d: Designs) -> str:
     if d.best_is_start:
         return (
             f"Nothing better than the given arm was found: for {share} of the poses of the region its {name} is at least "
-            f"{interval(given.guaranteed)} whichever joint locks."
+            f"{_interval(given.guaranteed)}, {_failures(d)}."
         )
     reaches = f"The reach goes from {d.start_reach:.3f} m to {d.reach[d.best]:.3f} m."
     return (
-        f"For {share} of the poses of the region the best design keeps a worst-case {name} of at least "
-        f"{interval(best.guaranteed)}; the given arm {interval(given.guaranteed)}. {reaches}"
+        f"For {share} of the poses of the region the best design keeps {article(name)} {name} of at least "
+        f"{_interval(best.guaranteed)}, {_failures(d)}; the given arm {_interval(given.guaranteed)}. {reaches}"
     )
 
 
 # ---- what to build -------------------------------------------------------------------------------------------------------
+
+
+def _share(x: float) -> str:
+    """A share that somebody chose."""
+    return f"{100 * x:.4g} %"
+
+
+def _interval(p: Interval) -> str:
+    return f"{number(p.value)} ({number(p.low)} to {number(p.high)}, {100 * p.confidence:.4g} %)"
+
+
+def _failures(d: Designs) -> str:
+    sizes = {len(f) for f in d.index.failures}
+    if len(sizes) > 1 or len(d.index.failures) != math.comb(d.space.arm.n, min(sizes)):
+        return "after any of the failures considered"
+    return "whichever joint locks" if sizes == {1} else f"whichever {min(sizes)} joints lock together"
 
 
 def at_bound(p: Parameter, value: float) -> str:
@@ -172,14 +190,14 @@ def _arms(d: Designs) -> list[Block]:
 
 
 def _label(d: Designs) -> str:
-    return figures.plain(f"guaranteed {d.index.name} ({percent(d.level)} of the poses)")
+    return figures.plain(f"guaranteed {d.index.name} ({_share(d.level)} of the poses)")
 
 
 def _front(d: Designs) -> list[Block]:
     start = (d.start_reach, d.start_guaranteed)
     figure = front_figure(d.reach, d.guaranteed, d.front.tolist(), d.best, start, _label(d), d.index.bound)
     text = (
-        f"Guaranteed: the worst-case {d.index.name} that {percent(d.level)} of the {counted(d.poses, 'pose')} of the search "
+        f"Guaranteed: the worst-case {d.index.name} that {_share(d.level)} of the {counted(d.poses, 'pose')} of the search "
         "have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: the largest distance of "
         "the tool point from the base frame's origin within the joint limits. These are the poses on which designs were "
         "chosen; see below for fresh ones."
@@ -231,13 +249,13 @@ def _distributions(d: Designs) -> list[Block]:
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (
         f"{samples:,} fresh poses of the region, which had no part in the search, each at its best configuration; a pose that "
-        f"is not reached counts as 0. Where a curve crosses {percent(1 - d.level)} is the guaranteed value."
+        f"is not reached counts as 0. Where a curve crosses {_share(1 - d.level)} is the guaranteed value."
     )
     rows: list[list[Cell]] = [
-        [name, interval(c.guaranteed), number(float(c.distribution.quantile(0.5, reachable_only=False))), _reached(c)]
+        [name, _interval(c.guaranteed), number(float(c.distribution.quantile(0.5, reachable_only=False))), _reached(c)]
         for name, c in (("given arm", given), ("best design", best))
     ]
-    head = ["", f"guaranteed for {percent(d.level)} of the poses", "median", "poses reached"]
+    head = ["", f"guaranteed for {_share(d.level)} of the poses", "median", "poses reached"]
     honest = (
         f"On the {counted(d.poses, 'pose')} on which it was chosen the best design guarantees {number(seen)}; on fresh ones "
         f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is what choosing flatters."
@@ -249,7 +267,7 @@ def _distributions(d: Designs) -> list[Block]:
     ]
 
 
-def _reached(checked: object) -> str:
+def _reached(checked: Checked) -> str:
     return percent(1 - checked.distribution.unreached_share)
 
 
@@ -287,7 +305,7 @@ def command(d: Designs) -> tuple[str, str]:
     if d.index.failures != failure_sets(space.arm, "single"):
         words.append(f"--failures {shlex.quote(failures_option(space.arm, d.index.failures))}")
     words += [f"--level {as_given(d.level)}", f"--poses {d.poses}", f"--designs {d.screened}", f"--climbs {d.climbs}"]
-    words.append(f"--seed {d.seed}")
+    words += [f"--fresh {d.checked.best.distribution.samples}", f"--seed {d.seed}"]
     lines = [f"holdfast design {shlex.quote(spec)}"]
     for word in words:
         if len(lines[-1]) + len(word) > 90:
@@ -317,7 +335,7 @@ def _method(d: Designs) -> list[Block]:
         ("Region", f"{d.region.name}: {d.region.describe()}; the same for all designs"),
         (
             "Guaranteed",
-            f"the {percent(1 - d.level)} quantile, over the poses of the region, of the index at the best configuration of "
+            f"the {_share(1 - d.level)} quantile, over the poses of the region, of the index at the best configuration of "
             "each pose; a pose that is not reached counts as 0",
         ),
         *d.method,

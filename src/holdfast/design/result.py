@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +15,10 @@ from holdfast.arm.model import Arm
 from holdfast.assess.distribution import Distribution
 from holdfast.assess.region import Region
 from holdfast.design.space import DesignSpace
+from holdfast.errors import StoreError
 from holdfast.indices import Index
 from holdfast.interval import Interval
+from holdfast.whole_file import replaced
 
 Array = NDArray[np.float64]
 
@@ -104,3 +110,91 @@ class Designs:
     def arm(self, number: int | None = None) -> Arm:
         """The arm of a design; the best one if no number is given."""
         return self.space.arm_of(self.values[self.best if number is None else number])
+
+    # ---- out -------------------------------------------------------------------------------------------------------
+
+    def report(self, path: str | Path) -> Path:
+        """Write one HTML file that needs nothing else: what to build, what that gains, and what it costs in reach.
+
+        Raises:
+            StoreError: The file cannot be written; what was there is as it was.
+        """
+        from holdfast.design.report import write
+
+        return write(self, path)
+
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write ``report.html``, ``best-arm.yaml``, ``designs.csv`` and, for what comes next, ``region.yaml`` into a folder.
+
+        Returns:
+            The files.
+
+        Raises:
+            StoreError: A file cannot be written.
+        """
+        from holdfast.assess.rerun import region_file
+        from holdfast.design.report import ARM_FILE, arm_file
+
+        place = Path(folder)
+        texts = {ARM_FILE: arm_file(self), "designs.csv": self._table()}
+        if self.region.storable:
+            texts["region.yaml"] = region_file(self.region) + "\n"
+            if self.region.listed is not None:
+                texts["poses.csv"] = self.region.listed.table()
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+            for name, text in texts.items():
+                replaced(place / name, text)
+        except OSError as error:
+            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        return [self.report(place / "report.html"), *(place / name for name in texts)]
+
+    def _table(self) -> str:
+        """All designs as CSV, rad and m."""
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        names = [f"{p.name} ({p.unit})" for p in self.space.parameters]
+        writer.writerow(["design", *names, "guaranteed", "reach (m)", "reached", "on the front"])
+        front = set(self.front.tolist())
+        columns = (self.guaranteed, self.reach, self.reached)
+        for k, values in enumerate(self.values.tolist()):
+            writer.writerow([k, *values, *(float(c[k]) for c in columns), int(k in front)])
+        return out.getvalue()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer as JSON types, rad and m."""
+
+        def arm(number: int, checked: Checked) -> dict[str, Any]:
+            g = checked.guaranteed
+            return {
+                "values": dict(zip(self.space.names, self.values[number].tolist(), strict=True)),
+                "guaranteed_in_search": float(self.guaranteed[number]),
+                "guaranteed": {"value": g.value, "low": g.low, "high": g.high, "confidence": g.confidence},
+                "median": float(checked.distribution.quantile(0.5, reachable_only=False)),
+                "reached": 1 - checked.distribution.unreached_share,
+                "reach": float(self.reach[number]),
+            }
+
+        return {
+            "arm": self.space.arm.name,
+            "index": self.index.slug,
+            "task": self.index.task.name,
+            "region": self.region.name,
+            "level": self.level,
+            "bound": self.index.bound,
+            "poses": self.poses,
+            "fresh_poses": self.checked.best.distribution.samples,
+            "designs": len(self.values),
+            "given": arm(0, self.checked.given),
+            "best": arm(self.best, self.checked.best),
+            "optimism": self.checked.optimism,
+            "front": [
+                {
+                    "reach": float(self.reach[k]),
+                    "guaranteed": float(self.guaranteed[k]),
+                    "values": dict(zip(self.space.names, self.values[k].tolist(), strict=True)),
+                }
+                for k in self.front.tolist()
+            ],
+            "seed": self.seed,
+        }

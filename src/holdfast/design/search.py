@@ -36,6 +36,7 @@ _NEGLIGIBLE = 1e-7  # share of a pose in the smooth quantile below which its gra
 _ITERATIONS = 30  # of a climb
 _TRAIL = 12  # designs of a climb that the next ones may begin from
 _CLIMB_FRESH = 2  # random starts of each pose in every step of a climb
+_SAME = 1e-6  # of the index: no gain that anybody would build an arm for
 _CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
 
 
@@ -153,6 +154,8 @@ def design(
     merged = {name: np.concatenate([deep[name][:1], table[name][1:], deep[name][1:]]) for name in table}
     every = np.concatenate([values, ended[1:]])
     best = int(np.lexsort((merged["smooth"], merged["guaranteed"]))[-1])
+    if merged["guaranteed"][best] <= merged["guaranteed"][0] + _SAME:
+        best = 0  # what is there already
     checks = part("check", lambda: search.fresh(every[[0, best]], fresh))
     given, chosen = (_checked(checks["value"][i], checks["reached"][i], checks["weights"], level) for i in (0, 1))
     return Designs(
@@ -187,9 +190,15 @@ def pareto(reach: Array, value: Array) -> NDArray[np.intp]:
     return np.array(front[::-1], dtype=np.intp)
 
 
-def region_poses(region: Region, count: int, seed: int) -> Array:
-    """The poses (P, 4, 4) on which designs are compared: low-discrepancy points where the region is a box, else random ones."""
-    return _drawn(region, count, seed, "sobol" if region.kind == "box" else "random")[0]
+def region_poses(region: Region, count: int, seed: int) -> tuple[Array, Array | None]:
+    """The poses (P, 4, 4) on which designs are compared, and their weights (P,), or None if all count alike.
+
+    Low-discrepancy points where the region is a box, else random ones.
+
+    Raises:
+        InputError: A region of joints.
+    """
+    return _drawn(region, count, seed, "sobol" if region.kind == "box" else "random")
 
 
 def _drawn(region: Region, count: int, seed: int, sampling: Any) -> tuple[Array, Array | None]:
@@ -255,7 +264,7 @@ class _Search:
 
     def __init__(self, family: Family, region: Region, level: float, poses: int, seed: int) -> None:
         self.family, self.region, self.level, self.seed = family, region, level, seed
-        drawn, self._weights = _drawn(region, poses, seed, "sobol" if region.kind == "box" else "random")
+        drawn, self._weights = region_poses(region, poses, seed)
         self.evaluator = Evaluator(family, drawn, seed)
         self._reaches = Reaches(family, seed)
         self._near: Evaluated | None = None

@@ -14,11 +14,13 @@ from holdfast.assess.region import Region
 from holdfast.design import DesignSpace, Parameter
 from holdfast.design.evaluate import Evaluator
 from holdfast.design.family import Family
+from holdfast.design.quantile import guaranteed
 from holdfast.design.reach import Reaches
-from holdfast.design.search import guaranteed, region_poses
+from holdfast.design.search import region_poses
 from holdfast.studies.process import ready, shared
 from holdfast.study import Chunk, Column
 
+Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 
@@ -27,7 +29,7 @@ def space_of(plan: dict[str, Any]) -> DesignSpace:
     return DesignSpace(from_dict(plan["arm"]), tuple(Parameter(*p) for p in plan["vary"]))
 
 
-def designs_of(space: DesignSpace, count: int, seed: int) -> NDArray[np.float64]:
+def designs_of(space: DesignSpace, count: int, seed: int) -> Array:
     """(count, k): the given arm first."""
     return np.concatenate([space.start[None], space.draw(count, seed)])[:count]
 
@@ -51,13 +53,14 @@ class DesignJob:
         """See :class:`holdfast.study.Job`."""
         ready(self, self._made, alone)
 
-    def _made(self) -> tuple[Evaluator, Reaches, NDArray[np.float64]]:
+    def _made(self) -> tuple[Evaluator, Reaches, Array, Array | None]:
         p = self.plan
         space, t = space_of(p), p["task"]
         task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
         family = Family(space, p["index"], task, [list(f) for f in p["failures"]])
-        poses = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
-        return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs_of(space, self.rows, p["seed"])
+        poses, weights = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
+        designs = designs_of(space, self.rows, p["seed"])
+        return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs, weights
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
@@ -73,13 +76,13 @@ class DesignJob:
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        evaluate, reaches, designs = shared(self, self._made)
+        evaluate, reaches, designs, weights = shared(self, self._made)
         values = designs[chunk.start : chunk.stop]
         found = evaluate(values)
         return {
             "design": values,
-            "guaranteed": guaranteed(found.value, self.plan["level"]),
-            "median": np.median(found.value, axis=1),
-            "reached": found.reached.mean(axis=1),
+            "guaranteed": guaranteed(found.value, self.plan["level"], weights),
+            "median": guaranteed(found.value, 0.5, weights),
+            "reached": np.average(found.reached, axis=1, weights=weights),
             "reach": reaches(values, evaluate.finite_limits(values))[0],
         }

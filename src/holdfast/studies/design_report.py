@@ -24,7 +24,7 @@ _MOST = 8  # designs of the front in the table
 def sentence(s: Swept) -> str:
     """The answer in one sentence."""
     best = int(s.guaranteed.argmax())
-    share = percent(s.plan["level"])
+    share = _share(s)
     text = (
         f"Of {counted(len(s.values), 'design')} of {s.labels['arm']} the best one guarantees a {s.labels['index']} of "
         f"{number(float(s.guaranteed[best]))} for {share} of the poses"
@@ -38,12 +38,12 @@ def sweep(s: Swept, place: int) -> list[Block]:
     factors = np.array([p.shown[0] for p in space.parameters])
     shown = s.values * factors
     names = [f"{p.name}, {p.shown[1]}" for p in space.parameters]
-    label = figures.plain(f"guaranteed {s.labels['index']} ({percent(s.plan['level'])} of the poses)")
+    label = figures.plain(f"guaranteed {s.labels['index']} ({_share(s)} of the poses)")
     best, front = int(s.guaranteed.argmax()), pareto(s.reach, s.guaranteed)
     start = None if s.start is None else (float(s.reach[s.start]), float(s.guaranteed[s.start]))
     figure = front_figure(s.reach, s.guaranteed, front.tolist(), best, start, label, _bound(s))
     text = (
-        f"Guaranteed: the worst-case {s.labels['index']} that {percent(s.plan['level'])} of {s.plan['poses']:,} poses of the "
+        f"Guaranteed: the worst-case {s.labels['index']} that {_share(s)} of {s.plan['poses']:,} poses of the "
         f"{s.labels['region']} have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: "
         "the largest distance of the tool point from the base within the joint limits."
     )
@@ -77,6 +77,10 @@ def sweep(s: Swept, place: int) -> list[Block]:
         Table(rows, head, numbers, caption=caption, wide=True),
         Text(flattered, quiet=True),
     ]
+
+
+def _share(s: Swept) -> str:
+    return f"{100 * s.plan['level']:.4g} %"
 
 
 def _told(values: Array, s: Swept, factor: float) -> tuple[str, str]:

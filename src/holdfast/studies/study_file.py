@@ -274,6 +274,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     from holdfast.arm.serial import to_dict
     from holdfast.assess.region import Region, default_region
     from holdfast.design import DesignSpace, parse_vary
+    from holdfast.design.search import region_poses
     from holdfast.indices import by_name
     from holdfast.studies.design_job import DesignJob
     from holdfast.written import read_failures, read_task
@@ -299,6 +300,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
                 f"assess.indices: {index} is better when smaller, and a guaranteed value must be larger; leave it out"
             )
         t, place = measure.task, default_region(spec, arm) if region == _DEFAULT else Region.load(folder / region)
+        region_poses(place, 1, 0)  # says if it has none
         plan: dict[str, Any] = {
             "kind": "designs",
             "arm": to_dict(arm),
