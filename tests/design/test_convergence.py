@@ -139,9 +139,13 @@ def test_sampled_search(tmp_path):
     assert found.checked is not None
     assert ((found.measures["arrival"] >= 0) & (found.measures["arrival"] <= found.measures["reached"] + 1e-12)).all()
     assert found.checked[1].low <= found.checked[1].value <= found.checked[1].high
-    text = found.save(tmp_path).read_text().splitlines()
+    table, best = found.save(tmp_path / "new")
+    text = table.read_text().splitlines()
     assert text[0] == "a2,a3,free,arrival,reached"
     assert len(text) == 1 + len(found.values)
+    q = np.array([0.3, -0.4, 0.9])
+    np.testing.assert_allclose(hf.arms.resolve(str(best)).forward_kinematics(q), found.arm().forward_kinematics(q), atol=1e-12)
+    assert found.to_dict()["fresh"]["best"]["value"] == found.checked[1].value
 
 
 @pytest.mark.parametrize(

@@ -26,6 +26,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.cli.progress import progress_bar
+from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.design import Designs
@@ -43,8 +44,24 @@ def design(
         ),
     ],
     maximise: Annotated[
-        str, typer.Option("--maximise", help="Index of which a quantile over the region is made as great as can be.")
+        str,
+        typer.Option(
+            "--maximise",
+            help="Index of which a quantile over the region is made as great as can be; or convergence: that the arm arrives "
+            "after a lock that its controller does not know of.",
+        ),
     ] = "relative-manipulability",
+    law: Annotated[
+        str | None,
+        typer.Option(
+            "--law",
+            help="With --maximise convergence: pseudoinverse (the default), damped:0.1, weighted:1,2,3, failure-tolerant:0.5.",
+            show_default=False,
+        ),
+    ] = None,
+    keep_reach: Annotated[
+        bool, typer.Option("--keep-reach", help="With --maximise convergence: link lengths keep their sum.")
+    ] = False,
     region: Annotated[
         Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
     ] = None,
@@ -83,6 +100,13 @@ def design(
         set_threads(threads)
     given = read_arm(arm, base, tip)
     space = design_space(given, vary)
+    if maximise == "convergence":
+        from holdfast.cli.design_convergence import converging
+
+        converging(space, read_task(task, arm, given), law, designs, climbs, keep_reach, seed, out, json_)
+        return
+    if law is not None or keep_reach:
+        raise InputError("--law and --keep-reach belong to --maximise convergence; leave them out")
     with progress_bar(json_, "designs") as progress:
         found = search(
             given,

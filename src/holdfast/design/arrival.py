@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 TIME_CONSTANTS, TOLERANCE = 500.0, 1e-8  # of a run, as in a convergence map
 NEAR = 1e-3  # m and rad: a run that creeps this near to its target has arrived
-_TRIES = 12  # random starts of inverse kinematics for each configuration that is wanted
+_TRIES = 40  # random starts of inverse kinematics for each configuration that is wanted
 
 
 @dataclass(frozen=True, eq=False)

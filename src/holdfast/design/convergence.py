@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +18,7 @@ from holdfast.design.design_joints import DesignJoints, LawOfDesigns
 from holdfast.design.pattern import Box, improved
 from holdfast.design.planar_rest import PlanarRest, Radial
 from holdfast.design.space import DesignSpace, Vary, design_space
-from holdfast.errors import InputError
+from holdfast.errors import InputError, StoreError
 from holdfast.interval import Difference, Interval
 
 Array = NDArray[np.float64]
@@ -94,20 +94,52 @@ class ConvergenceDesigns:
             )
         return lines
 
-    def save(self, folder: str | Path) -> Path:
-        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares).
+    def to_dict(self) -> dict[str, Any]:
+        """What was found, as JSON takes it: rad, m and shares."""
+
+        def one(k: int) -> dict[str, Any]:
+            values = dict(zip(self.space.names, self.values[k].tolist(), strict=True))
+            return {"values": values, **{name: float(m[k]) for name, m in self.measures.items()}}
+
+        out: dict[str, Any] = {
+            "arm": self.law.arm.name,
+            "law": self.law.label,
+            "task": self.law.task.name,
+            "objective": self.objective,
+            "exact": self.exact,
+            "designs": len(self.values),
+            "given": one(0),
+            "best": one(self.best),
+        }
+        if self.checked is not None:
+            names = ("given", "best", "difference")
+            out["fresh"] = {
+                n: {"value": x.value, "low": x.low, "high": x.high} for n, x in zip(names, self.checked, strict=True)
+            }
+        return out
+
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), and ``best-arm.yaml``.
 
         Raises:
             StoreError: The folder cannot be written.
         """
+        from holdfast.arm.table import text
         from holdfast.whole_file import replaced
 
         lines = [",".join((*self.space.names, *self.measures))]
         columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
         lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        path = Path(folder) / "designs.csv"
-        replaced(path, "\n".join(lines) + "\n")
-        return path
+        arm = self.arm()
+        best = text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
+        files = [Path(folder) / "designs.csv", Path(folder) / "best-arm.yaml"]
+        try:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            for path, content in zip(files, ("\n".join(lines) + "\n", best), strict=True):
+                replaced(path, content)
+        except OSError as error:
+            raise StoreError(f"folder '{folder}' cannot be written: {error.strerror or error}") from error
+        return files
 
 
 def design_for_convergence(

@@ -70,7 +70,7 @@ class Designs:
         screened: Designs spread over the space.
         climbs: Climbs from the best of them.
         seed: Of everything random.
-        seconds: Time it took, or None where it went on from a folder.
+        seconds: Time this call took; less than the search where it went on from a folder. None if not known.
         method: How it was computed, for reports: words and texts.
     """
 

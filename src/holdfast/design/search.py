@@ -267,19 +267,24 @@ class _Search:
         drawn, self._weights = region_poses(region, poses, seed)
         self.evaluator = Evaluator(family, drawn, seed)
         self._reaches = Reaches(family, seed)
-        self._near: Evaluated | None = None
+        self._begin: Array | None = None
         self._first: Evaluated | None = None
 
     def begin_near(self, values: Array) -> None:
         """Later designs begin from the configurations of these."""
-        if self._first is None:  # remembered from a folder, which does not hold configurations
-            self._first = self.evaluator(values)
-        self._near = self._first
+        self._begin = values
+
+    @property
+    def _near(self) -> Evaluated | None:
+        """The designs from which others begin; computed once more where a folder, which holds no configurations, went on."""
+        if self._first is None and self._begin is not None:
+            self._first = self.evaluator(self._begin)
+        return None if self._begin is None else self._first
 
     def screened(self, values: Array) -> Parts:
         """What designs are worth."""
         found = self.evaluator(values, self._near)
-        if self._near is None:
+        if self._begin is None:
             self._first = found
         return self._facts(found)
 

@@ -62,7 +62,7 @@ class _Designs(Strict):
     tip: str | None = None
     vary: Annotated[dict[str, str], Field(min_length=1), BeforeValidator(_bounds)]
     designs: _Count
-    chunk: _Count = 32
+    chunk: _Count = 64
     level: Annotated[Number, Field(gt=0, lt=1)] = 0.95
 
 
@@ -281,9 +281,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
 
     block = model.assess
     if block is None:
-        raise InputError(
-            f"arms: designs of '{given.arm}' are assessed and there is no assess block; give one (as 'assess: {{}}')"
-        )
+        raise InputError(f"arms: there is no assess block for the designs of '{given.arm}'; give one (as 'assess: {{}}')")
     for name in ("convergence", "workspace", "bank"):
         if getattr(model, name) is not None:
             raise InputError(f"arms: designs of '{given.arm}' cannot be swept in {name}; give that block in a file of its own")
