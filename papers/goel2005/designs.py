@@ -229,7 +229,7 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "shorter the first link is, the more locks leave targets within reach.",
         "- It is a knife's edge: the second figure shows how much a difference of the two costs. Single angles of "
         "no width still "
-        "slow the arm nearby: runs of designs with equal links that were slow stood beside one.",
+        "slow the arm nearby.",
         "- Damping makes sinks of the singular traps, and fewer of them. Where the difference of links 2 and 3 is "
         "just the first "
         "link, that is where one of them is half of the reach, it leaves next to none.",
