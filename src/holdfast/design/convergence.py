@@ -112,10 +112,9 @@ class ConvergenceDesigns:
             "best": one(self.best),
         }
         if self.checked is not None:
-            names = ("given", "best", "difference")
-            out["fresh"] = {
-                n: {"value": x.value, "low": x.low, "high": x.high} for n, x in zip(names, self.checked, strict=True)
-            }
+            given, best, apart = self.checked
+            named: dict[str, Interval | Difference] = {"given": given, "best": best, "difference": apart}
+            out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
         return out
 
     def save(self, folder: str | Path) -> list[Path]:
@@ -229,7 +228,7 @@ def _rings(rest: PlanarRest, targets: ArrayLike | int | None) -> Array:
             f"targets are {np.array2string(ends, precision=4)}; give the least and the greatest distance from the first "
             "joint, m"
         )
-    return np.linspace(*ends, RINGS + 1)
+    return np.asarray(np.linspace(float(ends[0]), float(ends[1]), RINGS + 1))
 
 
 def _lengths(rest: PlanarRest, space: DesignSpace, values: Array) -> Array:

@@ -338,7 +338,7 @@ class _Shapes:
         design = np.broadcast_to(np.arange(len(far))[:, None, None, None], both.shape)
         np.add.at(edges, (design[both], first[both]), 1)
         np.add.at(edges, (design[both], last[both] + 1), -1)
-        covered = (np.cumsum(edges, axis=1) > 0.5).reshape(len(far), 5, cells).any(axis=1)
+        covered: Flags = np.asarray((np.cumsum(edges, axis=1) > 0.5).reshape(len(far), 5, cells).any(axis=1))
         return np.asarray(covered | covered[:, ::-1])  # with the mirror image
 
     def touched(self, radii: Array) -> Flags:
