@@ -80,23 +80,23 @@ def validated(rest: PlanarRest, lengths: Array, seed: int) -> Validation:
             # The mirror image of a failure is another one; joint 1 has both halves already.
             sign = generator.choice((1, -1)) if joint else 1
             rows.append((float(middle[ring]), joint, float(sign * at[k]), bool(held[k])))
-    r, joint, at, held = (np.repeat([row[i] for row in rows], STARTS) for i in range(4))
-    joint, q = joint.astype(np.int64), generator.uniform(-np.pi, np.pi, (len(r), 3))
-    q[np.arange(len(r)), joint] = at
+    r, failed_joint, angle, risk = (np.repeat([row[i] for row in rows], STARTS) for i in range(4))
+    which, q = failed_joint.astype(np.int64), generator.uniform(-np.pi, np.pi, (len(r), 3))
+    q[np.arange(len(r)), which] = angle
     runs = hf.simulate(
         LawOfDesigns(rest.law, joints()),
         joints().configurations(lengths, q),
         np.column_stack([r, np.zeros(len(r))]),
-        locked=joints().moving[joint],
+        locked=joints().moving[which],
         time_limit=2000.0,
         tolerance=1e-8,
     )
     arrived = (runs.code == 0) | (runs.error < NEAR)
     lost = ~arrived & (runs.code == 3) & np.isin(runs.reason, (1, 3))
     kinds = np.select([arrived, runs.code == 1, runs.code == 2, lost], [0, 1, 2, 3], 4)
-    counts = [tuple(np.bincount(kinds[held == h], minlength=5).tolist()) for h in (0, 1)]
+    counts = [tuple(np.bincount(kinds[risk == h], minlength=5).tolist()) for h in (0, 1)]
     failed = ~arrived.reshape(-1, STARTS).all(axis=1)
-    risky = held.reshape(-1, STARTS)[:, 0] > 0
+    risky = risk.reshape(-1, STARTS)[:, 0] > 0
     return Validation(lengths, counts[0], counts[1], (int(risky.sum()), int((failed & risky).sum())))
 
 
