@@ -24,6 +24,7 @@ from holdfast.converge import (
     tolerant_workspace,
     workspace,
 )
+from holdfast.design import ConvergenceDesigns, Designs, DesignSpace, design, design_for_convergence
 from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.kernels import set_threads
@@ -55,7 +56,10 @@ __all__ = [
     "Capsules",
     "Clearance",
     "Comparison",
+    "ConvergenceDesigns",
     "ConvergenceMap",
+    "DesignSpace",
+    "Designs",
     "FreeSwing",
     "HoldfastError",
     "InputError",
@@ -89,6 +93,8 @@ __all__ = [
     "compare_laws",
     "control",
     "convergence_map",
+    "design",
+    "design_for_convergence",
     "follow",
     "free_swing",
     "indices",

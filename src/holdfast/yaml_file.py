@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any, get_args
 
 import yaml
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Tag, ValidationError
 
 from holdfast.errors import InputError
 
@@ -75,11 +75,12 @@ def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[st
     problems = error.errors()
     first = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
     trail = tuple(x for x in first["loc"] if x not in tags)
+    where = first["loc"]
     place = "".join(f"[{x}]" if isinstance(x, int) else f".{x}" for x in trail).lstrip(".")
     given = repr(first["input"])
     match first["type"]:
         case "extra_forbidden":
-            return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(model, trail))}"
+            return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(model, where))}"
         case "missing":
             return f"{place}: it is missing; it must be given"
         case "literal_error":
@@ -98,13 +99,24 @@ def _length(context: dict[str, Any]) -> str:
 
 
 def _keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
-    """The keys of the block that the last entry of a trail stands in."""
+    """The keys of the block that the last entry of a trail, tags of alternatives included, stands in."""
+    annotation: Any = None
     for step in trail[:-1]:
         if isinstance(step, str):
             field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
-            if field is not None:  # else a key that people choose, as the name of a link
-                model = next(_blocks(field.annotation))
+            if field is not None:  # else a tag, or a key that people choose, as the name of a link
+                annotation = field.annotation
+                model = next(_blocks(annotation))
+            else:
+                model = next(_blocks(_tagged(annotation, step)), model)
     return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def _tagged(annotation: Any, tag: str) -> Any:
+    """The alternative with a tag, or nothing."""
+    if any(isinstance(x, Tag) and x.tag == tag for x in getattr(annotation, "__metadata__", ())):
+        return annotation
+    return next((found for part in get_args(annotation) if (found := _tagged(part, tag)) is not None), None)
 
 
 def _blocks(annotation: Any) -> Iterator[type[BaseModel]]:

@@ -252,7 +252,7 @@ def test_command_line() -> None:
 def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
     for task in (*("pose", "pointing", "position"), rows_task(["vz", "vx", "wy"], "tool"), rows_task(["vx"])):
         t = as_task(NINE, task)
-        option = rerun._task_option(NINE, t)
+        option = rerun.task_option(NINE, t)
         again = as_task(NINE, read_task(option, "pa10-9dof", NINE))
         assert (again.name, again.frame, again.rows.tolist()) == (t.name, t.frame, t.rows.tolist())
     # Names that the option's own signs are in, and a name that is a number.
@@ -261,7 +261,7 @@ def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
         arm = replace(NINE, joints=joints, links=())
         for failures in ("single", "pairs", 3, [[0]], [[1], [0, 2]]):
             sets = failure_sets(arm, failures)
-            assert failure_sets(arm, read_failures(arm, rerun._failures_option(arm, sets))) == sets
+            assert failure_sets(arm, read_failures(arm, rerun.failures_option(arm, sets))) == sets
 
 
 @pytest.mark.parametrize("name", hf.arms.names())

@@ -1,7 +1,7 @@
 """Symbolic kinematics of a serial arm: the equations, written once.
 
 Everything here takes and returns CasADi ``SX``; the fixed geometry enters as exact numbers, so terms that vanish for
-an arm vanish from its code.
+an arm vanish from its code. Where the geometry itself is to vary (:mod:`holdfast.design`), symbols stand in its place.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ def invariant_jacobian(arm: Arm, q: SX) -> SX:
     for frame in range(arm.n + 1):
         c = chain(arm, q, frame, steps)
         j = ca.sparsify(jacobian_of(arm, c, ca.SX(3, 1)))
-        cost = (j.nnz(), ca.Function("cost", [q], [j]).n_instructions())
+        cost = (j.nnz(), ca.Function("cost", [q], [j], {"allow_free": True}).n_instructions())
         if best is None or cost < best[0]:
             best = cost, j
     return best[1]
@@ -148,9 +148,16 @@ def constant(a: Array) -> SX:
     return ca.sparsify(ca.SX(ca.DM(a)))
 
 
-def split(transform: Array) -> Frame:
-    """Rotation (3, 3) and position (3,) of a constant transform (4, 4)."""
+def split(transform: Array | SX) -> Frame:
+    """Rotation (3, 3) and position (3,) of a constant transform (4, 4), in numbers or in symbols."""
+    if isinstance(transform, ca.SX):
+        return transform[:3, :3], transform[:3, 3]
     return constant(transform[:3, :3]), constant(transform[:3, 3])
+
+
+def limited(limit: float | SX) -> bool:
+    """True if there is a limit: a finite number, or a symbol."""
+    return isinstance(limit, ca.SX) or bool(np.isfinite(limit))
 
 
 def compose(a: Frame, b: Frame) -> Frame:

@@ -30,10 +30,12 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+import yaml
+from numpy.typing import ArrayLike, NDArray
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.arm.dh import DH
+from holdfast.arm.dh_table import DHTable
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import ArmError, InputError
@@ -61,6 +63,60 @@ def load(path: str | Path) -> Arm:
         raise ArmError(f"{path.name}: {sentence(error, _Table, TAGS)}") from error
     except (ArmError, InputError) as error:
         raise ArmError(f"{path.name}: {error}") from error
+
+
+def text(table: DHTable, name: str, gravity: ArrayLike = GRAVITY, source: str = "") -> str:
+    """A table as a file in the format of this module, in m and degrees; masses are not in it.
+
+    Args:
+        table: The rows with their limits, the base and the tool.
+        name: Of the arm.
+        gravity: (3,) in the world, m/s^2.
+        source: Where the numbers come from.
+
+    Returns:
+        YAML. What :func:`load` reads from it has the numbers of the table to 1e-14.
+    """
+    lines = [f"name: {_scalar(name)}", *([f"source: {_scalar(source)}"] if source else []), "angles: deg", "rows:"]
+    lines += [f"  - {{{', '.join(f'{key}: {_scalar(x)}' for key, x in _cells(row))}}}" for row in table.rows]
+    for key, pose in (("base", table.base), ("tool", table.tool)):
+        if not np.array_equal(pose, np.eye(4)):
+            lines += [f"{key}:", *[f"  - [{', '.join(_scalar(x) for x in line)}]" for line in (pose + 0.0).tolist()]]
+    if not np.array_equal(gravity, GRAVITY):
+        lines.append(f"gravity: [{', '.join(_scalar(float(x)) for x in np.asarray(gravity))}]")
+    return "\n".join(lines) + "\n"
+
+
+def _cells(row: DH) -> list[tuple[str, str | float]]:
+    """What a row says in m and degrees, without what it need not say."""
+    cells: list[tuple[str, str | float]] = [("a", row.a), ("alpha", _degrees(row.alpha))]
+    cells += [("d", row.d)] * (row.d != 0) + [("theta", _degrees(row.theta))] * (row.theta != 0)
+    sliding = row.type == "prismatic"
+    if sliding:
+        cells.append(("type", row.type))
+    for key in ("lower", "upper", "velocity"):
+        value = getattr(row, key)
+        if value is not None:
+            cells.append((key, value if sliding else _degrees(value)))
+    cells += [("effort", row.effort)] if row.effort is not None else []
+    cells += [(key, getattr(row, key)) for key in ("friction", "armature") if getattr(row, key)]
+    return [*cells, ("name", row.name)] if row.name else cells
+
+
+def _degrees(angle: float) -> float:
+    exact = float(np.rad2deg(angle))
+    near = round(exact, 10)
+    return near if abs(np.deg2rad(near) - angle) < 1e-15 else exact
+
+
+def _scalar(value: str | float) -> str:
+    """One YAML value; numbers that are whole without their point."""
+    if isinstance(value, str):
+        listed: str = yaml.safe_dump([value], default_flow_style=True, width=10_000, allow_unicode=True)
+        return listed.strip()[1:-1]  # as it stands between braces
+    near = round(value, 13)
+    value = near if abs(value - near) < 1e-15 else value
+    return f"{value:.0f}" if value == round(value) and abs(value) < 1e15 else repr(float(value))
 
 
 # ---- the format --------------------------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         return None, "The region has a function of your own, so no command line makes this run again; keep the script."
     if index.slug not in BY_NAME:
         return None, "The index is a function of your own, so no command line makes this run again; keep the script."
-    asked = _task_option(a.arm, task)
+    asked = task_option(a.arm, task)
     if asked is None:
         return None, "The task is of your own making, so no command line makes this run again; keep the script."
     remark = ""
@@ -54,7 +54,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     if task.length != 1.0:
         options["length"] = repr(task.length)
     if index.failures != failure_sets(a.arm, "single"):
-        options["failures"] = _failures_option(a.arm, index.failures)
+        options["failures"] = failures_option(a.arm, index.failures)
     options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
     if a.region.kind != "joints":
         options["restarts"] = str(a.restarts)
@@ -97,7 +97,7 @@ def capsule_files(a: Assessment) -> list[Block]:
     return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(_CAPSULES_FILE))]
 
 
-def _task_option(arm: Arm, task: Task) -> str | None:
+def task_option(arm: Arm, task: Task) -> str | None:
     """What ``--task`` says for a task, if it can."""
     if task.name in NAMES:
         standard = as_task(arm, task.name, task.length)
@@ -106,7 +106,7 @@ def _task_option(arm: Arm, task: Task) -> str | None:
     return f"{task.frame}:{','.join(ROWS[k] for k in picked)}" if np.array_equal(np.eye(6)[picked], task.rows) else None
 
 
-def _failures_option(arm: Arm, failures: FailureSets) -> str:
+def failures_option(arm: Arm, failures: FailureSets) -> str:
     """What ``--failures`` says: how many joints fail together, or the sets."""
     size = len(failures[0])
     if size < arm.n and failures == failure_sets(arm, size):

@@ -13,6 +13,7 @@ from holdfast.cli import (
     assess_commands,
     compare_commands,
     configure_commands,
+    design_commands,
     export_commands,
     follow_commands,
     index_commands,
@@ -64,6 +65,7 @@ index_commands.add(app)
 susceptibility_commands.add(app)
 configure_commands.add(app)
 assess_commands.add(app)
+design_commands.add(app)
 follow_commands.add(app)
 swing_commands.add(app)
 simulate_commands.add(app)

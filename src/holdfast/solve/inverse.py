@@ -61,7 +61,7 @@ class Reach:
 def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
     """World-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest turn, also near 180 degrees."""
     r = target_rotation @ rotation.T
-    skew = 0.5 * ca.vertcat(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])  # axis sin(angle)
+    skew = _skew_part(r)
     sine, cosine = ca.sqrt(ca.sumsqr(skew)), 0.5 * (r[0, 0] + r[1, 1] + r[2, 2] - 1)
     angle = ca.atan2(sine, cosine)
     factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
@@ -85,10 +85,18 @@ def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) 
     return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
 
 
+def _skew_part(r: SX) -> SX:
+    """Axis times the sine of the angle of a rotation."""
+    return 0.5 * ca.vertcat(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])
+
+
 def hand_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
     """World-frame error (6,) of the hand, of which a task takes its rows: the shortest turn that a task asks for."""
-    free_spin = task.frame == "tool" and not np.any(task.rows[:, 5])
-    return (pointing_error if free_spin else pose_error)(position, rotation, target, target_rotation)
+    return (pointing_error if _free_spin(task) else pose_error)(position, rotation, target, target_rotation)
+
+
+def _free_spin(task: Task) -> bool:
+    return task.frame == "tool" and not np.any(task.rows[:, 5])
 
 
 def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
@@ -101,6 +109,16 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
     full = kinematics.jacobian_of(arm, chain, chain.position)
     j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
     return task.error(error, chain.rotation), j
+
+
+def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
+    """As the error of :func:`task_error`, with sines in place of angles: the same near 0, but with derivatives."""
+    chain = kinematics.chain(arm, q)
+    if _free_spin(task):
+        turn = ca.cross(chain.rotation[:, 2], target_rotation[:, 2])
+    else:
+        turn = _skew_part(target_rotation @ chain.rotation.T)
+    return task.error(ca.vertcat(target - chain.position, turn), chain.rotation)
 
 
 def _parameters(poses: Array) -> Array:
@@ -295,8 +313,8 @@ def damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
     active = []
     for k in range(n):
         # CasADi has no short way to say "at the lower limit and pulled below it".
-        low = ca.logic_and(q[k] <= arm.lower[k], pull[k] < 0) if np.isfinite(arm.lower[k]) else ca.SX(0)
-        high = ca.logic_and(q[k] >= arm.upper[k], pull[k] > 0) if np.isfinite(arm.upper[k]) else ca.SX(0)
+        low = ca.logic_and(q[k] <= arm.lower[k], pull[k] < 0) if kinematics.limited(arm.lower[k]) else ca.SX(0)
+        high = ca.logic_and(q[k] >= arm.upper[k], pull[k] > 0) if kinematics.limited(arm.upper[k]) else ca.SX(0)
         active.append(ca.if_else(ca.logic_or(low, high), 0.0, 1.0))
     masked = ca.horzcat(*[j[:, k] * active[k] for k in range(n)])
     step = damped_least_norm(masked, e, 1e-3 * size + 1e-12)
@@ -307,9 +325,9 @@ def clipped(arm: Arm, q: Sequence[SX]) -> SX:
     """Joint values (n,) brought back to the limits."""
     inside = []
     for x, low, high in zip(q, arm.lower, arm.upper, strict=True):
-        if np.isfinite(low):
+        if kinematics.limited(low):
             x = ca.if_else(x < low, low, x)
-        if np.isfinite(high):
+        if kinematics.limited(high):
             x = ca.if_else(x > high, high, x)
         inside.append(x)
     return ca.vertcat(*inside)

@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _MORE_WAVES = 7  # of random starts, for poses that fewer than half of a wave reached
-_FIRST_STEPS = 4  # of every start
-_LAST_STEPS = 12  # of the few that are kept
+FIRST_STEPS = 4  # of every start
+LAST_STEPS = 12  # of the few that are kept
 _KEPT = 4
-_RADIUS = 0.3  # first step along each null-space direction, rad or m
+RADIUS = 0.3  # first step along each null-space direction, rad or m
 _WIDEST = 0.6
 _BLOCK = 512  # poses worked on together by one thread; no result depends on it
 
@@ -83,6 +83,52 @@ class Optimum:
         return self
 
 
+def ascent_step(
+    objective: Objective, task: Task, clearance: Clearance | None = None, margin: float = 0.0
+) -> tuple[list[SX], SX]:
+    """One step of the ascent, of an arm whose geometry may be symbols.
+
+    Returns:
+        Symbols of the configuration (n,), the trust radius, the last step (n,) and the pose, position (3,) and rotation
+        (3, 3); the next three of them as one column.
+    """
+    arm = objective.arm
+    q = kinematics.joint_symbols(arm)
+    p, r, radius = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("radius")
+    last = ca.SX.sym("last", arm.n)
+    j = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
+    qr = householder(j)
+    rows = qr.null_rows()
+    free = arm.n - task.m
+    directions = [ca.vertcat(*[rows[k][c] for k in range(arm.n)]) for c in range(free)]
+    parts = objective.parts(q, j, qr, directions)
+    # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
+    e, full = task_error(arm, task, q, p, r)
+    back = damped_least_norm(full, e, 1e-12)
+    big = 1e3  # stands for no limit: far beyond any trust region
+    rows_kept: list[list[SX]] = []
+    room: list[tuple[SX, SX]] = []
+    for k, (low, high) in enumerate(zip(arm.lower, arm.upper, strict=True)):
+        if kinematics.limited(low) or kinematics.limited(high):
+            below = low - q[k] - back[k] if kinematics.limited(low) else ca.SX(-big)
+            above = high - q[k] - back[k] if kinematics.limited(high) else ca.SX(big)
+            rows_kept.append(rows[k])
+            room.append((below, above))
+    if clearance is not None and clearance.pairs:
+        gap, slope = clearance.smallest_with_slopes(q, directions)
+        rows_kept.append(slope)
+        room.append((margin - gap, ca.SX(big)))
+    z = maximin_step(parts, rows_kept, [below for below, _ in room], [above for _, above in room], radius)
+    move = [dot(rows[k], z) for k in range(arm.n)]
+    moved = clipped(arm, [q[k] + back[k] + move[k] for k in range(arm.n)])
+    # Steps that agree may grow; steps that turn back have passed the best point.
+    d = ca.vertcat(*move)
+    turn = ca.dot(d, last) / (ca.sqrt(ca.sumsqr(d) * ca.sumsqr(last)) + 1e-30)
+    next_radius = radius * ca.if_else(turn < 0, 0.5, ca.if_else(turn > 0.5, 1.3, 0.85))
+    next_radius = ca.if_else(next_radius > _WIDEST, _WIDEST, next_radius)
+    return [q, radius, last, p, r], ca.vertcat(moved, next_radius, d)
+
+
 class Ascent:
     """The compiled step of one objective: towards the best configuration, back onto the pose, within the limits.
 
@@ -96,45 +142,11 @@ class Ascent:
         self._step = self._compiled(None)
 
     def _compiled(self, clearance: Clearance | None) -> Kernel | None:
-        arm, task = self.arm, self.task
-        if arm.n <= task.m:
+        if self.arm.n <= self.task.m:
             return None
-        q = kinematics.joint_symbols(arm)
-        p, r, radius = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("radius")
-        last = ca.SX.sym("last", arm.n)
-        j = kinematics.invariant_jacobian(arm, q) if task.invariant else task.jacobian(arm, q)
-        qr = householder(j)
-        rows = qr.null_rows()
-        free = arm.n - task.m
-        directions = [ca.vertcat(*[rows[k][c] for k in range(arm.n)]) for c in range(free)]
-        parts = self.objective.parts(q, j, qr, directions)
-        # Back onto the pose, least norm. The step along the manifold leaves it only to second order.
-        e, full = task_error(arm, task, q, p, r)
-        back = damped_least_norm(full, e, 1e-12)
-        big = 1e3  # stands for no limit: far beyond any trust region
-        rows_kept: list[list[SX]] = []
-        room: list[tuple[SX, SX]] = []
-        for k, (low, high) in enumerate(zip(arm.lower, arm.upper, strict=True)):
-            if np.isfinite(low) or np.isfinite(high):
-                below = low - q[k] - back[k] if np.isfinite(low) else ca.SX(-big)
-                above = high - q[k] - back[k] if np.isfinite(high) else ca.SX(big)
-                rows_kept.append(rows[k])
-                room.append((below, above))
-        if clearance is not None and clearance.pairs:
-            gap, slope = clearance.smallest_with_slopes(q, directions)
-            rows_kept.append(slope)
-            room.append((self.margin - gap, ca.SX(big)))
-        z = maximin_step(parts, rows_kept, [below for below, _ in room], [above for _, above in room], radius)
-        move = [dot(rows[k], z) for k in range(arm.n)]
-        moved = clipped(arm, [q[k] + back[k] + move[k] for k in range(arm.n)])
-        # Steps that agree may grow; steps that turn back have passed the best point.
-        d = ca.vertcat(*move)
-        turn = ca.dot(d, last) / (ca.sqrt(ca.sumsqr(d) * ca.sumsqr(last)) + 1e-30)
-        next_radius = radius * ca.if_else(turn < 0, 0.5, ca.if_else(turn > 0.5, 1.3, 0.85))
-        next_radius = ca.if_else(next_radius > _WIDEST, _WIDEST, next_radius)
+        inputs, step = ascent_step(self.objective, self.task, clearance, self.margin)
         measured = self.objective.measured
-        inputs = [q, radius, last, p, r, *([] if measured is None else [measured])]
-        return Kernel(f"ascent of {self.objective.name}", inputs, [ca.vertcat(moved, next_radius, d)])
+        return Kernel(f"ascent of {self.objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
 
     @cached_property
     def _clear_step(self) -> Kernel | None:
@@ -146,7 +158,7 @@ class Ascent:
     ) -> tuple[Array, Array]:
         """Steps from q (N, n); returns where they led and the last trust radius."""
         n = self.arm.n
-        trust = np.full(len(q), _RADIUS) if radius is None else radius
+        trust = np.full(len(q), RADIUS) if radius is None else radius
         if step is None:
             return q, trust
         state = np.concatenate([q, trust[:, None], np.zeros_like(q)], axis=1)
@@ -172,10 +184,10 @@ class Ascent:
 
         The value is -inf where the end is not on its pose or, if asked, not clear.
         """
-        q, radius = self._climb(step, q, poses[owner], _FIRST_STEPS)
-        keep = _best_of_each(owner, self._oriented(q), _KEPT)
+        q, radius = self._climb(step, q, poses[owner], FIRST_STEPS)
+        keep = best_of_each(owner, self._oriented(q), _KEPT)
         owner, q, radius = owner[keep], q[keep], radius[keep]
-        q, _ = self._climb(step, q, poses[owner], _LAST_STEPS, radius)
+        q, _ = self._climb(step, q, poses[owner], LAST_STEPS, radius)
         # Far below the tolerance, so that the pose does not pay for the value.
         q, _ = self.engine.attempt(q, poses[owner], 1e-3 * tolerance)
         q = joint_space.wrapped(self.engine.arm, q)
@@ -239,7 +251,7 @@ class Ascent:
             found = np.bincount(owner, minlength=count)
 
             def choose(owner: NDArray[np.int64], q: Array, value: Array, chosen: NDArray[np.int64]) -> None:
-                top = _best_of_each(owner, value, 1)
+                top = best_of_each(owner, value, 1)
                 top = top[value[top] > best[owner[top]]]
                 best_q[owner[top]], best[owner[top]] = q[top], value[top]
                 scale = np.maximum(np.abs(best), np.abs(best - sign * start_value))
@@ -278,7 +290,7 @@ def default_starts(arm: Arm, task: Task) -> int:
     return 128 if arm.n - task.m <= 1 else 32
 
 
-def _best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[np.int64]:
+def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[np.int64]:
     """Positions of the ``most`` largest values of each owner, ordered by owner, then value."""
     order = np.lexsort((-value, owner))
     sorted_owner = owner[order]

@@ -17,6 +17,7 @@ from holdfast.report.outcomes import Stack, stack_figure
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
 from holdfast.report.words import as_given, counted, interval, number, percent
 from holdfast.studies import results
+from holdfast.studies.design_report import sentence, sweep
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.study_file import thresholds
 from holdfast.study import Study
@@ -49,7 +50,9 @@ def build(study: Study) -> Page:
     if done < total:
         missing = f"{done:,} of {total:,} chunks are there; give the same command again to go on."
         alerts.append(Callout(missing, "bad", "Not complete."))
+    sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
     sections = [
+        *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
         Section("Which joint is the worst to lose", _worst(found)),
@@ -61,7 +64,8 @@ def build(study: Study) -> Page:
     arms = list(dict.fromkeys(c["labels"]["arm"] for c in study.cells))
     return Page(
         study.name,
-        _headline(found, laws, asked),
+        " ".join([*([_headline(found, laws, asked)] if found or laws else []), *map(sentence, sweeps)])
+        or "What was computed, and how.",
         [s for s in sections if s.blocks],
         f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
         alerts,
@@ -114,7 +118,7 @@ def _headline(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key
             f"With a locked joint that nobody knows of, {top.labels['arm']} arrives most often, under {top.labels['law']}: "
             f"{interval(top.any)}."
         )
-    return " ".join(parts) or "What was computed, and how."
+    return " ".join(parts)
 
 
 def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> list[Block]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -221,6 +221,40 @@ def bank(study: Study, cell: int) -> Table | None:
         middle = float(np.median(cycles[..., k][there])) if there.any() else np.nan
         found[f"time, {case}"] = (middle, np.nan, np.nan)
     return Table(study.cells[cell]["labels"], len(end), found)
+
+
+@dataclass(frozen=True)
+class Swept:
+    """Designs of one arm, the given arm first if it is computed.
+
+    Attributes:
+        labels: Of the cell.
+        plan: What was computed.
+        values: (D, k) rad or m.
+        guaranteed, median: (D,) of the index over the poses.
+        reached: (D,) share of the poses.
+        reach: (D,) m.
+        start: The row of the given arm; None if it is not computed yet.
+    """
+
+    labels: dict[str, Any]
+    plan: Mapping[str, Any]
+    values: Array
+    guaranteed: Array
+    median: Array
+    reached: Array
+    reach: Array
+    start: int | None
+
+
+def swept(study: Study, cell: int) -> Swept | None:
+    """The result of a sweep of designs; None where there is none."""
+    parts = list(chunks(study, cell))
+    if not parts:
+        return None
+    columns = [np.concatenate([p[name] for p in parts]) for name in ("design", "guaranteed", "median", "reached", "reach")]
+    store = study.store(cell)
+    return Swept(study.cells[cell]["labels"], store.plan, *columns, 0 if 0 in store.done else None)
 
 
 def store_size(store: Store) -> int:

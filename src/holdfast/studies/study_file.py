@@ -6,7 +6,7 @@
     seed: 1
     poses: 2000            # of each cell
     chunk: 500             # computed and committed together
-    arms: [panda, {file: my_arm.urdf, tip: tool0}]
+    arms: [panda, {file: my_arm.urdf, tip: tool0}, {arm: pa10-9dof, vary: {tool.z: [0, 0.3]}, designs: 500}]
     assess:                # every arm with every index, task, region and failure set
       indices: [relative-manipulability, manipulability]
       optimise: true
@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import yaml
-from pydantic import Field, ValidationError
+from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.errors import HoldfastError, InputError
 from holdfast.study import Cell
@@ -40,10 +40,45 @@ _Names = Annotated[list[str], Field(min_length=1)]
 _DEFAULT = "default"
 
 
+def _bounds(value: Any) -> Any:
+    """``{a3: [0.2, 0.6], alpha4: -90..90deg}`` with every pair of bounds as one text."""
+    if not isinstance(value, dict):
+        raise ValueError("it must be names with their bounds, as {a3: [0.2, 0.6], alpha4: -90..90deg}")
+    for name, bounds in value.items():
+        if not isinstance(bounds, (str, list)) or (isinstance(bounds, list) and len(bounds) != 2):
+            raise ValueError(f"{name} must have two bounds, as [0.2, 0.6] (m) or -90..90deg")
+    return {str(k): v if isinstance(v, str) else "..".join(map(str, v)) for k, v in value.items()}
+
+
 class _ArmFile(Strict):
     file: str
     base: str | None = None
     tip: str | None = None
+
+
+class _Designs(Strict):
+    arm: str
+    base: str | None = None
+    tip: str | None = None
+    vary: Annotated[dict[str, str], Field(min_length=1), BeforeValidator(_bounds)]
+    designs: _Count
+    chunk: _Count = 64
+    level: Annotated[Number, Field(gt=0, lt=1)] = 0.95
+
+
+_ARM_TAGS = ("as a name", "as a file", "as designs")
+
+
+def _arm_tag(value: Any) -> str:
+    if isinstance(value, dict):
+        return _ARM_TAGS[2] if "vary" in value or "designs" in value else _ARM_TAGS[1]
+    return _ARM_TAGS[0]
+
+
+_ArmEntry = Annotated[
+    Annotated[str, Tag(_ARM_TAGS[0])] | Annotated[_ArmFile, Tag(_ARM_TAGS[1])] | Annotated[_Designs, Tag(_ARM_TAGS[2])],
+    Discriminator(_arm_tag),
+]
 
 
 class _Block(Strict):
@@ -93,7 +128,7 @@ class _File(Strict):
     seed: Annotated[int, Field(ge=0, strict=True)] = 0
     poses: _Count
     chunk: _Count
-    arms: Annotated[list[str | _ArmFile], Field(min_length=1)]
+    arms: Annotated[list[_ArmEntry], Field(min_length=1)]
     assess: _Assess | None = None
     convergence: _Convergence | None = None
     workspace: _Workspace | None = None
@@ -144,7 +179,7 @@ def _parsed(file: Path) -> tuple[str, _File]:
     try:
         model = _File.model_validate(data)
     except ValidationError as error:
-        raise InputError(sentence(error, _File, ("_ArmFile", "str"))) from error
+        raise InputError(sentence(error, _File, _ARM_TAGS)) from error
     if not any((model.assess, model.convergence, model.workspace, model.bank)):
         raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
     return file.read_text(encoding="utf-8"), model
@@ -162,6 +197,9 @@ def _named(cells: Iterator[Cell]) -> Iterator[Cell]:
 
 def _cells(model: _File, folder: Path) -> Iterator[Cell]:
     for given in model.arms:
+        if isinstance(given, _Designs):
+            yield from _design_cells(model, given, folder)
+            continue
         spec, arm, label = _arm(given, folder)
         if model.assess is not None:
             yield from _assess_cells(model, model.assess, spec, arm, label, folder)
@@ -230,6 +268,53 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
         labels |= {"failures": failures, "keep": block.keep, "optimise": block.optimise}
         name = "-".join([label, index, *_said(task, region, failures)])
         yield Cell(name, AssessJob(data, rows, chunk, block.keep), data, rows, chunk, block.keep == "counts", labels)
+
+
+def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]:
+    from holdfast.arm.serial import to_dict
+    from holdfast.assess.region import Region, default_region
+    from holdfast.design import DesignSpace, parse_vary
+    from holdfast.design.search import region_poses
+    from holdfast.indices import by_name
+    from holdfast.studies.design_job import DesignJob
+    from holdfast.written import read_failures, read_task
+
+    block = model.assess
+    if block is None:
+        raise InputError(f"arms: there is no assess block for the designs of '{given.arm}'; give one (as 'assess: {{}}')")
+    for name in ("convergence", "workspace", "bank"):
+        if getattr(model, name) is not None:
+            raise InputError(f"arms: designs of '{given.arm}' cannot be swept in {name}; give that block in a file of its own")
+    whole = _ArmFile(file=given.arm, base=given.base, tip=given.tip) if given.base or given.tip else given.arm
+    spec, arm, label = _arm(whole, folder)
+    texts = [f"{name}={bounds}" for name, bounds in given.vary.items()]
+    space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))
+    poses = block.poses or model.poses
+    for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
+        rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
+        measure = by_name(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+        if measure.better == "smaller":
+            raise InputError(
+                f"assess.indices: {index} is better when smaller, and a guaranteed value must be larger; leave it out"
+            )
+        t, place = measure.task, default_region(spec, arm) if region == _DEFAULT else Region.load(folder / region)
+        region_poses(place, 1, 0)  # says if it has none
+        plan: dict[str, Any] = {
+            "kind": "designs",
+            "arm": to_dict(arm),
+            "fingerprint": arm.fingerprint,
+            "vary": [[p.name, p.lower, p.upper, p.unit] for p in space.parameters],
+            "region": place.to_dict(),
+            "index": measure.slug,
+            "task": {"name": t.name, "rows": t.rows.tolist(), "frame": t.frame, "length": t.length},
+            "failures": [[arm.joint_names[k] for k in f] for f in measure.failures],
+            "level": given.level,
+            "poses": poses,
+            "seed": model.seed,
+        }
+        labels = {"job": "designs", "arm": label, "index": index, "task": t.name, "region": place.name, "failures": failures}
+        name = "-".join(["designs", label, index, *_said(task, region, failures)])
+        yield Cell(name, DesignJob(plan, given.designs), plan, given.designs, given.chunk, labels=labels)
 
 
 def _said(task: str, region: str, failures: str) -> list[str]:

@@ -31,6 +31,7 @@ poses: {poses}
 chunk: {chunk}
 
 # Built-in names (see 'holdfast arms') or files, relative to this one: {{file: my_arm.urdf, base: base_link, tip: tool0}}
+# or designs of one arm, each evaluated at the best configurations: {{arm: panda, vary: {{d5: 300..500mm}}, designs: 500}}
 arms: {arms}
 
 # The probability that an arm keeps its dexterity when a joint fails, over a region: see 'holdfast assess --help'.

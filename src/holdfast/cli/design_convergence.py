@@ -1,0 +1,45 @@
+"""``holdfast design ARM --maximise convergence``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from holdfast.arm.task import Task
+from holdfast.cli.options import console, print_json, print_written
+from holdfast.cli.progress import progress_bar
+from holdfast.design import DesignSpace, design_for_convergence
+from holdfast.written import read_labelled_law
+
+
+def converging(
+    space: DesignSpace,
+    task: str | Task,
+    law: str | None,
+    designs: int,
+    climbs: int,
+    keep_reach: bool,
+    seed: int,
+    out: Path | None,
+    json_: bool,
+) -> None:
+    """Search, print, and write ``designs.csv`` and ``best-arm.yaml``."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    chosen = read_labelled_law(law or "pseudoinverse", space.arm, task)
+    with progress_bar(json_, "designs") as progress:
+        found = design_for_convergence(
+            chosen, space, designs=designs, climbs=climbs, keep_reach=keep_reach, seed=seed, progress=progress
+        )
+    files = [] if out is None else found.save(out)
+    if json_:
+        print_json({**found.to_dict(), "files": [str(f) for f in files]})
+        return
+    told = console()
+    for line in found.describe():
+        told.print(escape(line), soft_wrap=True)
+    table = Table("parameter", "given arm", "best design", "bounds", box=None, pad_edge=False)
+    for p, before, after in zip(space.parameters, space.start.tolist(), found.values[found.best].tolist(), strict=True):
+        table.add_row(p.name, p.text(before), p.text(after), f"{p.text(p.lower)} to {p.text(p.upper)}")
+    told.print(table)
+    print_written(told, files)
