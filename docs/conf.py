@@ -27,7 +27,10 @@ nitpicky = True
 nitpick_ignore_regex = [
     # Types of other libraries; no inventories are fetched, so that the build needs no network.
     (r"py:.*", r"(np|numpy|xr|xarray|ca|casadi|npt|pathlib|enum|abc|collections|os|_io|types|concurrent)\..*"),
-    (r"py:.*", r"(Array|ArrayLike|Flags|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)"),
+    (
+        r"py:.*",
+        r"(Array|ArrayLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets)",
+    ),
     (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),
     (r"py:.*", r"(optional|default.*)"),
     (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),

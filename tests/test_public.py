@@ -22,6 +22,7 @@ MODULES = [
     "holdfast.cli",
     "holdfast.control",
     "holdfast.converge",
+    "holdfast.design",
     "holdfast.indices",
     "holdfast.indices.susceptibility",
     "holdfast.kernels",

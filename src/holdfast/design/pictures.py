@@ -44,9 +44,7 @@ def front_figure(
     with style():
         figure = Figure(figsize=(WIDTH, 4.6))
         axes = figure.add_subplot()
-        axes.scatter(
-            reach, value, s=14, color=SKY, linewidths=0, label=f"{len(reach):,} designs that were tried", rasterized=True
-        )
+        axes.scatter(reach, value, s=14, color=SKY, linewidths=0, rasterized=True)
         line = np.asarray(front, dtype=int)
         axes.step(reach[line], value[line], where="pre", color=BLUE, linewidth=1.4, zorder=2.5)
         axes.plot(reach[line], value[line], "o", color=BLUE, markersize=5, zorder=2.6)
@@ -140,7 +138,7 @@ def parameters_figure(
         start: The given arm's values (k,), and what it guarantees, if known.
         label: Of the value.
     """
-    columns = min(3, len(names))
+    columns = 2 if len(names) == 4 else min(3, len(names))
     rows = -(-len(names) // columns)
     with style():
         figure = Figure(figsize=(WIDTH, 2.5 * rows + 0.5))

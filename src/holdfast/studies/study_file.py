@@ -62,7 +62,7 @@ class _Designs(Strict):
     tip: str | None = None
     vary: Annotated[dict[str, str], Field(min_length=1), BeforeValidator(_bounds)]
     designs: _Count
-    chunk: _Count = 32
+    chunk: _Count = 64
     level: Annotated[Number, Field(gt=0, lt=1)] = 0.95
 
 
