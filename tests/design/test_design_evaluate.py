@@ -20,12 +20,9 @@ def alone(space, values, poses, starts=128):
 
 
 def test_designs_are_worth_what_each_is_worth_alone(space3, found3, poses3):
-    short = []
-    for i in (0, 3):
-        best = alone(space3, found3.values[i], poses3)
-        np.testing.assert_array_equal(best.success, found3.reached[i])
-        short.append((best.value - found3.value[i])[best.success])
-    gap = np.concatenate(short)
+    best = alone(space3, found3.values[3], poses3)
+    np.testing.assert_array_equal(best.success, found3.reached[3])
+    gap = (best.value - found3.value[3])[best.success]
     assert (gap > 1e-3).mean() < 0.15  # neighbours' configurations stand in for random starts
     assert gap.max() < 0.3
     assert gap.min() > -0.1
@@ -63,10 +60,8 @@ def test_gradients_are_differences_of_what_is_optimised_anew(space3, evaluator3,
         k = space3.names.index(name)
         step = h * np.eye(len(space3.names))[k]
         sides = [alone(space3, space3.start + sign * step, poses3[rows], 32) for sign in (1, -1)]
-        middle = alone(space3, space3.start, poses3[rows], 32)
-        # The same optimum on all three: where another one takes over, differences mean nothing.
-        ends = [*sides, middle]
-        near = np.all([np.abs(x.q - s.q).max(axis=1) < 1e-2 for x in ends], axis=0) & s.exact
+        # The same optimum on both sides: where another one takes over, differences mean nothing.
+        near = np.all([np.abs(x.q - s.q).max(axis=1) < 1e-2 for x in sides], axis=0) & s.exact
         assert near.sum() >= 5
         difference = (sides[0].value - sides[1].value) / (2 * h)
         # Those of hf.optimise are themselves only as exact as its last steps.
@@ -84,7 +79,6 @@ def test_exact_optima_balance(space3, evaluator3, found3):
     s = sensitivity(evaluator3, found3, rows)
     value = found3.value.reshape(-1)[rows]
     assert (s.value >= value - 1e-6).all()
-    count = len(evaluator3.poses)
     direction, h = np.array([0.3, -0.5, 0.4, 0.2, -0.3]), 1e-6
     sides = []
     for sign in (1, -1):
@@ -95,7 +89,6 @@ def test_exact_optima_balance(space3, evaluator3, found3):
     assert same.sum() > 0.5 * len(rows)
     difference = (sides[0].value - sides[1].value) / (2 * h)
     np.testing.assert_allclose(difference[same], (s.gradient @ direction)[same], atol=1e-5)
-    assert count == len(evaluator3.poses)
 
 
 def test_a_pose_beyond_reach_misses_by_the_rest_of_the_way():

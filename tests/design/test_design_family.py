@@ -52,11 +52,11 @@ def test_every_kind_of_parameter_gives_the_pose_of_the_arm_built_for_it(sliding,
     assert np.abs(errors).max() < 1e-12
 
 
-@pytest.mark.parametrize("name", ["relative-manipulability", "manipulability", "minimum-singular-value"])
+@pytest.mark.parametrize("name", ["manipulability", "minimum-singular-value"])
 def test_the_index_is_that_of_the_arm_built_for_it(sliding, rng, name):
     space = design_space(sliding, {"a1": (-0.3, 0.3), "alpha2": (-2.0, 2.0), "tool.z": (0.0, 0.4)})
     family = Family(space, name, "position")
-    values, q = space.draw(5, 2), oracles.inside(sliding, rng, 5)
+    values, q = space.draw(2, 2), oracles.inside(sliding, rng, 2)
     found = family.value.rows(q, values).min(axis=1)
     for x, one, value in zip(values, q, found, strict=True):
         assert value == pytest.approx(float(by_name(name, space.arm_of(x), "position")(one)), rel=1e-9, abs=1e-12)

@@ -101,6 +101,12 @@ def test_nothing_better_and_nothing_at_all(found, rng):
     assert "Neither arm reaches a pose of the region" in page
 
 
+def test_a_gain_that_does_not_last_is_no_gain(found, rng):
+    flattered = replace(found, checked=Check(checked(rng, 0.3), checked(rng, 0.25), 0.15))
+    assert report.headline(flattered).startswith("No gain that lasts was found: on the 64 poses of the search the best design")
+    check(render(report.build(flattered)))
+
+
 def test_poses_that_only_the_best_design_loses_are_said(found, rng):
     page = render(report.build(replace(found, checked=Check(checked(rng, 0.2), checked(rng, 0.38, lost=8), 0.0))))
     assert "does not reach 4.0 % of the poses of the region, the given arm 0 %" in page

@@ -75,16 +75,15 @@ def test_reach_within_limits_against_a_bounded_optimiser(rng):
     arm = oracles.random_arm(rng, types="RRPRR", limits=1.0)
     space = design_space(arm, {"d2": (-3.0, 3.0), "tool.x": (-1.0, 1.0), "upper4": (0.3, 1.5)})
     family = Family(space, task="position")
-    values = np.concatenate([space.start[None], space.draw(2)])
-    limits = Evaluator(family, np.eye(4)[None]).finite_limits(values)
-    reach, slope = Reaches(family)(values, limits)
+    values, reaches, limits = space.draw(2), Reaches(family), Evaluator(family, np.eye(4)[None]).finite_limits
+    reach, slope = reaches(values, limits(values))
     for x, ours in zip(values, reach, strict=True):
         one = space.arm_of(x)
 
         def short(q, one=one):
             return -np.linalg.norm(oracles.forward(one, q[None])[0, :3, 3] - one.base[:3, 3])
 
-        starts = rng.uniform(one.lower, one.upper, (12, one.n))
+        starts = rng.uniform(one.lower, one.upper, (5, one.n))
         best = -min(minimize(short, q, bounds=list(zip(one.lower, one.upper, strict=True))).fun for q in starts)
         assert ours >= best - 1e-5
         q = rng.uniform(one.lower, one.upper, (20_000, one.n))
@@ -94,10 +93,7 @@ def test_reach_within_limits_against_a_bounded_optimiser(rng):
     h = 1e-6
     for k in range(len(space.names)):
         step = h * np.eye(len(space.names))[k]
-        sides = [
-            Reaches(family)(values + s * step, Evaluator(family, np.eye(4)[None]).finite_limits(values + s * step))[0]
-            for s in (1, -1)
-        ]
+        sides = [reaches(values + sign * step, limits(values + sign * step))[0] for sign in (1, -1)]
         np.testing.assert_allclose((sides[0] - sides[1]) / (2 * h), slope[:, k], atol=1e-4)
 
 
@@ -111,7 +107,7 @@ def small(planar3, space3):
         "task": "planar",
         "poses": 32,
         "designs": 24,
-        "climbs": 3,
+        "climbs": 2,
         "fresh": 100,
         "seed": 1,
     }
@@ -169,7 +165,8 @@ def test_the_same_seed_gives_the_same_bits_with_one_thread_and_after_a_stop(
     again = hf.design(planar3, space3, **small, store=tmp_path / "s")
     for name in ("values", "guaranteed", "reach", "reached", "front"):
         np.testing.assert_array_equal(getattr(again, name), getattr(searched, name))
-    assert again.checked == searched.checked or again.checked.best.guaranteed == searched.checked.best.guaranteed
+    assert again.checked.best.guaranteed == searched.checked.best.guaranteed
+    np.testing.assert_array_equal(again.checked.best.distribution.values, searched.checked.best.distribution.values)
 
 
 def test_the_slope_that_climbs_is_that_of_the_smooth_quantile(space3, family3, planar3):

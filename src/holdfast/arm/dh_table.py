@@ -112,11 +112,11 @@ def _next(frame: Array, p: Array, z_next: Array, p_next: Array, own: Array | Non
 def _signed(normal: Array, length: float, x: Array, own: Array | None) -> Array:
     """The common normal, pointing the way that :func:`dh_table` says."""
     if own is not None and abs(own @ normal) > 1 - _SAME:
-        positive = own @ normal > 0
+        positive = bool(own @ normal > 0)
     elif abs(length) > _SAME:
         positive = length > 0
     else:
-        positive = normal @ x > -_SAME
+        positive = bool(normal @ x > -_SAME)
     return normal if positive else -normal
 
 
@@ -131,9 +131,9 @@ def _last(arm: Arm, frame: Array, joint: Array, z: Array) -> Array:
 def _row(arm: Arm, k: int, frame: Array, after: Array) -> DH:
     joint, step = arm.joints[k], after[:3, 3] - frame[:3, 3]
     return DH(
-        a=_length(step @ after[:3, 0]),
+        a=_length(float(step @ after[:3, 0])),
         alpha=_turn(frame[:3, 2], after[:3, 2], after[:3, 0]),
-        d=_length(step @ frame[:3, 2]),
+        d=_length(float(step @ frame[:3, 2])),
         theta=_turn(frame[:3, 0], after[:3, 0], frame[:3, 2]),
         type="prismatic" if joint.prismatic else "revolute",
         lower=None if np.isinf(joint.lower) else joint.lower,
@@ -149,9 +149,9 @@ def _row(arm: Arm, k: int, frame: Array, after: Array) -> DH:
 def _frame(x: Array, z: Array, origin: Array) -> Array:
     """The frame with the given z, and with x as far as it is across z."""
     out = np.eye(4)
-    x = x - (x @ z) * z
-    x = x / np.linalg.norm(x)
-    out[:3, 0], out[:3, 1], out[:3, 2], out[:3, 3] = x, np.cross(z, x), z, origin
+    across: Array = x - (x @ z) * z
+    across /= np.linalg.norm(across)
+    out[:3, 0], out[:3, 1], out[:3, 2], out[:3, 3] = across, np.cross(z, across), z, origin
     return out
 
 
@@ -163,15 +163,15 @@ def _inverse(t: Array) -> Array:
 
 def _turn(a: Array, b: Array, about: Array) -> float:
     """The angle, rad, from a to b about an axis across both; 90 and the like without the noise of rounding."""
-    degrees = np.rad2deg(np.arctan2(np.cross(a, b) @ about, a @ b))
-    near = round(float(degrees), 9)
+    degrees = float(np.rad2deg(np.arctan2(np.cross(a, b) @ about, a @ b)))
+    near = round(degrees, 9)
     degrees = near if abs(degrees - near) < 1e-12 else degrees
     return float(np.deg2rad(180.0 if degrees == -180 else degrees)) + 0.0
 
 
 def _length(value: float) -> float:
-    near = round(float(value), 12) + 0.0  # no -0
-    return near if abs(value - near) < 1e-14 else float(value)
+    near = round(value, 12) + 0.0  # no -0
+    return near if abs(value - near) < 1e-14 else value
 
 
 def _clean(transform: Array) -> Array:

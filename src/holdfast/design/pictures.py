@@ -138,7 +138,7 @@ def parameters_figure(
         start: The given arm's values (k,), and what it guarantees, if known.
         label: Of the value.
     """
-    columns = min(3, len(names))
+    columns = 2 if len(names) == 4 else min(3, len(names))
     rows = -(-len(names) // columns)
     with style():
         figure = Figure(figsize=(WIDTH, 2.5 * rows + 0.5))

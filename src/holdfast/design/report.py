@@ -79,7 +79,7 @@ def headline(d: Designs) -> str:
     """The answer in one or two sentences."""
     given, best = d.checked.given, d.checked.best
     name, share = d.index.name, _share(d.level)
-    if not best.guaranteed.value > 0:
+    if not best.guaranteed.value > 0 and not given.guaranteed.value > 0:
         return (
             f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses are "
             "not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or level."
@@ -88,6 +88,12 @@ def headline(d: Designs) -> str:
         return (
             f"Nothing better than the given arm was found: for {share} of the poses of the region its {name} is at least "
             f"{_interval(given.guaranteed)}, {_failures(d)}."
+        )
+    if best.guaranteed.value <= given.guaranteed.value:
+        return (
+            f"No gain that lasts was found: on the {counted(d.poses, 'pose')} of the search the best design guarantees a "
+            f"{name} of {number(float(d.guaranteed[d.best]))}, but on fresh ones {_interval(best.guaranteed)}, and the given "
+            f"arm {_interval(given.guaranteed)}. Search with more poses."
         )
     reaches = f"The reach goes from {d.start_reach:.3f} m to {d.reach[d.best]:.3f} m."
     return (

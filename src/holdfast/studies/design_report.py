@@ -26,7 +26,7 @@ def sentence(s: Swept) -> str:
     best = int(s.guaranteed.argmax())
     share = _share(s)
     text = (
-        f"Of {counted(len(s.values), 'design')} of {s.labels['arm']} the best one guarantees a {s.labels['index']} of "
+        f"Of {counted(len(s.values), 'design')} of {s.labels['arm']} the best one guarantees a {_index(s)} of "
         f"{number(float(s.guaranteed[best]))} for {share} of the poses"
     )
     return text + ("." if s.start is None else f"; the given arm {number(float(s.guaranteed[s.start]))}.")
@@ -38,13 +38,13 @@ def sweep(s: Swept, place: int) -> list[Block]:
     factors = np.array([p.shown[0] for p in space.parameters])
     shown = s.values * factors
     names = [f"{p.name}, {p.shown[1]}" for p in space.parameters]
-    label = figures.plain(f"guaranteed {s.labels['index']} ({_share(s)} of the poses)")
+    label = figures.plain(f"guaranteed {_index(s)} ({_share(s)} of the poses)")
     best, front = int(s.guaranteed.argmax()), pareto(s.reach, s.guaranteed)
     start = None if s.start is None else (float(s.reach[s.start]), float(s.guaranteed[s.start]))
     figure = front_figure(s.reach, s.guaranteed, front.tolist(), best, start, label, _bound(s))
     text = (
-        f"Guaranteed: the worst-case {s.labels['index']} that {_share(s)} of {s.plan['poses']:,} poses of the "
-        f"{s.labels['region']} have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: "
+        f"Guaranteed: the worst-case {_index(s)} that {_share(s)} of {s.plan['poses']:,} poses of the region "
+        f"({s.labels['region']}) have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: "
         "the largest distance of the tool point from the base within the joint limits."
     )
     by_parameter = parameters_figure(names, shown, s.guaranteed, None if start is None else (shown[s.start], start[1]), label)
@@ -73,10 +73,17 @@ def sweep(s: Swept, place: int) -> list[Block]:
     return [
         Picture(figures.svg(figure, f"front{place}", "Guaranteed index against reach of all designs"), text),
         Table(designs, top, frozenset(range(len(top))), caption=told, wide=True),
-        Picture(figures.svg(by_parameter, f"parameters{place}", "Guaranteed index against each parameter"), "One by one."),
+        Picture(
+            figures.svg(by_parameter, f"parameters{place}", "Guaranteed index against each parameter"),
+            "Each design by one parameter at a time; the others differ too.",
+        ),
         Table(rows, head, numbers, caption=caption, wide=True),
         Text(flattered, quiet=True),
     ]
+
+
+def _index(s: Swept) -> str:
+    return str(s.labels["index"]).replace("-", " ")
 
 
 def _share(s: Swept) -> str:

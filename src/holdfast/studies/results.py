@@ -252,9 +252,11 @@ def swept(study: Study, cell: int) -> Swept | None:
     parts = list(chunks(study, cell))
     if not parts:
         return None
-    columns = [np.concatenate([p[name] for p in parts]) for name in ("design", "guaranteed", "median", "reached", "reach")]
+    names = ("design", "guaranteed", "median", "reached", "reach")
+    values, guaranteed, median, reached, reach = (np.concatenate([p[name] for p in parts]) for name in names)
     store = study.store(cell)
-    return Swept(study.cells[cell]["labels"], store.plan, *columns, 0 if 0 in store.done else None)
+    start = 0 if 0 in store.done else None
+    return Swept(study.cells[cell]["labels"], store.plan, values, guaranteed, median, reached, reach, start)
 
 
 def store_size(store: Store) -> int:
