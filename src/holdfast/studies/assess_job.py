@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from holdfast.assess.binned import FACTS, Counts, edges
 from holdfast.assess.plan import Plan, Rows
 from holdfast.status import Status
-from holdfast.studies.process import ready, shared
+from holdfast.studies.process import PlannedJob
 from holdfast.study import Chunk, Column
 
 Keep = Literal["rows", "counts"]
 _SAMPLES = (("", "index", "worst"), ("optimised_", "optimised_index", "optimised_worst"))
 
 
-@dataclass(frozen=True)
-class AssessJob:
+@dataclass(frozen=True, eq=False)
+class AssessJob(PlannedJob[Plan]):
     """Poses of a region, solved and evaluated.
 
     Attributes:
@@ -28,26 +28,19 @@ class AssessJob:
         keep: ``rows``: every pose, a folder that :func:`holdfast.load` reads; ``counts``: only how values are distributed.
     """
 
-    plan: dict[str, Any]
     rows: int
     chunk: int
     keep: Keep = "rows"
 
-    def __hash__(self) -> int:
-        return hash((self.plan["fingerprint"], self.rows, self.chunk, self.keep))
-
-    def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.study.Job`."""
-        ready(self, self._compiled, alone)
-
-    def _compiled(self) -> Plan:
+    def compiled(self) -> Plan:
+        """The plan, with what its equations became."""
         plan = Plan.from_dict(self.plan, self.rows)
         plan.compile()
         return plan
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
-        plan = shared(self, self._compiled)
+        plan = self.made
         if self.keep == "rows":
             return plan.columns()
         found = []
@@ -62,7 +55,7 @@ class AssessJob:
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        plan = shared(self, self._compiled)
+        plan = self.made
         if self.keep == "rows":
             parts = list(self._blocks(plan, chunk))
             return {name: np.concatenate([p[name] for p in parts]) for name in parts[0]}

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.control.law import Law
-from holdfast.studies.convergence_job import law_of
-from holdfast.studies.process import ready, shared
+from holdfast.studies.law_job import LawJob
 from holdfast.study import Chunk, Column
 from holdfast.teleop.measures import RECORDED
 from holdfast.teleop.point_task import Scenario
@@ -20,29 +17,16 @@ from holdfast.written import read_law_setting
 Rows = dict[str, NDArray[Any]]
 
 
-@dataclass(frozen=True)
-class BankJob:
+class BankJob(LawJob):
     """Tasks as :func:`holdfast.teleop.task_bank` makes them; a row is a task for each joint that fails.
 
     Attributes:
         plan: Arm, task, law, distance.
     """
 
-    plan: dict[str, Any]
-
-    def __hash__(self) -> int:
-        return hash((self.plan["fingerprint"], self.plan["law"]))
-
-    def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.study.Job`."""
-        ready(self, self._law, alone)
-
-    def _law(self) -> Law:
-        return law_of(self.plan)
-
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
-        law = shared(self, self._law)
+        law = self.made
         joints = ("failing", law.arm.n)
         cases = ("healthy_or_failed", 2)
         return [
@@ -54,7 +38,7 @@ class BankJob:
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        law = shared(self, self._law)
+        law = self.made
         count, n = len(chunk), law.arm.n
         slug, options = read_law_setting(self.plan["law"], "laws")
         scenarios = [Scenario(k + 1, slug, failed, options) for k, failed in enumerate((False, True))]

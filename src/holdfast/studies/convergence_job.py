@@ -2,53 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.serial import from_dict
-from holdfast.arm.task import Task
-from holdfast.control.law import Law
 from holdfast.converge.convergence_map import convergence_map
-from holdfast.studies.process import ready, shared
+from holdfast.studies.law_job import LawJob
 from holdfast.study import Chunk, Column
-from holdfast.written import read_labelled_law
 
 Rows = dict[str, NDArray[Any]]
 
 
-def law_of(plan: dict[str, Any]) -> Law:
-    """The law of a plan."""
-    t = plan["task"]
-    task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
-    return read_labelled_law(plan["law"], from_dict(plan["arm"]), task, "laws")
-
-
-@dataclass(frozen=True)
-class ConvergenceJob:
+class ConvergenceJob(LawJob):
     """Motions between random places, as :func:`holdfast.convergence_map` makes them; a row is a motion.
 
     Attributes:
         plan: Arm, task, law, time limit.
     """
 
-    plan: dict[str, Any]
-
-    def __hash__(self) -> int:
-        return hash((self.plan["fingerprint"], self.plan["law"]))
-
-    def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.study.Job`."""
-        ready(self, self._law, alone)
-
-    def _law(self) -> Law:
-        return law_of(self.plan)
-
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
-        n = shared(self, self._law).arm.n
+        n = self.made.arm.n
         locked = (("locked_or_none", n + 1),)
         return [
             Column("q0", "float64", (("joint", n),), "rad or m", "configuration at the start; NaN where none was found"),
@@ -61,7 +36,7 @@ class ConvergenceJob:
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        law = shared(self, self._law)
+        law = self.made
         count = len(chunk)
         found = convergence_map(law, count, count, 1, time_limit=self.plan["time_limit"], seed=chunk.own_seed)
         return {

@@ -7,8 +7,9 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 from holdfast.kernels import set_threads, thread_count
 
@@ -45,11 +46,38 @@ def _keep_memory() -> None:
             mallopt(option, size)
 
 
-def ready(job: Hashable, make: Callable[[], Any], alone: bool) -> None:
-    """Make it now; ``alone``: this process computes several chunks side by side, each in one thread."""
-    with _lock:
-        if alone:
-            _keep_memory()
-            if thread_count() != 1:
-                set_threads(1)
-    shared(job, make)
+@dataclass(frozen=True, eq=False)
+class PlannedJob(Generic[T]):
+    """A job that is defined by its plan, and compiles something for all its chunks: once in a process.
+
+    Subclasses are ``@dataclass(frozen=True, eq=False)``: a dataclass that compares makes its own hash, and a plan has none.
+
+    Attributes:
+        plan: Arm and all else that defines the values, as JSON data.
+    """
+
+    plan: dict[str, Any]
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and vars(other) == vars(self)
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.plan["fingerprint"], self.plan.get("law")))
+
+    def compiled(self) -> T:
+        """What it needs, made from the plan."""
+        raise NotImplementedError
+
+    @property
+    def made(self) -> T:
+        """What :meth:`compiled` gives, made once."""
+        return shared(self, self.compiled)
+
+    def prepare(self, alone: bool) -> None:
+        """See :class:`holdfast.study.Job`."""
+        with _lock:
+            if alone:
+                _keep_memory()
+                if thread_count() != 1:
+                    set_threads(1)
+        shared(self, self.compiled)

@@ -11,15 +11,14 @@ from numpy.typing import NDArray
 from holdfast.converge.starts import Places, read_places
 from holdfast.converge.workspace_job import Beginnings, Job, prepared, usual_method
 from holdfast.errors import InputError
-from holdfast.studies.convergence_job import law_of
-from holdfast.studies.process import ready, shared
+from holdfast.studies.law_job import PlannedLaw
 from holdfast.study import Chunk, Column
 
 Rows = dict[str, NDArray[Any]]
 
 
-@dataclass(frozen=True)
-class WorkspaceJob:
+@dataclass(frozen=True, eq=False)
+class WorkspaceJob(PlannedLaw[tuple[Job, Places]]):
     """Starts, random ones, looked at as :func:`holdfast.workspace` does, a chunk with its own seed; a row is a start.
 
     Attributes:
@@ -27,19 +26,12 @@ class WorkspaceJob:
         rows: Starts in all.
     """
 
-    plan: dict[str, Any]
     rows: int
 
-    def __hash__(self) -> int:
-        return hash((self.plan["fingerprint"], self.plan["law"], self.rows))
-
-    def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.study.Job`."""
-        ready(self, self._made, alone)
-
-    def _made(self) -> tuple[Job, Places]:
+    def compiled(self) -> tuple[Job, Places]:
+        """What all starts share, and the places that they are drawn from."""
         p = self.plan
-        law = law_of(p)
+        law = self.law()
         method = usual_method(law)
         job = prepared(law, p["target"], p["configurations"], p["points"], method, time_limit=p["time_limit"], seed=p["seed"])
         if not job.reached:
@@ -49,11 +41,11 @@ class WorkspaceJob:
 
     def columns(self) -> list[Column]:
         """See :class:`holdfast.study.Job`."""
-        return shared(self, self._made)[0].store_columns()
+        return self.made[0].store_columns()
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        job, places = shared(self, self._made)
+        job, places = self.made
         mine = Places(places.poses[chunk.start : chunk.stop])
         begin = Beginnings(job.law, mine, job.configurations, job.method, chunk.own_seed)
         return job.analyse(*begin.of(0, len(chunk)), len(chunk))
