@@ -15,7 +15,7 @@ from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.outcomes import Gains, Stack, share_figure, stack_figure
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.report.words import as_given, counted, interval, number, percent
+from holdfast.report.words import article, as_given, counted, interval, number, percent
 from holdfast.studies import results
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.standings import Key, Standing, counted_range, place, said, standings
@@ -99,15 +99,15 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 def _headline(stand: Sequence[Standing]) -> str:
     """The first index, as found and at its best, and the law and arm that arrive most often."""
     parts = [
-        f"{_first(s)} most often keeps a {s.question} after any failure considered: {interval(s.entries[0][1])} of the poses."
-        for s in [s for s in stand if s.kind == "assess"][:2]
+        f"{_first(s)} most often keeps {article(s.question)} {s.question}{said(s.unit)} after any failure considered: "
+        f"{interval(s.entries[0][1])} of the poses."
+        for s in [s for s in stand if not s.law][:2]
     ]
-    driven = [s for s in stand if s.kind == "convergence"]
+    driven = [s for s in stand if s.law]
     if driven:
         top = max(driven, key=lambda s: s.entries[0][1].value)
-        law = top.question.removeprefix("arrives under ")
         parts.append(
-            f"With a locked joint that nobody knows of, {_first(top)} arrives most often, under {law}: "
+            f"With a locked joint that nobody knows of, {_first(top)} arrives most often, under {top.law}: "
             f"{interval(top.entries[0][1])} of the motions."
         )
     return " ".join(parts) or "What was computed, and how."
@@ -135,7 +135,8 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         level = s.level[1:]
         sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
         after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
-        rows.append([s.question, _whole(name), _share(p), after, sure, s.about])
+        question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
+        rows.append([question, _whole(name), _share(p), after, sure, s.about])
     about = (
         "Of each question the arm with the largest share. Clearly ahead: its 95 % interval lies above those of all others; "
         "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "

@@ -21,13 +21,15 @@ class Standing:
         question: For people, short.
         about: What is counted, of how many.
         entries: Name and share of each arm, best first.
-        kind: ``assess`` or ``convergence``.
+        law: The control law, where the question is whether the arm arrives under it.
+        unit: Of the threshold in the question; empty if it has none.
     """
 
     question: str
     about: str
     entries: tuple[tuple[str, Interval], ...]
-    kind: str
+    law: str = ""
+    unit: str = ""
 
     @property
     def ahead(self) -> bool:
@@ -49,27 +51,27 @@ def standings(found: Sequence[Assessed], laws: Sequence[Driven], asked: Mapping[
         if not mine:
             continue
         sign = "≥" if mine[0].plan.index.better == "larger" else "≤"
-        unit = mine[0].plan.index.unit
-        asks = f"{mine[0].plan.index.name} {sign} {as_given(h)}{said(unit)}" + (f", {task}" if tasks else "")
+        asks = f"{mine[0].plan.index.name} {sign} {as_given(h)}" + (f", {task}" if tasks else "")
         for optimised in (False, True):
             shares = [(a, a.interval(h, optimised)) for a in mine]
             entries = [(place(a.labels, [x.labels for x in mine]), p) for a, p in shares if p is not None]
             if entries:
                 counts = [a.plain.samples for a in mine if a.plain is not None]
                 about = f"{counted_range(counts)} poses"
-                out.append(_standing(asks + ", best configuration" * optimised, about, entries, "assess"))
+                question = asks + ", best configuration" * optimised
+                out.append(Standing(question, about, _ranked(entries), unit=said(mine[0].plan.index.unit, "")))
     for law, task in dict.fromkeys((d.labels["law"], d.labels["task"]) for d in laws):
         mine_ = [d for d in laws if (d.labels["law"], d.labels["task"]) == (law, task)]
         entries = [(d.labels["arm"], d.any) for d in mine_]
         more = f", {task}" if len({d.labels["task"] for d in laws}) > 1 else ""
         joints = counted_range([len(d.arrives) - 1 for d in mine_])
         about = f"{counted_range([d.motions for d in mine_])} motions × {joints} joints"
-        out.append(_standing(f"arrives under {law}{more}", about, entries, "convergence"))
+        out.append(Standing(f"arrives under {law}{more}", about, _ranked(entries), law + more))
     return out
 
 
-def _standing(question: str, about: str, entries: Sequence[tuple[str, Interval]], kind: str) -> Standing:
-    return Standing(question, about, tuple(sorted(entries, key=lambda e: -e[1].value)), kind)
+def _ranked(entries: Sequence[tuple[str, Interval]]) -> tuple[tuple[str, Interval], ...]:
+    return tuple(sorted(entries, key=lambda e: -e[1].value))
 
 
 def place(labels: Mapping[str, Any], among: Sequence[Mapping[str, Any]]) -> str:
