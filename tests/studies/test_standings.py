@@ -33,8 +33,7 @@ FAR = [assessed("near", np.r_[np.zeros(100), np.ones(900)]), assessed("far", np.
 
 def test_the_arm_with_the_largest_share_is_first_and_clearly_ahead_if_intervals_say_so():
     (s,) = standings(FAR[::-1], [], {("manipulability", "pose"): 0.5})
-    assert [(name, p.value) for name, p in s.entries] == [("near", 0.9), ("far", 0.5)]
-    assert s.ahead
+    assert [(name, p.value) for name, p in s.ranked] == [("near", 0.9), ("far", 0.5)]
     assert s.level == ["near"]
     assert (s.question, s.about, s.law, s.unit) == ("manipulability ≥ 0.5", "1,000 poses", "", "")
 
@@ -42,9 +41,9 @@ def test_the_arm_with_the_largest_share_is_first_and_clearly_ahead_if_intervals_
 def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     some = [driven("a", 0.5), driven("b", 0.52), driven("c", 0.1), driven("a", 0.8, "damped:0.1")]
     first, second = standings([], some, {})
-    assert (first.level, first.ahead) == (["b", "a"], False)
+    assert first.level == ["b", "a"]
     assert first.about == "200 motions × 2 joints"
-    assert (second.law, second.ahead) == ("damped:0.1", False)  # nobody else was asked
+    assert (second.law, second.level) == ("damped:0.1", ["a"])
     text = render(Page("t", _headline([first, second]), [Section("s", _standings([first, second]))]))
     assert "level with a" in text
     assert "a arrives most often, under damped:0.1" in text
@@ -56,8 +55,8 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
         assessed("uneven", np.full(300, 50.0), "smaller", "m/rad", best=np.full(300, 2.0)),
     ]
     plain, best = standings(found, [], {("manipulability", "pose"): 10.0})
-    assert (plain.question, plain.unit, plain.entries[0][0]) == ("manipulability ≤ 10", "m/rad", "even")
-    assert plain.ahead
+    assert (plain.question, plain.unit, plain.ranked[0][0]) == ("manipulability ≤ 10", "m/rad", "even")
+    assert plain.level == ["even"]
     assert best.question == "manipulability ≤ 10, best configuration"
     assert best.level == ["even", "uneven"]
     text = render(Page("t", _headline([plain, best]), [Section("s", _standings([plain, best]))]))

@@ -99,28 +99,29 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 def _headline(stand: Sequence[Standing]) -> str:
     """The first index, as found and at its best, and the law and arm that arrive most often."""
     parts = [
-        f"{_first(s)} most often keeps {article(s.question)} {s.question}{said(s.unit)} after any failure considered: "
-        f"{interval(s.entries[0][1])} of the poses."
+        f"{_first(s)} {'most often ' * (len(s.entries) > 1)}keeps {article(s.question)} {s.question}{said(s.unit)} after any "
+        f"failure considered: {interval(s.ranked[0][1])} of the poses."
         for s in [s for s in stand if not s.law][:2]
     ]
     driven = [s for s in stand if s.law]
     if driven:
-        top = max(driven, key=lambda s: s.entries[0][1].value)
+        top = max(driven, key=lambda s: s.ranked[0][1].value)
         parts.append(
             f"With a locked joint that nobody knows of, {_first(top)} arrives most often, under {top.law}: "
-            f"{interval(top.entries[0][1])} of the motions."
+            f"{interval(top.ranked[0][1])} of the motions."
         )
     return " ".join(parts) or "What was computed, and how."
 
 
 def _first(s: Standing) -> str:
     """Who leads, or shares the lead."""
-    return s.entries[0][0] if len(s.level) == 1 else f"{s.entries[0][0]} (level with {' and '.join(s.level[1:])})"
+    first, *others = s.level
+    return f"{first} (level with {' and '.join(others)})" if others else first
 
 
 def _standings(stand: Sequence[Standing]) -> list[Block]:
     """The first page of a study of several arms: a figure of all questions, and who leads at each."""
-    names = sorted({name for s in stand for name, _ in s.entries})
+    names = list(dict.fromkeys(name for s in stand for name, _ in s.entries))
     if len(names) < 2:
         return []
     shares = []
@@ -131,7 +132,7 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
     figure = share_figure([s.question for s in stand], shares, "share of the poses, or of the motions; bars: 95 % interval")
     rows: list[list[Cell]] = []
     for s in stand:
-        (name, p), rest = s.entries[0], s.entries[1:]
+        (name, p), *rest = s.ranked
         level = s.level[1:]
         sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
         after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])

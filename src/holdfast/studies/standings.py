@@ -20,7 +20,7 @@ class Standing:
     Attributes:
         question: For people, short.
         about: What is counted, of how many.
-        entries: Name and share of each arm, best first.
+        entries: Name and share of each arm, in the order of the study.
         law: The control law, where the question is whether the arm arrives under it.
         unit: Of the threshold in the question; empty if it has none.
     """
@@ -32,14 +32,14 @@ class Standing:
     unit: str = ""
 
     @property
-    def ahead(self) -> bool:
-        """The interval of the first is above that of the second."""
-        return len(self.entries) > 1 and self.entries[0][1].low > self.entries[1][1].high
+    def ranked(self) -> tuple[tuple[str, Interval], ...]:
+        """The entries, best first."""
+        return tuple(sorted(self.entries, key=lambda e: -e[1].value))
 
     @property
     def level(self) -> list[str]:
-        """Arms whose interval overlaps that of the first, the first included."""
-        return [name for name, p in self.entries if p.high >= self.entries[0][1].low]
+        """The first, and the arms whose interval overlaps its own."""
+        return [name for name, p in self.ranked if p.high >= self.ranked[0][1].low]
 
 
 def standings(found: Sequence[Assessed], laws: Sequence[Driven], asked: Mapping[Key, float]) -> list[Standing]:
@@ -59,19 +59,15 @@ def standings(found: Sequence[Assessed], laws: Sequence[Driven], asked: Mapping[
                 counts = [a.plain.samples for a in mine if a.plain is not None]
                 about = f"{counted_range(counts)} poses"
                 question = asks + ", best configuration" * optimised
-                out.append(Standing(question, about, _ranked(entries), unit=said(mine[0].plan.index.unit, "")))
+                out.append(Standing(question, about, tuple(entries), unit=said(mine[0].plan.index.unit, "")))
     for law, task in dict.fromkeys((d.labels["law"], d.labels["task"]) for d in laws):
         mine_ = [d for d in laws if (d.labels["law"], d.labels["task"]) == (law, task)]
         entries = [(d.labels["arm"], d.any) for d in mine_]
         more = f", {task}" if len({d.labels["task"] for d in laws}) > 1 else ""
         joints = counted_range([len(d.arrives) - 1 for d in mine_])
         about = f"{counted_range([d.motions for d in mine_])} motions × {joints} joints"
-        out.append(Standing(f"arrives under {law}{more}", about, _ranked(entries), law + more))
+        out.append(Standing(f"arrives under {law}{more}", about, tuple(entries), law + more))
     return out
-
-
-def _ranked(entries: Sequence[tuple[str, Interval]]) -> tuple[tuple[str, Interval], ...]:
-    return tuple(sorted(entries, key=lambda e: -e[1].value))
 
 
 def place(labels: Mapping[str, Any], among: Sequence[Mapping[str, Any]]) -> str:
