@@ -60,7 +60,7 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
     assert best.question == "manipulability ≤ 10, best configuration"
     assert best.level == ["even", "uneven"]
     text = render(Page("t", _headline([plain, best]), [Section("s", _standings([plain, best]))]))
-    assert "even most often keeps a manipulability ≤ 10 m/rad after any failure considered" in text
+    assert "After any failure considered, even most often keeps a manipulability ≤ 10 m/rad: at 1.000" in text
     assert "clearly ahead" in text
 
 

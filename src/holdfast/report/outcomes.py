@@ -170,7 +170,7 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
 def share_figure(cases: Sequence[str], shares: Sequence[Gains], xlabel: str) -> Figure:
     """Shares of several things over several cases, from 0 to 1: dots with their intervals, one colour and shape per thing."""
     with style():
-        figure = Figure(figsize=(WIDTH, 1.1 + (0.16 + 0.15 * len(shares)) * len(cases)))
+        figure = Figure(figsize=(WIDTH, 1.1 + (0.16 + 0.1 * len(shares)) * len(cases)))
         axes = figure.add_subplot()
         for row in range(1, len(cases), 2):
             axes.axhspan(row - 0.5, row + 0.5, color=FAINT, alpha=0.25, linewidth=0)

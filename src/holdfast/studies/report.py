@@ -98,11 +98,16 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 
 def _headline(stand: Sequence[Standing]) -> str:
     """The first index, as found and at its best, and the law and arm that arrive most often."""
-    parts = [
-        f"{_first(s)} {'most often ' * (len(s.entries) > 1)}keeps {article(s.question)} {s.question}{said(s.unit)} after any "
-        f"failure considered: {interval(s.ranked[0][1])} of the poses."
-        for s in [s for s in stand if not s.law][:2]
-    ]
+    parts = []
+    found = [s for s in stand if not s.law]
+    if found:
+        s = found[0]
+        often = " most often" if len(s.entries) > 1 else ""
+        text = f"After any failure considered, {_first(s)}{often} keeps {article(s.question)} {s.question}{said(s.unit)}: "
+        text += f"at {interval(s.ranked[0][1])} of the poses"
+        if found[1:] and found[1].question.startswith(f"{s.question}, "):
+            text += f"; in the best configuration of each pose, {_first(found[1])}: {interval(found[1].ranked[0][1])}"
+        parts.append(f"{text}.")
     driven = [s for s in stand if s.law]
     if driven:
         top = max(driven, key=lambda s: s.ranked[0][1].value)
