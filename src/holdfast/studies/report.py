@@ -121,7 +121,7 @@ def _headline(stand: Sequence[Standing]) -> str:
 def _first(s: Standing) -> str:
     """Who leads, or shares the lead."""
     first, *others = s.level
-    return f"{first} (level with {' and '.join(others)})" if others else first
+    return f"{first} (level with {', '.join(others)})" if others else first
 
 
 def _standings(stand: Sequence[Standing]) -> list[Block]:
