@@ -345,6 +345,27 @@ def test_binned_negative_values(rng):
     assert d.cdf(-2) == pytest.approx((values < -2).mean(), abs=1e-3)
 
 
+@pytest.mark.parametrize("weighted", [False, True])
+@pytest.mark.parametrize(("better", "bound"), [("larger", 0.5), ("smaller", None)])
+def test_binned_quantiles_at_the_bound_and_among_infinite_values(better, bound, weighted, rng):
+    """Most values sit at the bound, in the last bin, which has no upper end; infinite values are in it too."""
+    values = rng.permutation(np.r_[np.full(6000, 0.5), rng.uniform(0, 0.5, 3000), np.full(0 if bound else 1000, np.inf)])
+    collector = Collector(better, bound, most=1000)
+    for part in np.array_split(values, 7):
+        weights = (np.ones(len(part)), np.ones(2)) if weighted else ()
+        collector.add(part, 2, 0, *weights)
+    d, exact = collector.finish(), Distribution.of(values, better, 14)
+    p = np.r_[0.0, 0.1, 0.3, 0.5, 0.89, 0.899, 0.9, 0.95, 1.0]
+    for only in (True, False):
+        np.testing.assert_allclose(d.quantile(p, only), exact.quantile(p, only), atol=2e-4)
+        np.testing.assert_allclose(
+            d.cdf([0.4, 0.5, 0.50001, 3.0, np.inf], only), exact.cdf([0.4, 0.5, 0.6, 3.0, np.inf], only), atol=1e-3
+        )
+    assert d.quantile(0.5) == 0.5
+    assert d.probability(at_most=0.6) == pytest.approx(exact.probability(at_most=0.6))
+    assert d.probability(at_least=0.6) == pytest.approx(exact.probability(at_least=0.6))
+
+
 @pytest.mark.parametrize("value", [0.0, 0.3, np.inf])
 def test_binned_values_that_are_all_equal(value):
     d = collect(np.full(3000, value), "smaller" if value else "larger", None, 1000)

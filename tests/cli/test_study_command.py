@@ -237,6 +237,22 @@ def test_the_report_holds_what_was_found(ask, folder, tmp_path):
     assert "http" not in text.replace("http://www.w3.org", "")
 
 
+def test_other_thresholds_need_no_new_chunk(ask, file, folder, tmp_path):
+    """Thresholds and the name are not part of what is computed: the same folder reports on them."""
+    whole = tmp_path / "copy"
+    ask("study", "merge", whole, folder)
+    data = yaml.safe_load(file.read_text())
+    data["assess"]["thresholds"] = {"relative-manipulability": 0.123}
+    file.write_text(yaml.safe_dump({**data, "name": "renamed"}))
+    told = ask("study", "run", file, "--out", whole)
+    assert (told["name"], told["complete"], bits(whole)) == ("renamed", True, bits(folder))
+    ask("study", "report", whole)
+    text = (whole / "report.html").read_text()
+    assert "≥ 0.123" in text
+    assert "<h1>renamed</h1>" in text
+    assert "relative-manipulability: 0.123" in text
+
+
 def test_an_unfinished_study_reports_what_is_there(ask, refused, file, tmp_path):
     asked = read(file)
     study = Study.create(tmp_path / "out", asked.name, asked.seed, asked.cells, asked.text)

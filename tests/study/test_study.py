@@ -7,15 +7,14 @@ import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from toy import Toy, cells
 
-from holdfast.errors import InputError, StoreError
-from holdfast.study import Cell, Cluster, Store, Study, Threads, journal, merge
+from holdfast.errors import StoreError
+from holdfast.study import Cell, Store, Study, Threads, journal, merge
 from holdfast.study.folder import digest, held
 from holdfast.study.journal import Entry, Journal
 
@@ -341,71 +340,3 @@ def test_a_killed_program_loses_at_most_the_chunks_in_hand(tmp_path, straight):
     study.run(cells(), Threads(2))
     assert bits(study) == bits(straight)
     assert study.verify() == []
-
-
-@pytest.fixture(scope="module")
-def scheduler(tmp_path_factory):
-    """Separate processes, as on a cluster: a scheduler and a worker; gives the address, and starts more workers."""
-    pytest.importorskip("distributed")
-    folder = tmp_path_factory.mktemp("dask")
-    place = folder / "scheduler.json"
-    env = {**os.environ, "PYTHONPATH": os.pathsep.join([HERE, *sys.path]), "PYTHONWARNINGS": "ignore"}
-    running = []
-
-    def start(*words):
-        log = (folder / f"log{len(running)}").open("w")
-        command = [sys.executable, "-m", "dask", *words, "--scheduler-file", str(place), "--no-dashboard"]
-        running.append(subprocess.Popen(command, env=env, stdout=log, stderr=log, cwd=folder))
-        log.close()
-        return running[-1]
-
-    start("scheduler", "--port", "0", "--host", "127.0.0.1")
-    deadline = time.monotonic() + 60
-    while not place.exists() and time.monotonic() < deadline:
-        time.sleep(0.1)
-
-    def worker():
-        return start("worker", "--nthreads", "1", "--nanny", "--host", "127.0.0.1", "--local-directory", str(folder))
-
-    worker()
-    yield json.loads(place.read_text())["address"], worker
-    for process in reversed(running):
-        process.kill()
-        process.wait(30)
-
-
-@pytest.mark.filterwarnings("default")
-def test_dask_gives_the_same_bits_with_one_and_two_workers_and_a_killed_one(tmp_path, straight, scheduler):
-    address, more = scheduler
-    one = make(tmp_path / "one")
-    with Cluster(address, timeout=60) as cluster:
-        assert one.run(cells(), cluster) == {}
-        assert bits(one) == bits(straight)
-        more()
-        assert address in cluster.about
-        some = cells(kills=str(tmp_path / "killed"), slow=0.02)
-        two = make(tmp_path / "two", some)
-        seen = []
-        two.run(some, cluster, lambda *x: seen.append(x), stop=lambda: len(seen) > 4)
-        assert not two.complete
-        two.run(some, cluster)
-    assert (tmp_path / "killed").exists()
-    assert bits(two) == bits(straight)
-    assert "Dask" in two.runs[0]["on"]
-
-
-@pytest.mark.filterwarnings("default")
-def test_schedulers_that_are_none():
-    for address, words in (
-        ("somewhere", "is not known; give its address"),
-        ("local:0", "local:4"),
-        ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
-    ):
-        with pytest.raises(InputError, match=words):
-            Cluster(address, timeout=0.5)
-
-
-def test_without_dask_a_sentence(monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(InputError, match=r"pip install 'holdfast\[cluster\]'"):
-        Cluster("local:2")

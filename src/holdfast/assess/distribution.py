@@ -169,6 +169,12 @@ class Distribution:
         return np.asarray(np.r_[0, np.cumsum(parts)])
 
     @property
+    def _ends(self) -> Array:
+        """Upper ends of the bins, none of them beyond the highest value: the last bin has no end of its own."""
+        assert self.edges is not None
+        return np.minimum(self.edges[1:], self.highest)
+
+    @property
     def _finite_weight(self) -> float:
         return self._reached - self.infinite if self._finite is None else self._finite.weight
 
@@ -200,7 +206,7 @@ class Distribution:
         else:
             assert self.edges is not None
             count = np.interp(h, self.edges, self._cumulative[: len(self.edges)])
-            count = np.where(np.isposinf(h), self._finite_weight, count)
+            count = np.where(h > self.highest, min(self._finite_weight, self._cumulative[-1]), count)
         if not reachable_only and self.better == "larger":
             count = count + np.where(h > 0, self._lost_weight, 0)
         return np.asarray(count)
@@ -276,12 +282,9 @@ class Distribution:
             inner = np.clip(rank - offset, 0, max(self.reached - 1, 0)).astype(np.int64)
             found = self.values[inner] if self.reached else np.full(p_.shape, np.nan)
         else:
-            assert self.edges is not None
-            assert self.counts is not None
-            cumulative = np.cumsum(self.counts)
-            found = self.edges[1:][
-                np.searchsorted(cumulative, np.maximum(rank - offset, 0), side="right").clip(max=len(self.counts) - 1)
-            ]
+            place = np.searchsorted(self._cumulative[1:], np.maximum(rank - offset, 0), side="right")
+            found = self._ends[place.clip(max=len(self._ends) - 1)]
+            found = np.where(rank - offset < self.reached - self.infinite, found, np.inf)
         outside = rank < offset if worst_first else rank >= self.reached
         return np.where(outside, 0.0 if worst_first else np.inf, found)
 
@@ -292,12 +295,10 @@ class Distribution:
         offset = lost if self.better == "larger" else 0.0
         place = np.searchsorted((offset + self._cumulative[1:]) / size, least, side="left")
         beyond = place == len(self._cumulative) - 1
-        if self.values is not None:
-            held = self.values
-        else:
-            assert self.edges is not None
-            held = self.edges[1:]
+        held = self._ends if self.values is None else self.values
         found = held[np.minimum(place, len(held) - 1)] if held.size else np.full(p.shape, np.nan)
+        if self.values is None:
+            found = np.where(least * size - offset <= self._finite_weight * (1 + 1e-12), found, np.inf)
         if self.better == "larger":
             return np.where((lost > 0) & (least <= offset / size), 0.0, found)
         return np.where(beyond, np.inf, found)

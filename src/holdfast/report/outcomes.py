@@ -143,7 +143,7 @@ def _draw_spread(axes: Axes, s: Spread) -> None:
 
 @dataclass(frozen=True)
 class Gains:
-    """Differences of one thing to another over several cases: values, and ends of their intervals, (C,) each."""
+    """Differences or shares of one thing over several cases: values, and ends of their intervals, (C,) each."""
 
     label: str
     value: Array
@@ -159,15 +159,40 @@ def gain_figure(cases: Sequence[str], panels: Sequence[tuple[str, Sequence[Gains
         every = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
         for axes, (label, gains) in zip(every, panels, strict=True):
             axes.axvline(0, color=SOFT, linewidth=1.0)
-            for k, g in enumerate(gains):
-                places = np.arange(len(cases)) + (k - (len(gains) - 1) / 2) * 0.6 / max(len(gains), 1)
-                color = COLORS[k % len(COLORS)]
-                axes.hlines(places, g.low, g.high, color=color, linewidth=1.6)
-                axes.plot(g.value, places, MARKERS[k % len(MARKERS)], color=color, markersize=5, label=plain(g.label, 40))
+            _dots(axes, gains)
             axes.set_xlabel(label)
-            axes.set_yticks(range(len(cases)), [plain(c, 30) for c in cases])
-            axes.set_ylim(len(cases) - 0.5, -0.5)
-            axes.tick_params(axis="y", length=0)
+            _rows(axes, cases, 30)
         handles, labels = every[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(most, 3), columnspacing=2.0)
         return finished(figure)
+
+
+def share_figure(cases: Sequence[str], shares: Sequence[Gains], xlabel: str) -> Figure:
+    """Shares of several things over several cases, from 0 to 1: dots with their intervals, one colour and shape per thing."""
+    with style():
+        figure = Figure(figsize=(WIDTH, 1.1 + (0.16 + 0.1 * len(shares)) * len(cases)))
+        axes = figure.add_subplot()
+        for row in range(1, len(cases), 2):
+            axes.axhspan(row - 0.5, row + 0.5, color=FAINT, alpha=0.25, linewidth=0)
+        _dots(axes, shares)
+        axes.set(xlabel=xlabel, xlim=(-0.01, 1.01))
+        _rows(axes, cases, 60)
+        axes.grid(axis="y", visible=False)
+        handles, labels = axes.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(shares), 5), columnspacing=2.0)
+        return finished(figure)
+
+
+def _dots(axes: Axes, shown: Sequence[Gains]) -> None:
+    """The things of a case one below the other."""
+    for k, g in enumerate(shown):
+        places = np.arange(len(g.value)) + (k - (len(shown) - 1) / 2) * 0.6 / max(len(shown), 1)
+        color = COLORS[k % len(COLORS)]
+        axes.hlines(places, g.low, g.high, color=color, linewidth=1.6)
+        axes.plot(g.value, places, MARKERS[k % len(MARKERS)], color=color, markersize=5, label=plain(g.label, 40))
+
+
+def _rows(axes: Axes, cases: Sequence[str], most: int) -> None:
+    axes.set_yticks(range(len(cases)), [plain(c, most) for c in cases])
+    axes.set_ylim(len(cases) - 0.5, -0.5)
+    axes.tick_params(axis="y", length=0)

@@ -254,7 +254,9 @@ class Ascent:
                 top = best_of_each(owner, value, 1)
                 top = top[value[top] > best[owner[top]]]
                 best_q[owner[top]], best[owner[top]] = q[top], value[top]
-                scale = np.maximum(np.abs(best), np.abs(best - sign * start_value))
+                start = sign * start_value
+                gain = np.subtract(best, start, out=np.zeros(count), where=best != start)  # both may be infinite
+                scale = np.maximum(np.abs(best), np.abs(gain))
                 close = value >= best[owner] - 1e-3 * scale[owner]
                 agreeing[chosen] = np.bincount(owner, close, count)[chosen] / np.maximum(
                     np.bincount(owner, minlength=count)[chosen], 1

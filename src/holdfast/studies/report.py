@@ -13,17 +13,17 @@ from holdfast.errors import StoreError
 from holdfast.interval import Interval
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
-from holdfast.report.outcomes import Stack, stack_figure
+from holdfast.report.outcomes import Gains, Stack, share_figure, stack_figure
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.report.words import as_given, counted, interval, number, percent
+from holdfast.report.words import article, as_given, counted, interval, number, percent
 from holdfast.studies import results
 from holdfast.studies.design_report import sentence, sweep
 from holdfast.studies.results import Assessed, Driven
+from holdfast.studies.standings import Key, Standing, counted_range, place, said, standings
 from holdfast.studies.study_file import thresholds
 from holdfast.study import Study
 
 T = TypeVar("T")
-Key = tuple[str, str]  # index and task
 
 _ENDS = ("arrives", "stands still elsewhere", "keeps moving", "undecided")
 
@@ -51,7 +51,9 @@ def build(study: Study) -> Page:
         missing = f"{done:,} of {total:,} chunks are there; give the same command again to go on."
         alerts.append(Callout(missing, "bad", "Not complete."))
     sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
+    stand = standings(found, laws, asked)
     sections = [
+        Section("Which arm for what", _standings(stand)),
         *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
@@ -64,8 +66,7 @@ def build(study: Study) -> Page:
     arms = list(dict.fromkeys(c["labels"]["arm"] for c in study.cells))
     return Page(
         study.name,
-        " ".join([*([_headline(found, laws, asked)] if found or laws else []), *map(sentence, sweeps)])
-        or "What was computed, and how.",
+        " ".join([*([_headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
         [s for s in sections if s.blocks],
         f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
         alerts,
@@ -98,27 +99,64 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 # ---- the answer --------------------------------------------------------------------------------------------------------
 
 
-def _headline(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> str:
-    parts: list[str] = []
-    for key, h in asked.items():
-        mine = [a for a in found if _key(a) == key]
-        best = [(p, o, a) for a in mine for o in (False, True) if (p := a.interval(h, o)) is not None]
-        if best and not parts:
-            p, optimised, a = max(best, key=lambda x: x[0].value)
-            how = " at its best configurations" if optimised else ""
-            sign = "at least" if a.plan.index.better == "larger" else "at most"
-            most = "the largest probability," if len(mine) > 1 else "probability"
-            parts.append(
-                f"{a.labels['arm']} keeps a {a.plan.index.name} of {sign} {as_given(h)} after any failure considered with "
-                f"{most} {interval(p)}{how}."
-            )
-    if laws:
-        top = max(laws, key=lambda d: d.any.value)
+def _headline(stand: Sequence[Standing]) -> str:
+    """The first index, as found and at its best, and the law and arm that arrive most often."""
+    parts = []
+    found = [s for s in stand if not s.law]
+    if found:
+        s = found[0]
+        often = " most often" if len(s.entries) > 1 else ""
+        text = f"After any failure considered, {_first(s)}{often} keeps {article(s.question)} {s.question}{said(s.unit)}: "
+        text += f"at {interval(s.ranked[0][1])} of the poses"
+        if found[1:] and found[1].question.startswith(f"{s.question}, "):
+            text += f"; in the best configuration of each pose, {_first(found[1])}: {interval(found[1].ranked[0][1])}"
+        parts.append(f"{text}.")
+    driven = [s for s in stand if s.law]
+    if driven:
+        top = max(driven, key=lambda s: s.ranked[0][1].value)
         parts.append(
-            f"With a locked joint that nobody knows of, {top.labels['arm']} arrives most often, under {top.labels['law']}: "
-            f"{interval(top.any)}."
+            f"With a locked joint that nobody knows of, {_first(top)} arrives most often, under {top.law}: "
+            f"{interval(top.ranked[0][1])} of the motions."
         )
     return " ".join(parts)
+
+
+def _first(s: Standing) -> str:
+    """Who leads, or shares the lead."""
+    first, *others = s.level
+    return f"{first} (level with {', '.join(others)})" if others else first
+
+
+def _standings(stand: Sequence[Standing]) -> list[Block]:
+    """The first page of a study of several arms: a figure of all questions, and who leads at each."""
+    names = list(dict.fromkeys(name for s in stand for name, _ in s.entries))
+    if len(names) < 2:
+        return []
+    shares = []
+    for name in names:
+        ends = [dict(s.entries).get(name) for s in stand]
+        value, low, high = (np.array([np.nan if p is None else getattr(p, x) for p in ends]) for x in ("value", "low", "high"))
+        shares.append(Gains(name, value, low, high))
+    figure = share_figure([s.question for s in stand], shares, "share of the poses, or of the motions; bars: 95 % interval")
+    rows: list[list[Cell]] = []
+    for s in stand:
+        (name, p), *rest = s.ranked
+        level = s.level[1:]
+        sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
+        after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
+        question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
+        rows.append([question, _whole(name), _share(p), after, sure, s.about])
+    about = (
+        "Of each question the arm with the largest share. Clearly ahead: its 95 % interval lies above those of all others; "
+        "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "
+        "index meets the threshold whatever single failure happens. Arrives: with a locked joint that the controller does not "
+        "know of."
+    )
+    head = ["Question", "first", "share, with 95 % interval", "next", "how sure", "of each arm"]
+    return [
+        Picture(figures.svg(figure, "standings", "Shares of all arms at every question"), "More is better in every row."),
+        Table(rows, head, frozenset({2}), caption=about, wide=True),
+    ]
 
 
 def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> list[Block]:
@@ -205,16 +243,15 @@ def _distributions(found: Sequence[Assessed], asked: dict[Key, float]) -> list[B
         panels = [
             (title, [Curve(axis, d.cdf(axis), _name(a, mine)) for a, d in some if d is not None]) for title, some in samples
         ]
-        unit = "" if index.unit in ("", "1") else f", {index.unit}"
+        unit = said(index.unit, ", ")
         figure = figures.compare_cdf_figure(
             panels,
-            [Mark(h, f"threshold {as_given(h)}{unit.replace(', ', ' ')}")],
+            [Mark(h, f"threshold {as_given(h)}{said(index.unit)}")],
             f"worst-case {index.name}{unit}",
             "share with a smaller value, F",
             log,
         )
-        counts = sorted({d.samples for _, some in samples for _, d in some if d is not None})
-        poses = " to ".join(f"{c:,}" for c in dict.fromkeys((counts[0], counts[-1])))
+        poses = counted_range([d.samples for _, some in samples for _, d in some if d is not None])
         band = max(d.band() for _, some in samples for _, d in some if d is not None)
         text = (
             f"Cumulative distributions of the worst-case {index.name} (task {key[1]}) over {poses} poses of each arm; the 95 % "
@@ -227,9 +264,7 @@ def _distributions(found: Sequence[Assessed], asked: dict[Key, float]) -> list[B
 
 
 def _name(a: Assessed, among: Sequence[Assessed]) -> str:
-    arm, region, failures = _row(a.labels)
-    twice = sum(other.labels["arm"] == arm for other in among) > 1
-    return f"{arm}, {region}, {failures}" if twice else arm
+    return place(a.labels, [x.labels for x in among])
 
 
 def _worst(found: Sequence[Assessed]) -> list[Block]:
@@ -265,8 +300,7 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         shares = np.stack([d.ends[:-1].mean(axis=0) for d in mine])
         low, high = (np.array([getattr(d.any, end) for d in mine]) for end in ("low", "high"))
         stacks.append(Stack(arm, [d.labels["law"] for d in mine], shares, low, high))
-    motions = sorted({d.motions for d in laws})
-    told = " to ".join(f"{c:,}" for c in dict.fromkeys((motions[0], motions[-1])))
+    told = counted_range([d.motions for d in laws])
     figure = stack_figure(stacks, _ENDS, "share of the runs, mean over the joint that is locked")
     blocks: list[Block] = [
         Picture(

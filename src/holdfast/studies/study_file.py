@@ -104,14 +104,17 @@ class _Assess(_Block):
 class _Laws(_Block):
     laws: _Names = Field(default_factory=lambda: ["pseudoinverse", "failure-tolerant"])
     tasks: _Names = Field(default_factory=lambda: [_DEFAULT])
+
+
+class _Timed(_Laws):
     time_limit: Annotated[Number, Field(gt=0)] | None = None
 
 
-class _Convergence(_Laws):
+class _Convergence(_Timed):
     motions: _Count | None = None
 
 
-class _Workspace(_Laws):
+class _Workspace(_Timed):
     targets: Annotated[list[Annotated[list[Number], Field(min_length=2, max_length=3)]], Field(min_length=1)]
     starts: _Count | None = None
     configurations: _Count = 8
@@ -341,10 +344,11 @@ def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: 
             "fingerprint": arm.fingerprint,
             "task": {"name": t.name, "rows": t.rows.tolist(), "frame": t.frame, "length": t.length},
             "law": text,
-            "time_limit": block.time_limit,
             "seed": model.seed,
             "seeds": "of chunk c: SeedSequence(seed, spawn_key=(c,))",
         }
+        if isinstance(block, _Timed):
+            plan["time_limit"] = block.time_limit
         labels = {"job": kind, "arm": label, "law": law.label, "task": t.name}
         name = "-".join([label, *_said(task, _DEFAULT, "single"), text])
         if kind == "convergence":

@@ -19,7 +19,7 @@ Rows = dict[str, NDArray[Any]]
 
 @dataclass(frozen=True, eq=False)
 class WorkspaceJob(PlannedLaw[tuple[Job, Places]]):
-    """Starts, random ones, looked at as :func:`holdfast.workspace` does; a row is a start.
+    """Starts, random ones, looked at as :func:`holdfast.workspace` does, a chunk with its own seed; a row is a start.
 
     Attributes:
         plan: Arm, task, law, target, configurations and points of each start, time limit, seed.
@@ -46,5 +46,6 @@ class WorkspaceJob(PlannedLaw[tuple[Job, Places]]):
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
         job, places = self.made
-        begin = Beginnings(job.law, places, job.configurations, job.method, chunk.own_seed)
-        return job.analyse(*begin.of(chunk.start, chunk.stop), len(chunk))
+        mine = Places(places.poses[chunk.start : chunk.stop])
+        begin = Beginnings(job.law, mine, job.configurations, job.method, chunk.own_seed)
+        return job.analyse(*begin.of(0, len(chunk)), len(chunk))

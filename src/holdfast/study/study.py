@@ -78,14 +78,14 @@ class Study:
 
     @classmethod
     def create(cls, path: str | Path, name: str, seed: int, cells: Sequence[Cell], source: str = "") -> Study:
-        """A new folder, or the existing one of the same study, to go on.
+        """A new folder, or the existing one of the same study, to go on; it takes over a name and source that have changed.
 
         Args:
             path: The folder.
             name: Of the study.
             seed: Of all its chunks.
             cells: What is computed.
-            source: The study file, kept for people.
+            source: The study file, kept for people and for reports.
 
         Raises:
             StoreError: Not writable, not a study's folder, or that of another study.
@@ -99,6 +99,8 @@ class Study:
                     f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
                     "go on with it"
                 )
+            if (study.name, study.source) != (name, source):
+                study._write(data)
             return study
         if folder.exists() and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
@@ -106,10 +108,11 @@ class Study:
             if folder.exists() and any(folder.iterdir()):
                 raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
             folder.mkdir(parents=True, exist_ok=True)
-            replaced(folder / _FILE, json.dumps(data, indent=1))
         except OSError as error:
-            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
-        return cls(folder, data)
+            raise _unwritable(folder, error) from error
+        study = cls(folder, data)
+        study._write(data)
+        return study
 
     @classmethod
     def open(cls, path: str | Path) -> Study:
@@ -149,10 +152,18 @@ class Study:
         folder = Path(path)
         try:
             folder.mkdir(parents=True)
-            replaced(folder / _FILE, json.dumps(self._data, indent=1))
         except OSError as error:
-            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
-        return Study(folder, self._data)
+            raise _unwritable(folder, error) from error
+        study = Study(folder, self._data)
+        study._write(self._data)
+        return study
+
+    def _write(self, data: dict[str, Any]) -> None:
+        try:
+            replaced(self.path / _FILE, json.dumps(data, indent=1))
+        except OSError as error:
+            raise _unwritable(self.path, error) from error
+        self._data = data
 
     def check_same(self, other: Study) -> None:
         """Refuse a folder that is not of this study.
@@ -331,6 +342,10 @@ class Study:
                 if bad:
                     store.drop(bad)
         return found
+
+
+def _unwritable(folder: Path, error: OSError) -> StoreError:
+    return StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder")
 
 
 def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[str, Any]:
