@@ -63,7 +63,7 @@ def test_the_page_says_what_to_build(found):
         "For 95 % of the poses of the region the best design keeps a relative manipulability of at least 0.38",
         "whichever joint locks; the given arm 0.20",
         "The reach goes from 3.000 m to 3.500 m",
-        "a1 (1.5 m), upper2 (90 deg) are at their bounds",
+        "a1 (1.5 m), upper2 (90 deg) of the best design are at their bounds",
         "upper limit of joint 2",
         "at the lower bound",
         "What is guaranteed against how far the arm reaches",
