@@ -16,7 +16,7 @@ def main() -> None:
     searches = known.rows(store)
     found = attachment.searched(0.95, store)
     built = found.space.arm_of(attachment.rounded(found), "as built")
-    runs = {"paper": attachment.assessed(found.space.arm), "better tool, as built": attachment.assessed(built)}
+    runs = {"paper": attachment.assessed(found.space.arm, store), "better tool, as built": attachment.assessed(built, store)}
     attachment.figure(runs, HERE / "attachment.png")
     given, best = found.checked.given, found.checked.best
     lines = [

@@ -56,15 +56,16 @@ def searched(level: float, store: str | None) -> hf.Designs:
 def rounded(found: hf.Designs) -> np.ndarray:
     """The best design as it would be built."""
     step = np.array([STEP[p.unit or "m"] for p in found.space.parameters])
-    return np.clip(np.round(found.values[found.best] / step) * step, found.space.lower, found.space.upper)
+    return np.asarray(np.clip(np.round(found.values[found.best] / step) * step, found.space.lower, found.space.upper))
 
 
-def assessed(arm: hf.Arm) -> hf.Assessment:
+def assessed(arm: hf.Arm, store: str | None) -> hf.Assessment:
     """An arm on fresh poses by the way of the paper, which shares no compiled code with the search."""
+    folder = None if store is None else f"{store}/{arm.name.replace(' ', '-')}"
     region = builtin_region("pa10-9dof")
     assert region is not None
     index = hf.indices.relative_manipulability(arm)
-    return hf.assess(arm, region, index, poses=FRESH, seed=SEED + 100, optimise=True, clearance=False)
+    return hf.assess(arm, region, index, poses=FRESH, seed=SEED + 100, optimise=True, clearance=False, store=folder)
 
 
 def table(found: hf.Designs) -> list[str]:

@@ -57,7 +57,7 @@ def known() -> list[Known]:
     lengths = {f"a{k}": (0.3, 1.5) for k in (1, 2, 3)}
 
     def open_(arm: hf.Arm) -> dict[str, tuple[float, float]]:
-        found = {}
+        found: dict[str, tuple[float, float]] = {}
         for k in range(1, arm.n + 1):
             found |= {f"a{k}": (0.0, 0.6), f"alpha{k}": (-np.pi / 2, np.pi / 2), f"d{k}": (0.0, 0.6)}
         return found

@@ -107,7 +107,7 @@ def small(planar3, space3):
         "task": "planar",
         "poses": 32,
         "designs": 24,
-        "climbs": 3,
+        "climbs": 2,
         "fresh": 100,
         "seed": 1,
     }

@@ -110,9 +110,8 @@ class Evaluator:
 
     def _empty(self) -> Evaluated:
         p, n, k = len(self.poses), self.family.arm.n, len(self.family.space.parameters)
-        shapes = [(0, k), (0, p, n), (0, p), (0, p), (0, p), (0, p, _KEPT, n)]
-        fields = [np.empty(s) for s in shapes]
-        return Evaluated(*fields[:3], fields[3].astype(bool), *fields[4:])
+        nothing, none = np.empty((0, p)), np.empty((0, p), dtype=bool)
+        return Evaluated(np.empty((0, k)), np.empty((0, p, n)), nothing, none, nothing, np.empty((0, p, _KEPT, n)))
 
     def _grown(self, values: Array, near: Evaluated, fresh: int) -> Evaluated:
         space = self.family.space

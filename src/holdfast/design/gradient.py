@@ -172,7 +172,8 @@ class _Problem:
 
     def by_design(self, point: _Point) -> Array:
         """(R, 2 + k) index, its slope by the score, derivative of the Lagrangian by the design without the limits."""
-        return self._family.by_design.rows(point.q, self._p, self._r, self._x, point.failures, point.pose)
+        family = self._family
+        return np.asarray(family.by_design.rows(point.q, self._p, self._r, self._x, point.failures, point.pose))
 
     def guess(self, q: Array) -> _Point:
         """Multipliers at configurations that are nearly the best, by a small quadratic program for each."""
@@ -190,7 +191,8 @@ class _Problem:
     def _pose_multipliers(slopes: Array, jacobian: Array, failures: Array, force: Array) -> Array:
         """Of the balance ``slopes' failures - J' mu - force = 0``, by least squares."""
         pull = np.einsum("rfi,rf->ri", slopes, failures) - force
-        return np.einsum("rmi,ri->rm", np.linalg.pinv(np.nan_to_num(jacobian)).swapaxes(1, 2), np.nan_to_num(pull))
+        inverse = np.linalg.pinv(np.nan_to_num(jacobian))
+        return np.asarray(np.einsum("rim,ri->rm", inverse, np.nan_to_num(pull)))
 
     def solved(self, start: _Point) -> tuple[_Point, NDArray[np.bool_]]:
         """Newton's method from nearby, with the constraints that are active sought on the way; and where it arrived."""

@@ -145,8 +145,8 @@ def design(
         advance(len(chunk))
     table = {name: np.concatenate([f[name] for f in found]) for name in found[0]}
     ends = []
-    for number, (begun, least) in enumerate(_beginnings(table["smooth"], table["reach"], values, space, climbs)):
-        ends.append(part(f"climb {number + 1}", lambda b=begun, r=least: {"values": search.climb(values[b], r)})["values"])  # type: ignore[misc]
+    for number, (begun, far) in enumerate(_beginnings(table["smooth"], table["reach"], values, space, climbs)):
+        ends.append(part(f"climb {number + 1}", lambda b=begun, r=far: {"values": search.climb(values[b], r)})["values"])  # type: ignore[misc]
         advance(_CLIMB_WORTH)
     ended = np.array([space.start, *ends])
     deep = part("deep", lambda: search.deepened(ended))
@@ -254,7 +254,7 @@ def _checked(value: Array, reached: NDArray[Any], weights: Array, level: float) 
     else:
         d = Distribution.of(value[there], "larger", int((~there).sum()))
     size, share, confidence = round(d.effective()), 1 - level, 0.95
-    ends = binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share) / size
+    ends = np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share)) / size
     low, middle, high = d.quantile(np.clip([ends[0], share, ends[1] + 1 / size], 0, 1), reachable_only=False).tolist()
     return Checked(d, Interval(middle, low, high, confidence))
 
@@ -321,7 +321,7 @@ class _Search:
                 tried.append((value, float(reach[0]), x))
             return seen[key]
 
-        long_enough = {"type": "ineq", "fun": lambda u: look(u)[2] - least, "jac": lambda u: look(u)[3]}
+        long_enough: Any = {"type": "ineq", "fun": lambda u: look(u)[2] - least, "jac": lambda u: look(u)[3]}
         minimize(
             lambda u: -look(u)[0],
             np.clip((start - space.lower) / width, 0.0, 1.0),
