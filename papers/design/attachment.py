@@ -54,7 +54,7 @@ def searched(level: float, store: str | None) -> hf.Designs:
 
 
 def rounded(found: hf.Designs) -> np.ndarray:
-    """The best design as it would be built."""
+    """The best design as a workshop would be asked for it."""
     step = np.array([STEP[p.unit or "m"] for p in found.space.parameters])
     return np.asarray(np.clip(np.round(found.values[found.best] / step) * step, found.space.lower, found.space.upper))
 
@@ -70,7 +70,7 @@ def assessed(arm: hf.Arm, store: str | None) -> hf.Assessment:
 
 def table(found: hf.Designs) -> list[str]:
     """Parameters before and after."""
-    lines = ["| parameter | paper | best | as built | bounds |", "|---|---|---|---|---|"]
+    lines = ["| parameter | paper | best | rounded | bounds |", "|---|---|---|---|---|"]
     columns = (found.space.start, found.values[found.best], rounded(found))
     for k, p in enumerate(found.space.parameters):
         cells = [p.text(float(c[k])) for c in columns]
@@ -99,7 +99,7 @@ def figure(runs: dict[str, hf.Assessment], path: Path) -> None:
         label = "worst-case relative manipulability at the best configuration of a pose (no unit)"
         figures.draw_cdf(axes, curves, [], label, "share of poses below; not reached: 0")
         axes.axhline(0.05, color=figures.SOFT, linewidth=1.0, linestyle=(0, (1.2, 1.6)))
-        axes.annotate("5 %: what 95 % of the poses have", (0.6, 0.05), (0, 3), textcoords="offset points", ha="right")
+        axes.annotate("5 %: what 95 % of the poses have", (0.56, 0.05), (0, 3), textcoords="offset points", ha="right")
         axes.axvline(np.sqrt(3 / 9), color=figures.SOFT, linewidth=1.0)
         axes.annotate("bound 0.577", (np.sqrt(3 / 9), 0.5), (-4, 0), textcoords="offset points", ha="right")
         axes.legend(loc="upper left")

@@ -322,7 +322,7 @@ class _Search:
             return seen[key]
 
         long_enough: Any = {"type": "ineq", "fun": lambda u: look(u)[2] - least, "jac": lambda u: look(u)[3]}
-        minimize(
+        minimize(  # type: ignore[call-overload]
             lambda u: -look(u)[0],
             np.clip((start - space.lower) / width, 0.0, 1.0),
             jac=lambda u: -look(u)[1],
