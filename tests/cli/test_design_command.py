@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import sys
 from pathlib import Path
 
@@ -62,11 +61,9 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     check(page)
     for words in ("What to build", "a bench", "planar-3r-design", "--vary a1=0.6..1.4m", "--fresh 60"):
         assert words in page, words
-    # A search that is complete is not made again; one that lost its last part makes only that, with the same bits.
+    # A search that lost its last parts makes only those, with the same bits; one that is complete is not made again.
     memory = out / FILE
     before = memory.read_bytes()
-    assert ask("design", *SEARCH, "--region", region, "--out", out)["best"] == found["best"]
-    assert memory.read_bytes() == before
     memory.write_bytes(b"\n".join(before.splitlines()[:-2]) + b"\n" + before.splitlines()[-2][:30])
     assert ask("design", *SEARCH, "--region", region, "--out", out)["best"] == found["best"]
     assert memory.read_bytes() == before
@@ -77,7 +74,7 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     assert (code, err) == (0, "")
     assert "whichever joint locks" in told or "the best design keeps" in told
     assert "best-arm.yaml" in told
-    assert json.loads(json.dumps(found)) == found
+    assert memory.read_bytes() == before
 
 
 @pytest.mark.parametrize(

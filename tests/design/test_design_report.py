@@ -63,7 +63,7 @@ def test_the_page_says_what_to_build(found):
         "For 95 % of the poses of the region the best design keeps a relative manipulability of at least 0.38",
         "whichever joint locks; the given arm 0.20",
         "The reach goes from 3.000 m to 3.500 m",
-        "a1 (1.5 m), upper2 (90 deg) are at their bounds",
+        "a1 (1.5 m), upper2 (90 deg) of the best design are at their bounds",
         "upper limit of joint 2",
         "at the lower bound",
         "What is guaranteed against how far the arm reaches",
@@ -92,7 +92,7 @@ def test_the_command_is_the_search(found):
 def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
     assert report.headline(same).startswith("Nothing better than the given arm was found: for 95 % of the poses")
-    check(render(report.build(same)))
+    assert "Before and after" not in [s.title for s in report.build(same).sections]
     none = Checked(Distribution.of([], "larger", 200), Interval(0.0, 0.0, 0.0, 0.95))
     lost = replace(found, checked=Check(none, none, 0.0))
     assert "guarantees any relative manipulability" in report.headline(lost)
@@ -104,7 +104,6 @@ def test_nothing_better_and_nothing_at_all(found, rng):
 def test_a_gain_that_does_not_last_is_no_gain(found, rng):
     flattered = replace(found, checked=Check(checked(rng, 0.3), checked(rng, 0.25), 0.15))
     assert report.headline(flattered).startswith("No gain that lasts was found: on the 64 poses of the search the best design")
-    check(render(report.build(flattered)))
 
 
 def test_poses_that_only_the_best_design_loses_are_said(found, rng):

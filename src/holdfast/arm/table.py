@@ -75,7 +75,7 @@ def text(table: DHTable, name: str, gravity: ArrayLike = GRAVITY, source: str = 
         source: Where the numbers come from.
 
     Returns:
-        YAML. What :func:`load` reads from it has the numbers of the table to 1e-14.
+        YAML. What is read from it again has the numbers of the table to 1e-14.
     """
     lines = [f"name: {_scalar(name)}", *([f"source: {_scalar(source)}"] if source else []), "angles: deg", "rows:"]
     lines += [f"  - {{{', '.join(f'{key}: {_scalar(x)}' for key, x in _cells(row))}}}" for row in table.rows]

@@ -178,7 +178,7 @@ class Evaluator:
         return np.asarray(low[design] + unit * (high - low)[design])
 
     def finite_limits(self, values: Array) -> tuple[Array, Array]:
-        """(D, n) limits to draw between; see :func:`holdfast.arm.configurations.finite_limits`."""
+        """(D, n) limits to draw between; see ``holdfast.arm.configurations.finite_limits``."""
         low, high = self.family.limits(values)
         free = np.where(self.family.prismatic, 1.0, np.pi)
         bottom = np.where(np.isfinite(low), low, np.minimum(-free, high - free))

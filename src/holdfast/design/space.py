@@ -273,11 +273,11 @@ def design_space(arm: Arm, vary: Vary) -> DesignSpace:
 
     Args:
         arm: The given arm.
-        vary: A space as it is; bounds by name, ``{"a3": (0.2, 0.6)}``, rad and m; parameters; or texts as :func:`parse_vary`
-            reads them.
+        vary: A space as it is; bounds by name, ``{"a3": (0.2, 0.6)}``, rad and m; parameters; or texts as
+            :func:`holdfast.design.parse_vary` reads them.
 
     Raises:
-        InputError: As :class:`DesignSpace` and :func:`parse_vary`.
+        InputError: As :class:`holdfast.DesignSpace` and :func:`holdfast.design.parse_vary`.
     """
     if isinstance(vary, DesignSpace):
         return vary
