@@ -17,7 +17,7 @@ from holdfast.design.family import Family
 from holdfast.design.quantile import guaranteed
 from holdfast.design.reach import Reaches
 from holdfast.design.search import region_poses
-from holdfast.studies.process import ready, shared
+from holdfast.studies.process import PlannedJob
 from holdfast.study import Chunk, Column
 
 Array = NDArray[np.float64]
@@ -34,8 +34,11 @@ def designs_of(space: DesignSpace, count: int, seed: int) -> Array:
     return np.concatenate([space.start[None], space.draw(count, seed)])[:count]
 
 
-@dataclass(frozen=True)
-class DesignJob:
+Made = tuple[Evaluator, Reaches, Array, Array | None]
+
+
+@dataclass(frozen=True, eq=False)
+class DesignJob(PlannedJob[Made]):
     """The given arm, then designs as :meth:`holdfast.DesignSpace.draw` spreads them, all at the same poses; a row is a design.
 
     Attributes:
@@ -43,17 +46,10 @@ class DesignJob:
         rows: Designs in all.
     """
 
-    plan: dict[str, Any]
     rows: int
 
-    def __hash__(self) -> int:
-        return hash((self.plan["fingerprint"], self.plan["index"], str(self.plan["vary"]), self.rows))
-
-    def prepare(self, alone: bool) -> None:
-        """See :class:`holdfast.study.Job`."""
-        ready(self, self._made, alone)
-
-    def _made(self) -> tuple[Evaluator, Reaches, Array, Array | None]:
+    def compiled(self) -> Made:
+        """What is evaluated, its reach, all designs, and the weights of the poses."""
         p = self.plan
         space, t = space_of(p), p["task"]
         task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
@@ -76,7 +72,7 @@ class DesignJob:
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.study.Job`."""
-        evaluate, reaches, designs, weights = shared(self, self._made)
+        evaluate, reaches, designs, weights = self.made
         values = designs[chunk.start : chunk.stop]
         found = evaluate(values)
         return {
