@@ -21,6 +21,7 @@ WORKLOADS = (
     "w8_closed_loop",
     "w9_failure_tolerant",
     "w10_teleop",
+    "w13_design",
     "spectral",
     "start_up",
     "memory",
