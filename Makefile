@@ -38,7 +38,7 @@ page: page/node_modules/.package-lock.json  ## Build the experiment's page into 
 	cd page && npm run build
 
 test: lint types page/node_modules/.package-lock.json  ## Set up, then run lint, types and tests; needs Node 20 and Chromium.
-	$(BIN)/python -m pytest -n $(WORKERS)
+	$(BIN)/python -m pytest -n $(WORKERS) --durations=40
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .

@@ -54,6 +54,7 @@ def test_one_click_locks_a_joint_and_the_command_line_says_so(studio, visit):
 
 def test_a_joint_is_moved_by_its_slider_and_the_rest_stands(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
+    page.wait_for_selector("[data-worst]")  # what is typed before the first numbers are shown may be overwritten by them
     box = page.get_by_role("textbox").first
     box.fill("40")
     box.press("Enter")

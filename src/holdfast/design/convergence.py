@@ -175,7 +175,7 @@ def design_for_convergence(
         targets: Exact: the range of distances from the first joint, m; from 0 to the reach of the given arm if not given.
             Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's hand; 12 if not given.
         objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
-            ``arrival``. ``arrival``: see :class:`holdfast.design.ConvergenceDesigns`. Sampled searches maximise ``arrival``.
+            ``arrival``. ``arrival``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``arrival``.
         designs: Of the screening.
         climbs: Of the best of them, so many are improved.
         keep_reach: The varied link lengths keep their sum.

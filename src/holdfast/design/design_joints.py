@@ -104,7 +104,7 @@ class LawOfDesigns(Law):
         self.law, self.joints = law, joints
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """See :meth:`Law.inverse`."""
+        """The law's own inverse with the columns of the joints that move; the others stand."""
         rates = self.law.inverse(j[:, self.joints.moving.tolist()], v)
         return ca.SX(ca.DM(np.eye(self.arm.n)[:, self.joints.moving])) @ rates
 

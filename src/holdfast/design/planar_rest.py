@@ -178,8 +178,8 @@ class PlanarRest:
             angles: As for :meth:`radial`.
 
         Returns:
-            For each joint the angles (A,) at which it locks, rad: of joint 1 from the direction to the target, of joints 2 and
-            3 in half a turn, as the other half is the mirror image; (A,) where the target is in reach; (A,) where it is, and
+            For each joint the angles (A,) at which it locks, rad (of joint 1 from the direction to the target, of joints 2 and
+            3 in half a turn, as the other half is the mirror image); (A,) where the target is in reach; (A,) where it is, and
             the arm can get stuck.
         """
         found = [self._held(_Shapes.of(self, lengths[None], i, angles), r, angles) for i in range(3)]
