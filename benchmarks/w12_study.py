@@ -1,8 +1,10 @@
 """W12: studies. Scaling over threads, what Dask, a stop and a status cost, and memory against the number of samples.
 
-Usage: python benchmarks/w12_study.py [--seconds S]   (S: length of a chunk, about; 1 unless given)
+Usage: python benchmarks/w12_study.py [--seconds S] [--rounds R]   (S: length of a chunk, about; 1 unless given)
 
-Prints one line for each figure, with the load of the machine, on which all of them depend.
+Prints one line for each figure, with the load of the machine, on which all of them depend. Ratios are medians over rounds in
+which both ways ran one after the other. What two programs of one thread each reach together is the most that this machine gives
+to two threads, whatever they compute.
 """
 
 from __future__ import annotations
@@ -10,10 +12,12 @@ from __future__ import annotations
 import argparse
 import os
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
 import time
+from contextlib import nullcontext
 from pathlib import Path
 
 STUDY = """
@@ -88,6 +92,34 @@ def alone(chunks: int, chunk: int) -> None:
     print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
+def rate(chunk: int, seconds: float) -> None:
+    """Print chunks per second of one thread, from when a line comes in on."""
+    with tempfile.TemporaryDirectory() as place:
+        cell = study(Path(place), 1, chunk).cells[0]
+        cell.job.prepare(alone=True)
+        cell.job.run(cell.part(0, 1))
+        print("ready", flush=True)
+        input()
+        begin, count = time.perf_counter(), 0
+        while time.perf_counter() - begin < seconds:
+            cell.job.run(cell.part(0, 1))
+            count += 1
+        print(count / (time.perf_counter() - begin), flush=True)
+
+
+def together(programs: int, chunk: int, seconds: float) -> float:
+    """Chunks per second of several programs of one thread each, side by side."""
+    code = f"import w12_study as w; w.rate({chunk}, {seconds})"
+    options = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "cwd": Path(__file__).parent}
+    running = [subprocess.Popen([sys.executable, "-c", code], **options) for _ in range(programs)]
+    for p in running:
+        p.stdout.readline()
+    for p in running:
+        p.stdin.write("\n")
+        p.stdin.flush()
+    return sum(float(p.communicate()[0]) for p in running)
+
+
 def status(folder: Path, chunks: int) -> float:
     """Seconds of the question how far a study with so many chunks is."""
     from holdfast.study import Study
@@ -103,14 +135,19 @@ def status(folder: Path, chunks: int) -> float:
     return time.perf_counter() - begin
 
 
+def spread(values) -> str:
+    return f"{statistics.median(values):.3f} ({min(values):.3f} to {max(values):.3f})"
+
+
 def say(what: str, value: str) -> None:
-    print(f"{what:58} {value:>16}   load {os.getloadavg()[0]:.1f}", flush=True)
+    print(f"{what:58} {value:>26}   load {os.getloadavg()[0]:.1f}", flush=True)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--seconds", type=float, default=1.0)
-    parser.add_argument("--chunks", type=int, default=12)
+    parser.add_argument("--chunks", type=int, default=8)
+    parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--no-dask", action="store_true")
     given = parser.parse_args()
     from holdfast.study import Cluster
@@ -121,24 +158,32 @@ def main() -> None:
         asked = study(folder, given.chunks, chunk)
         say("configurations of a chunk, PA10 with 9 joints", f"{chunk:,}")
         warm(folder / "warm1", asked, threads(1))
-        one = timed(folder / "one", asked, threads(1))
-        say("1 thread", f"{one:.2f} s")
         warm(folder / "warm2", asked, threads(2))
-        two = timed(folder / "two", asked, threads(2))
-        say("2 threads", f"{two:.2f} s")
-        say("2 threads / 1", f"{one / two:.2f} x")
-        rate = given.chunks * chunk / two
-        say("1e9 configurations on 2 threads would take", f"{1e9 / rate / 60:.1f} min")
-        size = sum(f.stat().st_size for f in (folder / "two").rglob("*") if f.is_file())
-        say("store, a chunk", f"{size / given.chunks / 1000:.1f} kB")
-        first = timed(folder / "again", asked, threads(1), after(given.chunks))
-        second = timed(folder / "again", asked, threads(1))
-        say("stopped and resumed / at one go, 1 thread", f"{(first + second) / one:.3f} x")
-        if not given.no_dask:
-            with Cluster("local:1") as cluster:
+        ones, twos, resumed, dasks, ceilings = [], [], [], [], []
+        cluster = None if given.no_dask else Cluster("local:1")
+        with cluster or nullcontext():
+            if cluster:
                 warm(folder / "warm3", asked, cluster)
-                dask = timed(folder / "dask", asked, cluster)
-            say("Dask, 1 worker with 1 thread / 1 thread", f"{dask / one:.3f} x")
+            for k in range(given.rounds):
+                ones.append(timed(folder / f"one{k}", asked, threads(1)))
+                first = timed(folder / f"again{k}", asked, threads(1), after(given.chunks))
+                resumed.append((first + timed(folder / f"again{k}", asked, threads(1))) / ones[k])
+                twos.append(timed(folder / f"two{k}", asked, threads(2)))
+                if cluster:
+                    threads(1)
+                    dasks.append(timed(folder / f"dask{k}", asked, cluster) / ones[k])
+                ceilings.append(together(2, chunk, 2 * given.seconds) / together(1, chunk, 2 * given.seconds))
+        say("1 thread", f"{statistics.median(ones):.2f} s")
+        say("2 threads", f"{statistics.median(twos):.2f} s")
+        say("2 threads / 1", spread([a / b for a, b in zip(ones, twos, strict=True)]))
+        say("two programs of one thread each / one", spread(ceilings))
+        say("stopped and resumed / at one go, 1 thread", spread(resumed))
+        if cluster:
+            say("Dask, 1 worker with 1 thread / 1 thread", spread(dasks))
+        speed = given.chunks * chunk / statistics.median(twos)
+        say("1e9 configurations on 2 threads would take", f"{1e9 / speed / 60:.1f} min")
+        size = sum(f.stat().st_size for f in (folder / "two0").rglob("*") if f.is_file())
+        say("store, a chunk", f"{size / given.chunks / 1000:.1f} kB")
         say("status of 100,000 chunks", f"{status(folder, 100_000):.2f} s")
     for chunks in (4, 16, 64):
         say(f"peak memory, {chunks} chunks of 65,536 configurations", f"{memory(chunks, 65_536):.0f} MB")
