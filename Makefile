@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 WORKERS ?= 2
+MINUTES ?= 60
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test lint types docs page bench soak clean lock
@@ -57,8 +58,9 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
 
-soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 30 s without network, ... (18 minutes).
+soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 30 s without network, ...; an hour of the studio (80 minutes).
 	$(BIN)/python tests/soak.py
+	$(BIN)/python -m tests.studio.soak --minutes $(MINUTES)
 
 lock:  ## Write requirements.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock
