@@ -48,7 +48,12 @@ def without_idle_limits(arm: Arm) -> Arm:
 
 def finite_limits(arm: Arm) -> tuple[Array, Array]:
     """(n,) lower and upper limits to draw between: where there is none, +-pi rad or +-1 m, or that far beyond the other."""
-    free = np.where(arm.prismatic, 1.0, np.pi)
-    low = np.where(np.isfinite(arm.lower), arm.lower, np.minimum(-free, arm.upper - free))
-    high = np.where(np.isfinite(arm.upper), arm.upper, np.maximum(free, arm.lower + free))
+    return made_finite(arm.lower, arm.upper, arm.prismatic)
+
+
+def made_finite(lower: Array, upper: Array, prismatic: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """As :func:`finite_limits` for limits (..., n) that are not those of one arm."""
+    free = np.where(prismatic, 1.0, np.pi)
+    low = np.where(np.isfinite(lower), lower, np.minimum(-free, upper - free))
+    high = np.where(np.isfinite(upper), upper, np.maximum(free, lower + free))
     return low, high

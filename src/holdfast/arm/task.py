@@ -54,6 +54,15 @@ class Task:
         object.__setattr__(self, "rows", rows)
         object.__setattr__(self, "angular", bool(np.abs(rows[:, 3:]).max() > 0))
 
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON data."""
+        return {"name": self.name, "rows": self.rows.tolist(), "frame": self.frame, "length": self.length}
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Task:
+        """The task that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
+        return cls(data["name"], np.array(data["rows"]), data["frame"], data["length"])
+
     @property
     def m(self) -> int:
         """Number of rows."""

@@ -123,7 +123,7 @@ class Plan:
             "fingerprint": self.arm.fingerprint,
             "region": self.region.to_dict(),
             "index": index.slug,
-            "task": {"name": task.name, "rows": task.rows.tolist(), "frame": task.frame, "length": task.length},
+            "task": task.to_dict(),
             "failures": [[self.arm.joint_names[k] for k in f] for f in index.failures],
             "seed": self.seed,
             "sampling": self.sampling,
@@ -151,8 +151,7 @@ class Plan:
     def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:
         """The plan that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
         arm = from_dict(data["arm"])
-        t = data["task"]
-        task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
+        task = Task.from_dict(data["task"])
         index = by_name(data["index"], arm, task, [list(f) for f in data["failures"]])
         region = Region.from_dict(data["region"])
         apart = data.get("clearance")

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.configurations import made_finite
 from holdfast.design.family import Family
 from holdfast.solve.optimise import FIRST_STEPS, LAST_STEPS, RADIUS, best_of_each, default_starts
 
@@ -179,10 +180,7 @@ class Evaluator:
 
     def finite_limits(self, values: Array) -> tuple[Array, Array]:
         """(D, n) limits to draw between; see ``holdfast.arm.configurations.finite_limits``."""
-        low, high = self.family.limits(values)
-        free = np.where(self.family.prismatic, 1.0, np.pi)
-        bottom = np.where(np.isfinite(low), low, np.minimum(-free, high - free))
-        return bottom, np.where(np.isfinite(high), high, np.maximum(free, low + free))
+        return made_finite(*self.family.limits(values), self.family.prismatic)
 
     def _arrived(self, values: Array, owner: Index, q: Array, nearest: Array, miss: Array) -> tuple[Index, Array]:
         """Inverse kinematics from starts q (R, n): those that arrived. Where the others ended is noted if it is nearest."""

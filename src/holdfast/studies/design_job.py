@@ -51,9 +51,8 @@ class DesignJob(PlannedJob[Made]):
     def compiled(self) -> Made:
         """What is evaluated, its reach, all designs, and the weights of the poses."""
         p = self.plan
-        space, t = space_of(p), p["task"]
-        task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
-        family = Family(space, p["index"], task, [list(f) for f in p["failures"]])
+        space = space_of(p)
+        family = Family(space, p["index"], Task.from_dict(p["task"]), [list(f) for f in p["failures"]])
         poses, weights = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
         designs = designs_of(space, self.rows, p["seed"])
         return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs, weights

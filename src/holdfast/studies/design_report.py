@@ -102,6 +102,5 @@ def _told(values: Array, s: Swept, factor: float) -> tuple[str, str]:
 
 
 def _bound(s: Swept) -> float | None:
-    t = s.plan["task"]
-    task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
+    task = Task.from_dict(s.plan["task"])
     return by_name(s.plan["index"], from_dict(s.plan["arm"]), task, [list(f) for f in s.plan["failures"]]).bound

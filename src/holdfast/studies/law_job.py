@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from holdfast.arm.serial import from_dict
 from holdfast.arm.task import Task
 from holdfast.control.law import Law
@@ -23,8 +21,7 @@ class PlannedLaw(PlannedJob[T]):
 
     def law(self) -> Law:
         """The law of the plan."""
-        t = self.plan["task"]
-        task = Task(t["name"], np.array(t["rows"]), t["frame"], t["length"])
+        task = Task.from_dict(self.plan["task"])
         return read_labelled_law(self.plan["law"], from_dict(self.plan["arm"]), task, "laws")
 
 

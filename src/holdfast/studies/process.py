@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import threading
+from abc import ABC, abstractmethod
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from contextlib import suppress
@@ -47,7 +48,7 @@ def _keep_memory() -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class PlannedJob(Generic[T]):
+class PlannedJob(ABC, Generic[T]):
     """A job that is defined by its plan, and compiles something for all its chunks: once in a process.
 
     Subclasses are ``@dataclass(frozen=True, eq=False)``: a dataclass that compares makes its own hash, and a plan has none.
@@ -64,9 +65,9 @@ class PlannedJob(Generic[T]):
     def __hash__(self) -> int:
         return hash((type(self), self.plan["fingerprint"], self.plan.get("law")))
 
+    @abstractmethod
     def compiled(self) -> T:
         """What it needs, made from the plan."""
-        raise NotImplementedError
 
     @property
     def made(self) -> T:
