@@ -3,8 +3,9 @@
 Usage: python benchmarks/w12_study.py [--seconds S] [--rounds R]   (S: length of a chunk, about; 1 unless given)
 
 Prints one line for each figure, with the load of the machine, on which all of them depend. Ratios are medians over rounds in
-which both ways ran one after the other. What two programs of one thread each reach together is the most that this machine gives
-to two threads, whatever they compute.
+which both ways ran one after the other, with the quartiles. What two programs of one thread each reach together is the most
+that this machine gives to two threads, whatever they compute. What a stop costs is given by the clock and in processor time,
+which neighbours on the machine disturb less; each round looks at a study at one go before and after the one that was stopped.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from __future__ import annotations
 import argparse
 import os
 import resource
-import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from contextlib import nullcontext
 from pathlib import Path
+
+import numpy as np
 
 STUDY = """
 name: benchmark
@@ -40,13 +42,14 @@ def study(folder: Path, chunks: int, chunk: int):
     return read(file)
 
 
-def timed(folder: Path, asked, runner, stop=None, part=(1, 1)) -> float:
+def timed(folder: Path, asked, runner, stop=None, part=(1, 1)) -> np.ndarray:
+    """Seconds by the clock, and of the processor."""
     from holdfast.study import Study
 
     s = Study.create(folder, asked.name, asked.seed, asked.cells, asked.text)
-    begin = time.perf_counter()
+    begin = np.array([time.perf_counter(), time.process_time()])
     s.run(asked.cells, runner, stop=stop or (lambda: False), part=part)
-    return time.perf_counter() - begin
+    return np.array([time.perf_counter(), time.process_time()]) - begin
 
 
 def after(count: int):
@@ -136,7 +139,8 @@ def status(folder: Path, chunks: int) -> float:
 
 
 def spread(values) -> str:
-    return f"{statistics.median(values):.3f} ({min(values):.3f} to {max(values):.3f})"
+    low, median, high = np.percentile(values, [25, 50, 75])
+    return f"{median:.3f} ({low:.3f} to {high:.3f})"
 
 
 def say(what: str, value: str) -> None:
@@ -165,22 +169,29 @@ def main() -> None:
             if cluster:
                 warm(folder / "warm3", asked, cluster)
             for k in range(given.rounds):
-                ones.append(timed(folder / f"one{k}", asked, threads(1)))
-                first = timed(folder / f"again{k}", asked, threads(1), after(given.chunks))
-                resumed.append((first + timed(folder / f"again{k}", asked, threads(1))) / ones[k])
-                twos.append(timed(folder / f"two{k}", asked, threads(2)))
+                one = timed(folder / f"one{k}", asked, threads(1))
+                again = timed(folder / f"again{k}", asked, threads(1), after(given.chunks))
+                again += timed(folder / f"again{k}", asked, threads(1))
+                ones.append((one + timed(folder / f"one-more{k}", asked, threads(1))) / 2)
+                resumed.append(again / ones[k])
+                twos.append(timed(folder / f"two{k}", asked, threads(2))[0])
                 if cluster:
                     threads(1)
-                    dasks.append(timed(folder / f"dask{k}", asked, cluster) / ones[k])
+                    dasks.append(timed(folder / f"dask{k}", asked, cluster)[0] / ones[k][0])
                 ceilings.append(together(2, chunk, 2 * given.seconds) / together(1, chunk, 2 * given.seconds))
-        say("1 thread", f"{statistics.median(ones):.2f} s")
-        say("2 threads", f"{statistics.median(twos):.2f} s")
-        say("2 threads / 1", spread([a / b for a, b in zip(ones, twos, strict=True)]))
+                print(f"round {k + 1} of {given.rounds}: {ones[k][0] / twos[k]:.2f}, {resumed[k]}", file=sys.stderr)
+        clock = np.array(ones)[:, 0]
+        say("rounds", f"{given.rounds}")
+        say("1 thread", f"{np.median(clock):.2f} s")
+        say("2 threads", f"{np.median(twos):.2f} s")
+        say("2 threads / 1", spread(clock / twos))
         say("two programs of one thread each / one", spread(ceilings))
-        say("stopped and resumed / at one go, 1 thread", spread(resumed))
+        say("2 threads / two programs", spread(clock / twos / ceilings))
+        say("stopped and resumed / at one go, 1 thread", spread([r[0] for r in resumed]))
+        say("the same, processor time", spread([r[1] for r in resumed]))
         if cluster:
             say("Dask, 1 worker with 1 thread / 1 thread", spread(dasks))
-        speed = given.chunks * chunk / statistics.median(twos)
+        speed = given.chunks * chunk / np.median(twos)
         say("1e9 configurations on 2 threads would take", f"{1e9 / speed / 60:.1f} min")
         size = sum(f.stat().st_size for f in (folder / "two0").rglob("*") if f.is_file())
         say("store, a chunk", f"{size / given.chunks / 1000:.1f} kB")

@@ -5,11 +5,14 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
+from holdfast import arms
 from holdfast.assess.distribution import Distribution
+from holdfast.indices import by_name
 from holdfast.interval import Interval
 from holdfast.report.page import Page, Section, render
-from holdfast.studies.report import _headline, _standings
+from holdfast.studies.report import _headline, _standings, _structure
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.standings import standings
 
@@ -66,3 +69,16 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
 
 def test_one_arm_alone_has_nobody_to_be_compared_with():
     assert _standings(standings(FAR[:1], [], {("manipulability", "pose"): 0.5})) == []
+
+
+@pytest.mark.interpreted
+def test_a_joint_whose_lock_ends_the_task_everywhere_is_named():
+    def of(arm: str, index: str, failures: str = "single") -> Assessed:
+        plan = SimpleNamespace(arm=arms.load(arm), index=by_name(index, arms.load(arm), "pose"))
+        return Assessed({"arm": arm, "failures": failures}, plan, None, None, None, None)
+
+    indices = ("relative-manipulability", "manipulability")
+    found = [of(arm, index) for arm in ("panda", "iiwa14") for index in indices]
+    (callout,) = _structure(found)  # an iiwa's hand is as far from its shoulder as its elbow says
+    assert "once lbr_iiwa_joint_4 (joint 4) locks, 'iiwa14' is singular for task 'pose'" in callout.text
+    assert _structure([of("iiwa14", "manipulability", "pairs")]) == []

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from markupsafe import Markup
 
+from holdfast.assess.structure import explain, structure
 from holdfast.errors import StoreError
 from holdfast.interval import Interval
 from holdfast.report import figures, page
@@ -54,6 +55,7 @@ def build(study: Study) -> Page:
     stand = standings(found, laws, asked)
     sections = [
         Section("Which arm for what", _standings(stand)),
+        Section("Single points of failure by structure", _structure(found)),
         *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
@@ -157,6 +159,17 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         Picture(figures.svg(figure, "standings", "Shares of all arms at every question"), "More is better in every row."),
         Table(rows, head, frozenset({2}), caption=about, wide=True),
     ]
+
+
+def _structure(found: Sequence[Assessed]) -> list[Block]:
+    """Of each arm and task that a lock ends in every configuration: why nothing is left there, whatever the samples."""
+    plans = [a.plan for a in found if a.labels.get("failures", "single") == "single"]
+    blocks: list[Block] = []
+    for plan in {(p.arm.fingerprint, p.index.task.name): p for p in plans}.values():
+        own = structure(plan.arm, plan.index.task)
+        if not own.survives:
+            blocks.append(Callout(explain(plan.arm, own, []), "bad"))
+    return blocks
 
 
 def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> list[Block]:
