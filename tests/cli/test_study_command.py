@@ -136,6 +136,38 @@ def test_samples_do_not_depend_on_where_chunks_end(sampling):
         np.testing.assert_array_equal(region.samples(1000, 1024, 5, 7, sampling, 3000), first[1000:])
 
 
+@pytest.mark.parametrize("sampling", ["random", "sobol"])
+def test_samples_of_a_box_may_be_of_many_blocks(sampling):
+    region = Region.joints([-1, -2, 0], [1, 2, 0.5])
+    blocks = region.blocks(2, 7, sampling, 10**6)
+    whole = np.concatenate([next(blocks), next(blocks)])
+    start, place = 2 * region.block, np.full((region.block + 99, 3), np.nan)
+    found = region.samples(start, start + len(place), 2, 7, sampling, 10**6, place)
+    np.testing.assert_array_equal(found, whole[: len(place)])
+    np.testing.assert_array_equal(place, found)
+
+
+@pytest.mark.parametrize("index", ["relative-manipulability", "minimum-singular-value"])
+def test_counts_of_configurations_are_those_of_the_rows(index, tmp_path):
+    (tmp_path / "joints.yaml").write_text("joints: {lower: [-3, -1, 0], upper: [3, 1, 0.2]}")
+    found = []
+    for keep in ("rows", "counts"):
+        path = tmp_path / f"{keep}.yaml"
+        path.write_text(
+            "{poses: 300000, chunk: 170000, seed: 5, arms: [planar-3r], "
+            f"assess: {{indices: [{index}], regions: [joints.yaml], keep: {keep}}}}}"
+        )
+        asked = read(path)
+        study = Study.create(tmp_path / keep, asked.name, asked.seed, asked.cells, asked.text)
+        study.run(asked.cells, Threads(1))
+        found.append(assessed(study, 0))
+    rows, counts = found
+    assert rows.worst == counts.worst
+    a, b = rows.plain, counts.plain
+    assert (a.samples, a.singular, a.lowest, a.highest) == (b.samples, b.singular, b.lowest, b.highest) != (0, 0, 0, 0)
+    np.testing.assert_array_equal(b.cdf(b.edges[1:-1:37]), a.cdf(b.edges[1:-1:37]))
+
+
 def test_counts_are_those_of_the_rows(tmp_path):
     found = []
     for keep in ("rows", "counts"):

@@ -37,6 +37,9 @@ def test_a_singular_configuration(name, pa10, rng):
     np.testing.assert_array_equal(e.value[expected], convention(name))
     assert np.isfinite(e.value[~expected]).all()
     np.testing.assert_array_equal(index(q), e.value)
+    for a, b in ((index.worst_case(q), e), (index.worst_case(zero), index.evaluate(zero))):
+        for what in ("value", "worst", "status"):
+            np.testing.assert_array_equal(getattr(a, what), getattr(b, what))
     g = index.gradient(q)
     np.testing.assert_array_equal(g[expected], 0)
     np.testing.assert_array_equal(g[~expected], index.gradient(q[~expected]))
@@ -136,6 +139,9 @@ def test_nan_in_a_batch_and_alone(name, bad, mixed7, rng):
     assert np.isnan(e.by_failure[[3, 24]]).all()
     assert np.isnan(g[[3, 24]]).all()
     np.testing.assert_array_equal(e.status[[3, 24]], Status.BAD_INPUT)
+    alone = index.worst_case(q)
+    np.testing.assert_array_equal(alone.value, e.value)
+    np.testing.assert_array_equal(alone.status, e.status)
     np.testing.assert_array_equal(e.status[others], Status.OK)
     np.testing.assert_array_equal(e.value[others], clean.value[others])
     np.testing.assert_array_equal(e.by_failure[others], clean.by_failure[others])

@@ -77,6 +77,10 @@ def test_against_singular_values(case, make, rng):
         np.testing.assert_array_equal(e.by_failure[np.arange(120), e.worst], worst)
         assert (e.status == 0).all()
         np.testing.assert_allclose(index(q), e.value, rtol=1e-15)
+        alone = index.worst_case(q)
+        np.testing.assert_allclose(alone.value, e.value, rtol=1e-15)
+        np.testing.assert_allclose(e.by_failure[np.arange(120), alone.worst], worst, rtol=1e-15)
+        np.testing.assert_array_equal(alone.status, e.status)
 
 
 def test_published_values_of_the_nominal_configuration(pa10):

@@ -45,7 +45,8 @@ class Counts:
             place = np.minimum(values / (self._index.bound / BOUNDED), last).astype(np.int64)
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
-        finite = values[np.isfinite(values)]
+        known = np.isfinite(values)
+        finite = values if known.all() else values[known]  # numpy picks rows, and counts them, with Python held
         low, high = (float(finite.min()), float(finite.max())) if finite.size else (np.inf, -np.inf)
         facts = np.array([unreached, len(values), singular, len(values) - len(finite), finite.sum(), low, high])
         self.join(np.bincount(place.clip(0, last), minlength=last + 1), facts)

@@ -16,7 +16,7 @@ from holdfast.arm.task import Task
 from holdfast.assess.region import Region, Sampling
 from holdfast.clearance import Capsules, Clearance
 from holdfast.errors import InputError
-from holdfast.indices import BY_NAME, Evaluation, Index, by_name
+from holdfast.indices import BY_NAME, Evaluation, Index, WorstCase, by_name
 from holdfast.solve import solver
 from holdfast.solve.optimise import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
@@ -287,6 +287,11 @@ class Plan:
             rows["survives"] = self._survival(poses, reach.q, reach.success, number)
         return rows
 
+    def worst_cases(self, configurations: Array) -> Rows:
+        """Of a region of joints, from the rows of :meth:`evaluate`, only those that are counted: no failure but the worst."""
+        found = self.index.worst_case(configurations)
+        return {"status": found.status, "index": found.value, "worst": _worst(found)}
+
     def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> NDArray[np.int8]:
         """For each reached pose and each joint asked for: is it still reached once the joint has locked?
 
@@ -381,9 +386,13 @@ def read_locks(arm: Arm, given: Mapping[Any, float]) -> tuple[tuple[int, float],
     return tuple(sorted(found.items()))
 
 
-def _worst(result: Evaluation) -> NDArray[np.int16]:
+def _worst(result: Evaluation | WorstCase) -> NDArray[np.int16]:
     """Worst failure; none at a singular configuration, where all are equally bad."""
-    return np.where(result.status == Status.OK, result.worst, -1).astype(np.int16)
+    worst = result.worst.astype(np.int16)
+    lost = result.status != Status.OK
+    if lost.any():
+        worst[lost] = -1
+    return worst
 
 
 def _whole(what: str, value: Any, least: int) -> int:

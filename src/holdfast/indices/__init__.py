@@ -14,7 +14,7 @@ from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices import susceptibility
 from holdfast.indices.custom import CustomIndex
-from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index
+from holdfast.indices.index import SINGULAR_RATIO, Evaluation, Index, WorstCase
 from holdfast.indices.objective import Objective, Opposite, Part, WeightedSum
 from holdfast.indices.relative import Manipulability, RelativeManipulability
 from holdfast.indices.spectral import SpectralIndex
@@ -97,6 +97,7 @@ __all__ = [
     "RelativeManipulability",
     "SpectralIndex",
     "WeightedSum",
+    "WorstCase",
     "by_name",
     "condition_number",
     "geometric_mean_singular_value",

@@ -45,6 +45,19 @@ class Evaluation:
     status: NDArray[np.uint8]
 
 
+@dataclass(frozen=True)
+class WorstCase:
+    """What :class:`Evaluation` says of the worst failure alone.
+
+    Attributes:
+        value, worst, status: As there.
+    """
+
+    value: Array
+    worst: NDArray[np.int64]
+    status: NDArray[np.uint8]
+
+
 class Index(Objective):
     """A number that says what a configuration is worth after any one of a set of failures.
 
@@ -109,13 +122,27 @@ class Index(Objective):
         """
         rows, single = self._rows(q)
         by_failure, singular = self._by_failure(rows)
-        status = np.where(singular, Status.SINGULAR, Status.OK).astype(np.uint8)
-        status[np.isnan(by_failure).any(axis=1)] = Status.BAD_INPUT
-        worst = (by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)).astype(np.int64)
-        value = np.take_along_axis(by_failure, worst[:, None], axis=1)[:, 0]
+        found = by_failure.argmin(axis=1) if self.better == "larger" else by_failure.argmax(axis=1)  # a NaN, if there is any
+        worst = found.astype(np.int64, copy=False)
+        value = by_failure.ravel().take(worst + np.arange(0, by_failure.size, by_failure.shape[1]))
+        status = np.full(len(rows), Status.OK, dtype=np.uint8)
+        status[singular] = Status.SINGULAR
+        status[np.isnan(value)] = Status.BAD_INPUT
         if single:
             return Evaluation(value[0], by_failure[0], worst[0], status[0])
         return Evaluation(value, by_failure, worst, status)
+
+    def worst_case(self, q: ArrayLike) -> WorstCase:
+        """Value, worst failure and status, without the values of the other failures: for very many configurations.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+
+        Raises:
+            InputError: As :meth:`evaluate`.
+        """
+        found = self.evaluate(q)
+        return WorstCase(found.value, found.worst, found.status)
 
     def __call__(self, q: ArrayLike) -> Array:
         """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""

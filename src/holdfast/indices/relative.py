@@ -19,9 +19,10 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.failures import FailureSpec
-from holdfast.indices.index import Index
+from holdfast.indices.index import Index, WorstCase
 from holdfast.kernels import SX, Kernel
 from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
+from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
@@ -180,6 +181,18 @@ class RelativeManipulability(Index):
         return self._build_values(marked=True, worst_only=True)
 
     @cached_property
+    def _which_kernel(self) -> Kernel:
+        """The worst value, and which failure it is of: the first of those with exactly this value."""
+        q, _, qr = self._symbols
+        scale = self._scale(qr)
+        least, which = ca.SX(np.inf), ca.SX(0)
+        for k, square in enumerate(self._squares(qr)):
+            value = scale * ca.sqrt(square)
+            less = value < least
+            least, which = ca.if_else(less, value, least), ca.if_else(less, float(k), which)
+        return Kernel(f"worst {self.name}", [q], [self._mark(qr, [least, which], marked=True)])
+
+    @cached_property
     def _values_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=False)
 
@@ -204,6 +217,18 @@ class RelativeManipulability(Index):
             again = np.flatnonzero(np.isnan(value))
             value[again] = super().evaluate(rows[again]).value
         return value[0] if single else value
+
+    def worst_case(self, q: ArrayLike) -> WorstCase:
+        """See :meth:`Index.worst_case`: of these the kernel finds the worst failure itself."""
+        rows, single = self._rows(q)
+        found, marked = self._which_kernel.marked_rows(rows)
+        value, status = np.ascontiguousarray(found[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)
+        if marked:
+            again = np.flatnonzero(np.isnan(value))
+            closely = self.evaluate(rows[again])
+            value[again], status[again], found[again, 1] = closely.value, closely.status, closely.worst
+        worst = found[:, 1].astype(np.int64)
+        return WorstCase(value[0], worst[0], status[0]) if single else WorstCase(value, worst, status)
 
     def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
         values, marked = self._values_kernel.marked_rows(q)

@@ -206,10 +206,11 @@ class Kernel:
             rows = slice(row, row + a.shape[1])
             scratch_in[rows, :used] = a.T if a.shape[0] == 1 else a[start:stop].T
             row += a.shape[1]
-        scratch_in[:, used:] = scratch_in[:, used - 1 : used]
+        if used < width:
+            scratch_in[:, used:] = scratch_in[:, used - 1 : used]
         self.evaluate_columns(scratch_in, scratch_out)
         out[start:stop] = scratch_out[:, :used].T
-        return bool(np.isnan(scratch_out[0, :used]).any())
+        return math.isnan(scratch_out[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
 
     def __repr__(self) -> str:
         p = self.program
