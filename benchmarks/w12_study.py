@@ -20,7 +20,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -158,6 +157,26 @@ def say(what: str, value: str) -> None:
     print(f"{what:58} {value:>26}   load {os.getloadavg()[0]:.1f}", flush=True)
 
 
+def dask(folder: Path, asked, rounds: int) -> None:
+    """What one worker process costs, and what two gain. Apart from the rest: its client keeps a thread of this program busy."""
+    from holdfast.study import Cluster
+
+    threads(1)
+    with Cluster("local:1") as one, Cluster("local:2") as two:
+        warm(folder / "warm3", asked, one)
+        warm(folder / "warm4", asked, two)
+        runs = [
+            [
+                timed(folder / f"{name}-{k}", asked, runner)[0]
+                for name, runner in (("plain", threads(1)), ("worker", one), ("workers", two))
+            ]
+            for k in range(rounds)
+        ]
+    plain, worker, workers = np.array(runs).T
+    say("Dask, 1 worker with 1 thread / 1 thread", spread(worker / plain))
+    say("1 thread / Dask, 2 workers with 1 thread each", spread(plain / workers))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--seconds", type=float, default=1.0)
@@ -165,7 +184,6 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--no-dask", action="store_true")
     given = parser.parse_args()
-    from holdfast.study import Cluster
 
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
@@ -174,26 +192,15 @@ def main() -> None:
         say("configurations of a chunk, PA10 with 9 joints", f"{chunk:,}")
         warm(folder / "warm1", asked, threads(1))
         warm(folder / "warm2", asked, threads(2))
-        ones, twos, resumed, dasks, ceilings = [], [], [], [], []
-        both: list[float] = []
-        cluster, pair = (None, None) if given.no_dask else (Cluster("local:1"), Cluster("local:2"))
-        with cluster or nullcontext(), pair or nullcontext():
-            for name, some in (("warm3", cluster), ("warm4", pair)):
-                if some:
-                    warm(folder / name, asked, some)
-            for k in range(given.rounds):
-                one = timed(folder / f"one{k}", asked, threads(1))
-                again = timed(folder / f"again{k}", asked, threads(1), after(given.chunks))
-                again += timed(folder / f"again{k}", asked, threads(1))
-                ones.append((one + timed(folder / f"one-more{k}", asked, threads(1))) / 2)
-                resumed.append(again)
-                twos.append(timed(folder / f"two{k}", asked, threads(2)))
-                if cluster:
-                    threads(1)
-                    dasks.append(timed(folder / f"dask{k}", asked, cluster)[0] / ones[k][0])
-                    both.append(ones[k][0] / timed(folder / f"pair{k}", asked, pair)[0])
-                ceilings.append(together(2, chunk, 2 * given.seconds) / together(1, chunk, 2 * given.seconds))
-                print(f"round {k + 1} of {given.rounds}: {ones[k]}, {twos[k]}", file=sys.stderr)
+        ones, twos, resumed, ceilings = [], [], [], []
+        for k in range(given.rounds):
+            one = timed(folder / f"one{k}", asked, threads(1))
+            again = timed(folder / f"again{k}", asked, threads(1), after(given.chunks))
+            resumed.append(again + timed(folder / f"again{k}", asked, threads(1)))
+            ones.append((one + timed(folder / f"one-more{k}", asked, threads(1))) / 2)
+            twos.append(timed(folder / f"two{k}", asked, threads(2)))
+            ceilings.append(together(2, chunk, 2 * given.seconds) / together(1, chunk, 2 * given.seconds))
+            print(f"round {k + 1} of {given.rounds}: {ones[k]}, {twos[k]}", file=sys.stderr)
         one, two, again = np.array(ones), np.array(twos), np.array(resumed)
         say("rounds", f"{given.rounds}")
         say("1 thread", f"{np.median(one[:, 0]):.2f} s")
@@ -205,14 +212,13 @@ def main() -> None:
         say("two programs of one thread each / one", spread(ceilings))
         say("stopped and resumed / at one go, 1 thread", spread(again[:, 0] / one[:, 0]))
         say("a stop, beside the chunks, of the time at one go, %", spread(100 * (again[:, 1] - one[:, 1]) / one[:, 0]))
-        if cluster:
-            say("Dask, 1 worker with 1 thread / 1 thread", spread(dasks))
-            say("1 thread / Dask, 2 workers with 1 thread each", spread(both))
         speed = given.chunks * chunk / np.median(two[:, 0])
         say("1e9 configurations on 2 threads would take", f"{1e9 / speed / 60:.1f} min")
         size = sum(f.stat().st_size for f in (folder / "two0").rglob("*") if f.is_file())
         say("store, a chunk", f"{size / given.chunks / 1000:.1f} kB")
         say("status of 100,000 chunks", f"{status(folder, 100_000):.2f} s")
+        if not given.no_dask:
+            dask(folder, asked, given.rounds)
     for chunks in (4, 16, 64):
         say(f"peak memory, {chunks} chunks of 65,536 configurations", f"{memory(chunks, 65_536):.0f} MB")
 

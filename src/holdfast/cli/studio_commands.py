@@ -112,8 +112,11 @@ def studio(
         time=time,
         show=show,
     )
-    with serve(model, state, host, port, as_task(model, read_task(state.task, arm, model))) as page:
-        typer.echo(f"Open {page.url} in a browser; Ctrl-C stops.")
+
+    def ready(url: str) -> None:
+        typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
+
+    with serve(model, state, host, port, as_task(model, read_task(state.task, arm, model)), ready) as page:
         page.wait()
 
 

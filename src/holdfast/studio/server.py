@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import socket
 import threading
+from collections.abc import Callable
 from contextlib import redirect_stdout
 from importlib.util import find_spec
 from pathlib import Path
@@ -43,7 +44,7 @@ class Studio:
 
         self._server = server
         self.host, self.port = server.get_host(), server.get_port()
-        self.url = f"http://{self.host}:{self.port}"
+        self.url = address(server)
         self.windows: dict[int, Window] = {}
         self.machine = machine
         self._aside = Aside(machine.arm, machine.task)
@@ -84,7 +85,14 @@ class Studio:
         self.stop()
 
 
-def serve(arm: Arm, state: State | None = None, host: str = LOOPBACK, port: int = PORT, task: Task | None = None) -> Studio:
+def serve(
+    arm: Arm,
+    state: State | None = None,
+    host: str = LOOPBACK,
+    port: int = PORT,
+    task: Task | None = None,
+    ready: Callable[[str], None] = lambda url: None,
+) -> Studio:
     """Open the studio of an arm; it is served until :meth:`Studio.stop`.
 
     Everyone who opens the page has an arm of his own there, which begins with ``state``. Nothing is asked of any other host.
@@ -96,6 +104,7 @@ def serve(arm: Arm, state: State | None = None, host: str = LOOPBACK, port: int 
             the loopback address only in a network where all are trusted.
         port: The port; 0: any that is free.
         task: The task, where its name in ``state`` does not say it all.
+        ready: Told the address as soon as a browser may open it; the arm comes while the browser loads the page.
 
     Raises:
         HoldfastError: Viser is not installed; it comes with ``holdfast[view]``.
@@ -108,17 +117,23 @@ def serve(arm: Arm, state: State | None = None, host: str = LOOPBACK, port: int 
         state = State(arm.name, arm.joint_names, tuple(middle(arm)), "pose")
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
-    threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
-    import viser  # takes as long as the kernels do, which are compiled meanwhile
+    import viser
 
-    parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
     server = _private_server(viser, host, free)
+    ready(address(server))
+    threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
+    parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
     server.initial_camera.position, server.initial_camera.look_at = _camera(machine, np.array(state.q))
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
     server.scene.configure_environment_map(hdri=None)
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_light_ambient("/ambient", intensity=1.6)
     return Studio(server, machine, state, parts, note)
+
+
+def address(server: Any) -> str:
+    """Where a viser server is."""
+    return f"http://{server.get_host()}:{server.get_port()}"
 
 
 def _private_server(viser: Any, host: str, port: int) -> Any:
