@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 import socket
+from urllib.request import urlopen
 
 import numpy as np
 import pytest
@@ -22,8 +23,6 @@ def opened(monkeypatch):
     calls = []
 
     class Page:
-        url = "http://127.0.0.1:1"
-
         def __enter__(self):
             return self
 
@@ -33,8 +32,9 @@ def opened(monkeypatch):
         def wait(self):
             return None
 
-    def fake(arm, state, host, port, task):
+    def fake(arm, state, host, port, task, ready):
         calls.append((arm, state, host, port, task))
+        ready("http://127.0.0.1:1")
         return Page()
 
     monkeypatch.setattr("holdfast.studio.serve", fake)
@@ -120,6 +120,21 @@ def test_a_port_in_use_is_named():
                 State("planar-3r", hf.arms.load("planar-3r").joint_names, (0.1, 0.2, 0.3), "planar"),
                 port=port,
             )
+
+
+def test_the_page_is_there_before_the_arm():
+    pytest.importorskip("viser")
+    found = []
+
+    def ready(url):
+        with urlopen(url) as answer:  # of the server itself
+            found.append((url, answer.status, answer.read(1000)))
+
+    arm = hf.arms.load("planar-3r")
+    with serve(arm, State("planar-3r", arm.joint_names, (0.1, 0.2, 0.3), "planar"), port=0, ready=ready) as page:
+        [(url, status, content)] = found
+        assert (url, status) == (page.url, 200)
+        assert b"<html" in content
 
 
 def test_without_viser_there_is_a_sentence(monkeypatch):
