@@ -147,21 +147,23 @@ def test_samples_of_a_box_may_be_of_many_blocks(sampling):
     np.testing.assert_array_equal(place, found)
 
 
+def both_ways(folder, size, block):
+    """What every cell of a study found when it keeps rows, and when it keeps counts."""
+    found = []
+    for keep in ("rows", "counts"):
+        path = folder / f"{keep}.yaml"
+        path.write_text(f"{{{size}, seed: 5, arms: [planar-3r], assess: {{{block}, keep: {keep}}}}}")
+        asked = read(path)
+        study = Study.create(folder / keep, asked.name, asked.seed, asked.cells, asked.text)
+        study.run(asked.cells, Threads(1))
+        found.append([assessed(study, k) for k in range(len(asked.cells))])
+    return found
+
+
 @pytest.mark.parametrize("index", ["relative-manipulability", "minimum-singular-value"])
 def test_counts_of_configurations_are_those_of_the_rows(index, tmp_path):
     (tmp_path / "joints.yaml").write_text("joints: {lower: [-3, -1, 0], upper: [3, 1, 0.2]}")
-    found = []
-    for keep in ("rows", "counts"):
-        path = tmp_path / f"{keep}.yaml"
-        path.write_text(
-            "{poses: 300000, chunk: 170000, seed: 5, arms: [planar-3r], "
-            f"assess: {{indices: [{index}], regions: [joints.yaml], keep: {keep}}}}}"
-        )
-        asked = read(path)
-        study = Study.create(tmp_path / keep, asked.name, asked.seed, asked.cells, asked.text)
-        study.run(asked.cells, Threads(1))
-        found.append(assessed(study, 0))
-    rows, counts = found
+    [[rows], [counts]] = both_ways(tmp_path, "poses: 300000, chunk: 170000", f"indices: [{index}], regions: [joints.yaml]")
     assert rows.worst == counts.worst
     a, b = rows.plain, counts.plain
     assert (a.samples, a.singular, a.lowest, a.highest) == (b.samples, b.singular, b.lowest, b.highest) != (0, 0, 0, 0)
@@ -169,17 +171,8 @@ def test_counts_of_configurations_are_those_of_the_rows(index, tmp_path):
 
 
 def test_counts_are_those_of_the_rows(tmp_path):
-    found = []
-    for keep in ("rows", "counts"):
-        path = tmp_path / f"{keep}.yaml"
-        path.write_text(
-            "{poses: 60, chunk: 25, seed: 5, arms: [planar-3r], assess: {optimise: true, indices: [relative-manipulability, "
-            f"condition-number], keep: {keep}}}}}"
-        )
-        asked = read(path)
-        study = Study.create(tmp_path / keep, asked.name, asked.seed, asked.cells, asked.text)
-        study.run(asked.cells, Threads(1))
-        found.append([assessed(study, k) for k in range(2)])
+    indices = "indices: [relative-manipulability, condition-number]"
+    found = both_ways(tmp_path, "poses: 60, chunk: 25", f"optimise: true, {indices}")
     for rows, counts in zip(*found, strict=True):
         assert rows.worst == counts.worst
         for a, b in ((rows.plain, counts.plain), (rows.optimised, counts.optimised)):
