@@ -37,7 +37,7 @@ class AssessJob(PlannedJob[Plan]):
         """The plan, with what its equations became."""
         plan = Plan.from_dict(self.plan, self.rows)
         plan.compile()
-        if self.keep == "counts":
+        if self.keep == "counts" and plan.region.kind == "joints":
             plan.index.worst_case(np.zeros((1, plan.arm.n)))
         return plan
 
