@@ -6,7 +6,7 @@ import io
 import socket
 import threading
 from collections.abc import Callable
-from contextlib import redirect_stdout
+from contextlib import redirect_stdout, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -207,10 +207,6 @@ def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, .
 
 
 def _warm(machine: Machine, state: State) -> None:
-    """Compile while the server starts and the browser loads the page."""
-    q = np.array(state.q)
-    try:
-        machine.read(q, state.failed, state.index, state.susceptibility)
-        machine.reach(q, machine.hand(q), ())
-    except HoldfastError:
-        return  # the window says it
+    """Compile what the first picture shows while the browser loads the page."""
+    with suppress(HoldfastError):  # the window says it
+        machine.read(np.array(state.q), state.failed, state.index, state.susceptibility)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -129,6 +130,8 @@ class Window:
         if self.state.target is not None:
             self._show_target()
         self._refresh()
+        with suppress(HoldfastError):  # said when somebody drags
+            self.machine.reach(self.q, self.machine.hand(self.q), ())  # compiled while the browser draws
         start = {"best-worst": "best-worst", "laws": "laws", "swing": "swing", "file": "file"}.get(self.state.show)
         if self.state.show == "region":
             start = "results" if self.state.region else "region"
