@@ -7,6 +7,7 @@ import shutil
 import tempfile
 import zlib
 
+import hypothesis
 import numpy as np
 import pytest
 
@@ -14,6 +15,10 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast.kernels import set_threads
+
+# No test asks how long something takes: on a busy machine hypothesis would call it a failure.
+hypothesis.settings.register_profile("holdfast", deadline=None)
+hypothesis.settings.load_profile("holdfast")
 
 _DRAW = 20120831
 _MADE: list[str] = []
