@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -35,12 +37,15 @@ WATCH = """() => { window.seen = 0; new MutationObserver(() => { window.seen += 
     document.body, {subtree: true, childList: true, characterData: true}); }"""
 
 
-def start(arm: str) -> tuple[subprocess.Popen, str]:
-    """'holdfast studio ARM', and the address it printed."""
+@contextmanager
+def started(arm: str) -> Iterator[tuple[float, str]]:
+    """'holdfast studio ARM': when it was started, and the address it printed."""
+    begin = time.perf_counter()
     command = [sys.executable, "-m", "holdfast", "studio", arm, "--port", "0"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
-    return process, process.stdout.readline().split()[1]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        yield begin, process.stdout.readline().split()[1]
+        process.terminate()
 
 
 def first_pictures(arm: str, browser, drawn: bool) -> list[float]:
@@ -49,15 +54,12 @@ def first_pictures(arm: str, browser, drawn: bool) -> list[float]:
     context.add_init_script(f"({PICTURES})({json.dumps(drawn)})")
     page, found = context.new_page(), []
     for _ in range(LOADS):
-        begin = time.perf_counter()
-        process, url = start(arm)
-        page.goto(url, wait_until="commit")
-        page.wait_for_selector("[data-worst]")
-        page.wait_for_function("window.pictures > 0", polling="raf")
-        found.append(time.perf_counter() - begin)
-        page.goto("about:blank")
-        process.terminate()
-        process.wait()
+        with started(arm) as (begin, url):
+            page.goto(url, wait_until="commit")
+            page.wait_for_selector("[data-worst]")
+            page.wait_for_function("window.pictures > 0", polling="raf")
+            found.append(time.perf_counter() - begin)
+            page.goto("about:blank")
     context.close()
     return found
 
@@ -87,7 +89,7 @@ def moving(window, q, page, seconds: float) -> tuple[float, float]:
             time.sleep(0.0005)
         longest = max(longest, time.perf_counter() - begin)
         count += 1
-        if page is not None and count % 10 == 0:
+        if count % 10 == 0:
             page.wait_for_timeout(1)
     return count / seconds, longest
 
@@ -144,11 +146,8 @@ def main() -> None:
 
     served = []
     for _ in range(LOADS):
-        begin = time.perf_counter()
-        process, _ = start(chosen.arm)
-        served.append(time.perf_counter() - begin)
-        process.terminate()
-        process.wait()
+        with started(chosen.arm) as (begin, _):
+            served.append(time.perf_counter() - begin)
     out: dict[str, object] = {"start_to_address_s": served}
     arm, q = arms.load(chosen.arm), np.array(arms.about(chosen.arm).home) + 0.1
     with serve(arm, State(chosen.arm, arm.joint_names, tuple(q)), port=0) as studio:
@@ -165,7 +164,7 @@ def main() -> None:
                     first = first_pictures(chosen.arm, browser, drawn)
                     out[how] = {"start_to_first_picture_s": first, **dragged(studio, browser, drawn, q, chosen.seconds)}
                     browser.close()
-    print(json.dumps(out, indent=2, default=lambda x: round(float(x), 3)))
+    print(json.dumps(out, indent=2))
 
 
 if __name__ == "__main__":

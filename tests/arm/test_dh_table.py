@@ -39,14 +39,14 @@ def test_built_in_arms_move_the_same(name: str, rng: np.random.Generator) -> Non
     same(arms.load(name), rng)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_arms_with_nothing_aligned_move_the_same(seed: int) -> None:
     rng = np.random.default_rng(seed)
     same(oracles.random_arm(rng), rng)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_parallel_crossing_and_common_axes_move_the_same(seed: int) -> None:
     """Axes along the three directions of a grid, on points of a small grid: all the special cases, turned as a whole."""
@@ -63,7 +63,7 @@ def test_parallel_crossing_and_common_axes_move_the_same(seed: int) -> None:
         same(hf.Arm("grid", tuple(chain), base=oracles.random_pose(rng), tool=oracles.random_pose(rng)), rng)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_a_table_comes_back_where_it_is_unambiguous(seed: int) -> None:
     """Skew axes, negative lengths and all: the same numbers, base and tool."""

@@ -53,7 +53,7 @@ def random_rows(rng: np.random.Generator, n: int) -> list[dict]:
 
 
 @pytest.mark.interpreted
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(
     seed=st.integers(0, 2**32 - 1), convention=st.sampled_from(["standard", "modified"]), angles=st.sampled_from(["rad", "deg"])
 )

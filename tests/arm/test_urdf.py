@@ -196,7 +196,7 @@ class Forest:
 
 
 @pytest.mark.interpreted
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_random_trees_agree_with_pinocchio(tmp_path_factory: pytest.TempPathFactory, seed: int) -> None:
     rng = np.random.default_rng(seed)

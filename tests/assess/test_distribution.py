@@ -104,7 +104,7 @@ numbers = st.one_of(st.sampled_from([0.0, 0.1, 0.2, 0.5]), st.floats(0, 1, allow
 cases = st.tuples(st.lists(numbers, min_size=1, max_size=40), st.integers(0, 12), st.sampled_from(BETTER), st.booleans())
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(cases, st.lists(numbers, min_size=2, max_size=8))
 def test_cdf_is_monotone_and_complements_the_probability(case, thresholds):
     values, unreached, better, only = case
@@ -119,7 +119,7 @@ def test_cdf_is_monotone_and_complements_the_probability(case, thresholds):
         assert d.probability(at_most=x, reachable_only=only) == pytest.approx(oracle.at_most(x), abs=1e-15)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(
     cases, st.one_of(st.floats(0, 1), st.tuples(st.integers(0, 52), st.integers(1, 52)).map(lambda t: min(t[0] / t[1], 1.0)))
 )

@@ -39,7 +39,7 @@ numbers = st.one_of(st.sampled_from([0.0, 0.1, 0.2, 0.5, np.inf]), st.floats(0, 
 weighted = st.lists(st.tuples(numbers, st.integers(0, 4)), min_size=1, max_size=25)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(weighted, st.lists(st.integers(0, 3), max_size=6), st.sampled_from(["larger", "smaller"]), st.booleans(), st.data())
 def test_whole_weights_are_repetitions(found, lost, better, only, data):
     values, w = (np.array(x, dtype=float) for x in zip(*found, strict=True))

@@ -65,7 +65,7 @@ def test_parallel_segments(rng, sense):
         check(p, u, q, sense * rng.uniform(0.1, 3) * u)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(seed=st.integers(0, 2**32 - 1), angle=st.floats(-16, 0).map(lambda x: 10**x), gap=st.floats(-9, 0).map(lambda x: 10**x))
 def test_nearly_parallel_segments(seed, angle, gap):
     rng = np.random.default_rng(seed)

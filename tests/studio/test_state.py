@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import holdfast as hf
 from holdfast.cli.app import app
-from holdfast.studio import State, serve
+from holdfast.studio import State, serve, server
 from holdfast.studio.motions import read_motion
 
 
@@ -122,11 +122,15 @@ def test_a_port_in_use_is_named():
             )
 
 
-def test_the_page_is_there_before_the_arm():
+def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
     pytest.importorskip("viser")
-    found = []
+    found, order = [], []
+    for name in ("_camera", "body_of"):
+        real = getattr(server, name)
+        monkeypatch.setattr(server, name, lambda *given, name=name, real=real: (order.append(name), real(*given))[1])
 
     def ready(url):
+        order.append("ready")
         with urlopen(url) as answer:  # of the server itself
             found.append((url, answer.status, answer.read(1000)))
 
@@ -135,6 +139,7 @@ def test_the_page_is_there_before_the_arm():
         [(url, status, content)] = found
         assert (url, status) == (page.url, 200)
         assert b"<html" in content
+    assert order == ["_camera", "ready", "body_of"]
 
 
 def test_without_viser_there_is_a_sentence(monkeypatch):

@@ -389,9 +389,7 @@ def read_locks(arm: Arm, given: Mapping[Any, float]) -> tuple[tuple[int, float],
 def _worst(result: Evaluation | WorstCase) -> NDArray[np.int16]:
     """Worst failure; none at a singular configuration, where all are equally bad."""
     worst = result.worst.astype(np.int16)
-    lost = result.status != Status.OK
-    if lost.any():
-        worst[lost] = -1
+    worst[result.status != Status.OK] = -1
     return worst
 
 

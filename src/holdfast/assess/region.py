@@ -264,23 +264,29 @@ class Region:
         """
         if self.listed is not None and count == len(self.listed):
             return np.arange(start, stop, dtype=np.float64)[:, None]
-        if sampling == "random" and (self.listed is not None or self.draw is not None):
-            return next(self.blocks(block, seed, sampling, count))[: stop - start]
-        if self.listed is not None:
-            unit = self._sobol(seed, 1, start).random(stop - start)
-            return self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
-        unit = np.empty((stop - start, len(self.center))) if out is None else out
+        if self.listed is None and self.draw is None:
+            return self._of_box(
+                np.empty((stop - start, len(self.center))) if out is None else out, start, block, seed, sampling
+            )
         if sampling == "random":
-            for k in range(0, len(unit), self.block):
-                part = unit[k : k + self.block]
-                self._generator(seed, block + k // self.block).random(out=part)
-                self._placed(part)
-            return unit
-        unit[:] = self._sobol(seed, unit.shape[1], start).random(stop - start)
-        return self._placed(unit)
+            return next(self.blocks(block, seed, sampling, count))[: stop - start]
+        assert self.listed is not None
+        unit = self._sobol(seed, 1, start).random(stop - start)
+        return self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
+
+    def _of_box(self, out: Array, start: int, block: int, seed: int, sampling: Sampling) -> Array:
+        """Write samples of a box from number ``start`` on, which is in a block, into ``out`` (N, w)."""
+        if sampling == "sobol":
+            out[:] = self._placed(self._sobol(seed, out.shape[1], start).random(len(out)))
+            return out
+        for k in range(0, len(out), self.block):
+            part = out[k : k + self.block]
+            self._generator(seed, block + k // self.block).random(out=part)
+            self._placed(part)
+        return out
 
     def _placed(self, unit: Array) -> Array:
-        """Samples of a box from points (N, w) of the unit cube, which they may replace."""
+        """Samples of a box from points (N, w) of the unit cube, which they replace if it is contiguous."""
         size, low = np.array(self.size), np.array(self.center) - np.array(self.size) / 2
         # Many samples side by side: numpy is half as fast on rows of a few numbers.
         side = math.gcd(len(unit), 64)

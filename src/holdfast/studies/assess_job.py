@@ -69,10 +69,9 @@ class AssessJob(PlannedJob[Plan]):
                 good = reached
                 if before and "optimised_status" in rows:
                     good = reached & (rows["optimised_status"] != Status.INFEASIBLE)
-                values, places, known = rows[index], rows[worst], rows[worst] >= 0
-                singular = int(np.count_nonzero(good & ~known))
+                values, singular = rows[index], int(np.count_nonzero(good & (rows[worst] < 0)))
                 counts.add(values if good.all() else values[good], int(np.count_nonzero(~good)), singular)
-                often += np.array([np.count_nonzero(places == k) for k in range(often.size)])
+                often += np.bincount(rows[worst] + 1, minlength=often.size + 1)[1:]  # -1: there is none
         found: Rows = {}
         for (before, _, _), (counts, often) in zip(_SAMPLES, samples, strict=False):
             found |= {

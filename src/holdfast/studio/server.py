@@ -117,17 +117,19 @@ def serve(
         state = State(arm.name, arm.joint_names, tuple(middle(arm)), "pose")
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
+    # Before anybody can come: a page that is open already keeps the view that it began with.
+    eye, centre = _camera(machine, np.array(state.q))
     import viser
 
     server = _private_server(viser, host, free)
-    ready(address(server))
-    threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
-    parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
-    server.initial_camera.position, server.initial_camera.look_at = _camera(machine, np.array(state.q))
+    server.initial_camera.position, server.initial_camera.look_at = eye, centre
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
     server.scene.configure_environment_map(hdri=None)
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.add_light_ambient("/ambient", intensity=1.6)
+    ready(address(server))
+    threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
+    parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
     return Studio(server, machine, state, parts, note)
 
 

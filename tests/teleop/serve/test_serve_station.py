@@ -162,7 +162,7 @@ def shared(protocol, tmp_path_factory):
         yield opened
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(batches=st.lists(st.tuples(st.lists(steps, min_size=1, max_size=25), st.integers(0, 5)), min_size=1, max_size=6))
 def test_records_are_those_of_the_model(shared, batches):
     """Two sessions at once; each batch is one transaction, and some of them are lost as a whole."""
