@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
-from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel, Loop
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
@@ -74,7 +73,7 @@ class RestEquations:
     @cached_property
     def _kernel(self) -> Kernel:
         inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
-        return Kernel("rest", inputs, outputs, suitable(inputs, outputs))
+        return Kernel("rest", inputs, outputs)
 
     @cached_property
     def _pulls(self) -> Kernel:
@@ -92,8 +91,7 @@ class RestEquations:
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
         parameters = [*self.system.parameters, free]
-        backend = suitable([state, *parameters], [after])
-        return Loop("rest points", state, parameters, after, residual, backend)
+        return Loop("rest points", state, parameters, after, residual)
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""

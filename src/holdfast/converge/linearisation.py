@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
-from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel
 from holdfast.simulate.motion import System
 
@@ -78,7 +77,7 @@ class Linearisation:
         e, j = s.error(s.q)
         inputs = [s.q, s.target, s.rotation]
         outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(e)]
-        return Kernel("linearisation", inputs, outputs, suitable(inputs, outputs))
+        return Kernel("linearisation", inputs, outputs)
 
     def rates(self, q: Array, pose: Array) -> tuple[Array, Array]:
         """Commanded rates (N, n) of all joints at q (N, n), and errors (N,)."""
