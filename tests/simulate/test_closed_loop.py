@@ -299,6 +299,28 @@ def test_a_joint_that_locks_on_the_way(three, rng):
     assert many.q_final[0, 1] == runs.q_final[1]
 
 
+@pytest.mark.parametrize("method", ["adaptive", "rk4"])
+def test_every_sample_of_a_path_with_locks_on_the_way_is_that_of_scipy(three, rng, method):
+    """Before the first lock, between the two and after them."""
+    q0, x, locks = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6]), rng.uniform(-1.5, 1.5, 2), [(1, 0.5), (0, 1.2)]
+    path = simulate(three, q0, x, locks, method=method, time_limit=4.0).path(0, 47)
+    expected, q, ends = np.empty((47, 3)), q0, [0.0, 0.5, 1.2, 4.0]
+    for k, mask in enumerate(([1, 1, 1], [1, 0, 1], [0, 0, 1])):
+        found = solve_ivp(
+            lambda t, q, mask=mask: planar_rates(q, x, np.array(mask)),
+            ends[k : k + 2],
+            q,
+            "DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            dense_output=True,
+        )
+        here = (path.time >= ends[k]) & (path.time <= ends[k + 1])
+        expected[here], q = found.sol(path.time[here]).T, found.y[:, -1]
+    np.testing.assert_allclose(path.q, expected, atol=1e-7 if method == "adaptive" else 1e-4)
+    np.testing.assert_array_equal(path.locked, path.time[:, None] >= [1.2, 0.5, np.inf])
+
+
 @pytest.mark.parametrize("cycles", [False, True])
 def test_lock_times_of_each_run(three, rng, cycles):
     """As many calls with a time each; whole numbers and infinity serve as well."""

@@ -267,7 +267,7 @@ class Motion:
         def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
             parts = self._steps.state.values(states)
             for _ in range(MOST_STEPS):
-                noted.append((states[0].copy(), parameters[0]))
+                noted.append((states[0].copy(), parameters[0].copy()))  # the next phase writes into both
                 if parts["code"][0, 0] != RUNNING or parts["time"][0, 0] > end * self._unit:
                     break
                 states = self._stepped(states, parameters)
