@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.simulate.cycles import SUBSTEPS, Cycles
-from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System
+from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, prescribed_way
 from holdfast.simulate.nearest import Nearest
 from holdfast.simulate.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
@@ -26,7 +27,7 @@ from holdfast.solve.inverse import hand_error
 
 Array = NDArray[np.float64]
 
-ARRIVES = 1e-5  # m and rad: an error below it at rest is no error
+ARRIVES = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest is no error
 MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not coming to rest
 DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
 FLIPS = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction
@@ -133,16 +134,16 @@ class Motion:
         parts = self._steps.state.values(states)
         q, low, high = (parts[name].copy() for name in ("q", "low", "high"))
         error = np.sqrt(parts["error"][:, 0])
-        code, reason = self._verdict(error, parts)
-        code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
-        if target.ndim == 3 and self.law.task.angular:
-            long = np.flatnonzero(reason == Reason.STEPS)
-            reason[long[self._half_turn(q[long], target[long])]] = Reason.HALF_TURN
         if target.ndim == 2:
             hand = self._hand.rows(q)
         else:
             hand = np.full(target.shape, np.nan)
             hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
+        code, reason = self._verdict(self._scaled(error, hand, target), parts)
+        code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
+        if target.ndim == 3 and self.law.task.angular:
+            long = np.flatnonzero(reason == Reason.STEPS)
+            reason[long[self._half_turn(q[long], target[long])]] = Reason.HALF_TURN
         return {
             "code": code,
             "reason": reason,
@@ -161,16 +162,24 @@ class Motion:
         """(N,) True where the hand is half a turn from its target: there the error of the orientation is discontinuous."""
         return np.asarray(self._turn.rows(q, target[:, :3, 3], target[:, :3, :3])[:, 0] > np.pi - FLIPS)
 
+    def _scaled(self, error: Array, hand: Array, target: Array) -> Array:
+        """Errors (N,) with lengths in units of the arm's own."""
+        unit = length_unit(self.law.arm)
+        if not self.law.task.angular:
+            return error / unit
+        linear = np.linalg.norm(prescribed_way(self.law, hand, target), axis=1)
+        return np.asarray(np.hypot(linear / unit, np.sqrt(np.maximum(error**2 - linear**2, 0.0))))
+
     @property
     def _unit(self) -> float:
         """Units of time of a state in one second or cycle."""
         return 1.0 if self.cycles else self.law.gain
 
-    def _verdict(self, error: Array, parts: dict[str, Array]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    def _verdict(self, scaled: Array, parts: dict[str, Array]) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
         codes = parts["code"][:, 0]
         slowest, early, late = (parts[name][:, 0] for name in ("slowest", "early", "late"))
         moving = (codes == TIME) & (slowest > MOVES) & (early > 0) & (late >= DECAYS * early)
-        converged = (codes == ARRIVED) | ((codes == REST) & (error < ARRIVES) & (not self.cycles))
+        converged = (codes == ARRIVED) | ((codes == REST) & (scaled < ARRIVES) & (not self.cycles))
         stuck = (codes == REST) & ~converged
         outcome = np.select([converged, stuck, moving], [Outcome.CONVERGED, Outcome.STUCK, Outcome.MOVING], Outcome.UNDECIDED)
         reason = np.select(

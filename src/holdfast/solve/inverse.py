@@ -15,6 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
+from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
@@ -111,6 +112,13 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
     return task.error(error, chain.rotation), j
 
 
+def scaled_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
+    """As :func:`task_error` with lengths in units of :func:`holdfast.arm.scale.length_unit`, for what has a threshold."""
+    e, j = task_error(arm, task, q, target, target_rotation)
+    scale = ca.sparsify(ca.SX(ca.DM(task.scale(length_unit(arm)))))
+    return scale @ e, scale @ j
+
+
 def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
     """As the error of :func:`task_error`, with sines in place of angles: the same near 0, but with derivatives."""
     chain = kinematics.chain(arm, q)
@@ -136,19 +144,21 @@ class InverseKinematics:
 
     One step is damped least squares with the joints that press against a limit taken out:
     ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
+    Lengths in it, and in every ``tolerance``, are in units of :func:`holdfast.arm.scale.length_unit`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm, self.task = arm, task
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        e, j = task_error(arm, task, q, p, r)
+        e, j = scaled_error(arm, task, q, p, r)
         step, residual = damped_step(arm, q, e, j)
         self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
         self._symbols = q, p, r, e, j
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
-        back = ca.SX(ca.DM(task.rows)).T @ e
+        back = ca.SX(ca.DM(task.rows)).T @ task_error(arm, task, q, p, r)[0]
         self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
+        self._unit = length_unit(arm)
         self._low, self._high = finite_limits(arm)
 
     def starts(self, rows: int, generator: np.random.Generator) -> Array:
@@ -218,7 +228,7 @@ class InverseKinematics:
             q: (n,) where the arm is, rad and m.
             pose: (4, 4) in the world.
             free: (n,) 1 for joints that may move, 0 for those that stand.
-            tolerance: m and rad.
+            tolerance: rad, and lengths in units of the arm's own.
             steps: At most so many.
 
         Returns:
@@ -281,7 +291,7 @@ class InverseKinematics:
         """(N,) True where q is on the pose and within the limits."""
         position_error, rotation_error = self.errors(q, poses)
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
-        return np.asarray(inside & (position_error <= tolerance) & (rotation_error <= tolerance))
+        return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
     def errors(self, q: Array, poses: Array) -> tuple[Array, Array]:
         """Position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is."""
@@ -361,7 +371,8 @@ def solve_ik(
         seed: Of the random starts: the same seed gives the same result.
         task: Rows of the pose that matter.
         restarts: Random starts per pose before giving up.
-        tolerance: Largest error, m and rad.
+        tolerance: Largest error, rad; and m for an arm of about 1 m: it grows and shrinks with the arm, by the power of two
+            that is nearest to its links end to end.
         start: (n,) or (N, n) where to start from the first time; random if not given.
 
     Returns:
