@@ -171,9 +171,8 @@ def test_workspace(links, size):
 @pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
 def test_inverse_kinematics(bent, rng, size):
     poses = bent.forward_kinematics(rng.uniform(-np.pi, np.pi, (20, 4)))
-    own, other = (solve_ik(scaled(bent, s), resized(poses, s), task="position") for s in (1.0, size))
-    np.testing.assert_array_equal(own.success, other.success)
-    assert own.success.all()
-    assert (other.position_error <= 2e-6 * size).all()
-    if size in EXACT:
-        np.testing.assert_array_equal(own.q, other.q)
+    found = solve_ik(scaled(bent, size), resized(poses, size), task="position")
+    assert found.success.all()
+    tip = oracles.forward(scaled(bent, size), found.q)[:, :3, 3]
+    # What is asked for is metres; a small arm is as much nearer.
+    assert (np.linalg.norm(tip - size * poses[:, :3, 3], axis=1) <= 1e-6 * min(2 * size, 1)).all()

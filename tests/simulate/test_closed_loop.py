@@ -110,6 +110,32 @@ def test_half_a_turn_from_the_target_the_shortest_turn_flips():
     assert "half a turn" in runs.describe()[1]
 
 
+@pytest.mark.parametrize("tolerance", [1e-9, 1e-13])
+def test_a_run_caught_at_half_a_turn_is_told_soon_and_is_not_called_singular(rng, monkeypatch, tolerance):
+    """With joint 2 standing off 0 and pi the Jacobian of the planar pose, of determinant sin q2, is regular everywhere."""
+    from holdfast.kernels import Loop
+
+    taken, run = [], Loop.run
+
+    def counted(self, *given):
+        result = run(self, *given)
+        taken.append(int(result.steps.max(initial=0)))
+        return result
+
+    monkeypatch.setattr(Loop, "run", counted)
+    arm = hf.arms.load("planar-3r")
+    q0 = rng.uniform([-np.pi, 0.5, -np.pi], [np.pi, 2.5, np.pi], (150, 3))
+    target = arm.forward_kinematics(rng.uniform(-np.pi, np.pi, (150, 3)))
+    law = hf.control.pseudoinverse(arm, ["vx", "vy", "wz"])
+    runs = simulate(law, q0, target, locked=[1], time_limit=50.0, tolerance=tolerance)
+    assert not np.isin(runs.reason, (Reason.SINGULAR, Reason.STEPS)).any()
+    caught = runs.reason == Reason.HALF_TURN
+    away = runs.q_final.sum(axis=1) - np.arctan2(target[:, 1, 0], target[:, 0, 0])
+    np.testing.assert_allclose(np.cos(away[caught]), -1, atol=1e-6)
+    assert caught.sum() > 10
+    assert sum(taken) < 20_000
+
+
 def test_excess_error_is_what_the_closed_form_leaves(two):
     starts = np.tile(RAD([0.0, -30.0]), (2, 1))
     targets = np.array([around(2, 120), around(1, 45)])

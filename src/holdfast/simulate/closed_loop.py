@@ -53,8 +53,9 @@ def simulate(
     * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
       its greatest value in the last tenth is at least 0.99 of that in the tenth before;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
-      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise, and the hand
-      is half a turn from its target: the shortest turn, and with it the command, is discontinuous there), *bad input*.
+      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with the hand
+      half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
+      as soon as it would not come to its end at the pace of its last 2,000 steps), *bad input*.
 
     None of this looks at the steps that were taken, so that it does not depend on their size.
 
