@@ -51,7 +51,8 @@ _SENTENCES = {
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.HALF_TURN: (
         "the hand was caught half a turn from its target, where the shortest turn flips from one instant to the next and the "
-        "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the orientation free"
+        "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
+        "orientation free"
     ),
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }
