@@ -24,6 +24,7 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     GravityOption,
+    HoldOption,
     JsonOption,
     MountOption,
     PayloadOption,
@@ -118,6 +119,7 @@ def configure(
     payload: PayloadOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[
         Path | None, typer.Option("--csv", help="Write the configurations to this file.", show_default=False)
     ] = None,
@@ -132,7 +134,7 @@ def configure(
     from holdfast.solve import optimise
 
     check_clearance(clearance, capsules, radius, margin)
-    model = placed(read_arm(arm, base, tip), mount, gravity, payload)
+    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     chosen = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
@@ -279,7 +281,7 @@ def _data(result: _Result, seed: int) -> dict[str, Any]:
         }
 
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "objective": result.wish,
         "better": result.objective.better,
         "unit": result.objective.unit,
@@ -298,7 +300,7 @@ def _print(result: _Result, file: Path | None) -> None:
     out, optimum = console(), result.optimum
     unit = "" if result.objective.unit in ("1", "mixed") else f" {escape(result.objective.unit)}"
     first = "first configuration found" if result.given is None else "configuration given"
-    out.print(f"{escape(result.wish)}, arm {escape(result.arm.name)}, task {escape(result.task.describe())}", soft_wrap=True)
+    out.print(f"{escape(result.wish)}, arm {escape(result.arm.title)}, task {escape(result.task.describe())}", soft_wrap=True)
     if len(result.targets) == 1:
         _print_one(result, out, first, unit)
     else:

@@ -14,6 +14,7 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     GravityOption,
+    HoldOption,
     JsonOption,
     MountOption,
     PayloadOption,
@@ -108,6 +109,7 @@ def follow(
     payload: PayloadOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for trajectory.csv and report.html.", show_default=False)
     ] = None,
@@ -128,7 +130,7 @@ def follow(
     for option, file, ending in (("--csv", csv, ".csv"), ("--parquet", parquet, ".parquet")):
         if file is not None and file.suffix.lower() != ending:
             raise InputError(f"{option}: '{file}' does not end in {ending}; give it that ending")
-    model = placed(read_arm(arm, base, tip), mount, gravity, payload)
+    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     timed = _timed(path, duration)
     chosen = read_task(_task(task, timed, model), arm, model)
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
@@ -211,7 +213,7 @@ def _facts(values: Any) -> dict[str, float]:
 def _data(result: Trajectory, bound: float | None, slowness: list[SlowMotion] | None) -> dict[str, Any]:
     names = result.arm.joint_names
     data: dict[str, Any] = {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "objective": result.objective.name,
         "better": result.objective.better,
         "unit": result.objective.unit,

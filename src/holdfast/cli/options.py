@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.written import default_task as default_task
-from holdfast.written import is_number
+from holdfast.written import each_arm as each_arm
+from holdfast.written import is_number, read_hold
 from holdfast.written import read_failures as read_failures
 from holdfast.written import read_joint as read_joint
 from holdfast.written import read_numbers as read_numbers
@@ -37,7 +38,18 @@ BaseOption = Annotated[
 ]
 TipOption = Annotated[
     str | None,
-    typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end there is.", show_default=False),
+    typer.Option(
+        "--tip", help="URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger.", show_default=False
+    ),
+]
+HoldOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--hold",
+        help="URDF, MJCF: JOINT=value, rad or m, at which a joint stands for good: a gripper's, or an external axis. May be "
+        "given again.",
+        show_default=False,
+    ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
@@ -51,6 +63,27 @@ IndexOption = Annotated[
         help="relative-manipulability, manipulability, mean-singular-value, geometric-mean-singular-value, "
         "minimum-singular-value or condition-number.",
     ),
+]
+PER_ARM = "once for all arms, or once for each in order ('-' for none)."
+BasesOption = Annotated[
+    list[str] | None,
+    typer.Option("--base", help=f"URDF, MJCF: base link or body, {PER_ARM} Default: the root.", show_default=False),
+]
+TipsOption = Annotated[
+    list[str] | None,
+    typer.Option("--tip", help=f"URDF, MJCF: tip link, body or site, {PER_ARM} Default: the only end.", show_default=False),
+]
+HoldsOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--hold",
+        help=f"URDF, MJCF: JOINT=value, rad or m, at which joints stand for good, separated by commas, {PER_ARM}",
+        show_default=False,
+    ),
+]
+NamesOption = Annotated[
+    list[str] | None,
+    typer.Option("--name", help="What an arm is called, once for each in order ('-' for its own).", show_default=False),
 ]
 QOption = Annotated[
     list[str],
@@ -89,11 +122,11 @@ PayloadOption = Annotated[
 ]
 
 
-def read_arm(spec: str, base: str | None, tip: str | None) -> Arm:
-    """The arm that ARM, --base and --tip name."""
+def read_arm(spec: str, base: str | None, tip: str | None, hold: list[str] | None = None) -> Arm:
+    """The arm that ARM, --base, --tip and --hold name."""
     from holdfast import arms
 
-    return arms.resolve(spec, base, tip)
+    return arms.resolve(spec, base, tip, read_hold(",".join(hold)) if hold else None)
 
 
 def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | int, float]:

@@ -23,6 +23,7 @@ from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TipOption,
     console,
@@ -111,6 +112,7 @@ def recover(
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.", show_default=False)] = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """My joint is stuck now: what is left of the workspace, can the task be finished, and which is the shortest way home?
@@ -120,7 +122,7 @@ def recover(
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
     check_clearance(clearance, capsules, radius, margin)
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
     if check is not None:
         _replay(model, check, _locks(model, lock or [], degrees), shape, margin or 0.0, json_)
@@ -289,7 +291,7 @@ def _data(result: Recovery) -> dict[str, Any]:
     replay = result.check() if len(result.q) else None
     left, rest = result.left, result.rest
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "fingerprint": result.arm.fingerprint,
         "locked": result.locked,
         "goal": result.goal,

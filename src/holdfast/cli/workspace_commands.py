@@ -12,6 +12,7 @@ from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -105,6 +106,7 @@ def workspace(
     seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """From where does the hand still come to a target when a joint locks on the way and nobody knows?
@@ -116,7 +118,7 @@ def workspace(
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     wanted = read_task(task, arm, model)
     if laws is None:
         made = [read_law(law, model, wanted, weights, damping, pre_failure_error)]

@@ -79,7 +79,7 @@ class LawChoice:
         """A few sentences for people."""
         first, best = self.maps[0], self.best
         lines = [
-            f"{len(self.names)} laws on '{first.law.arm.name}', task {first.law.task.describe()}: the same "
+            f"{len(self.names)} laws on {first.law.arm.title}, task {first.law.task.describe()}: the same "
             f"{int(first.known.sum()) * first.law.arm.n} failures, {int(first.known.any(axis=1).sum())} {first.over}"
         ]
         for name in self.ranking:

@@ -108,7 +108,7 @@ class ConvergenceMap:
         """A few sentences for people."""
         runs = int(self.known.sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {int(self.known.any(axis=1).sum())} of {len(self.places)} "
+            f"{self.law.describe()} on {self.law.arm.title}: {int(self.known.any(axis=1).sum())} of {len(self.places)} "
             f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         every = {outcome: self.shares(outcome) for outcome in (*_OUTCOMES, "trapped")} if runs else {}

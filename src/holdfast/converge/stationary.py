@@ -95,7 +95,7 @@ class RestPoints:
         """A few sentences for people."""
         arm = self.law.arm
         where = ", ".join(f"{arm.joint_names[k]} at {_shown(arm, k, x)}" for k, x in zip(self.locked, self.at, strict=True))
-        lines = [f"'{arm.name}' under {self.law.describe()}, locked: {where}; {self.starts} starts"]
+        lines = [f"{arm.title} under {self.law.describe()}, locked: {where}; {self.starts} starts"]
         idle = [arm.joint_names[k] for k in idle_joints(self.law) if k not in self.locked]
         if idle:
             lines.append(f"the task does not notice {', '.join(idle)}, shown at 0")

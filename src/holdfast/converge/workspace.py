@@ -133,7 +133,7 @@ class Workspace:
         """A few sentences for people."""
         reached = int((self.configurations > 0).sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {reached} of {len(self.places)} starts in reach, "
+            f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
             f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
         ]
         ends = dict(zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))

@@ -341,7 +341,7 @@ class LawComparison:
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        lines = [f"{len(self)} motions of '{self.arm.name}', task {self.laws[0].task.describe()}"]
+        lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
         for name in self.names:
             healthy = self.case(name).share()
             assert healthy is not None

@@ -53,7 +53,7 @@ class PointToPoint:
 
     def describe(self) -> str:
         """One phrase for people."""
-        return f"{len(self)} motions of '{self.arm.name}', {self.wish}; {self.drawn} were drawn"
+        return f"{len(self)} motions of {self.arm.title}, {self.wish}; {self.drawn} were drawn"
 
 
 def point_to_point(
