@@ -183,10 +183,10 @@ def test_refused_designs(pa10: hf.Arm) -> None:
         space.draw(0)
 
 
-def test_masses_are_left_out_and_said_so() -> None:
+def test_masses_of_other_shapes_are_left_out() -> None:
     panda = arms.load("panda")
     made = design_space(panda, ["d3=200..400mm"]).arm_of([0.35])
-    assert made.links == (None,) * 7
+    assert made.links[2] is None
     assert made.joints[0].velocity == panda.joints[0].velocity
     assert DesignSpace(panda, (Parameter("d3", 0.2, 0.4),)).names == ("d3",)
     assert replace(Parameter("d3", 0.2, 0.4), upper=0.5).upper == 0.5

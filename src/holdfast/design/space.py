@@ -241,8 +241,8 @@ class DesignSpace:
     def arm_of(self, values: ArrayLike, name: str | None = None) -> Arm:
         """The arm of a design (k,): geometry, limits, gravity, and the masses that are known.
 
-        A link whose own ``a``, ``alpha`` or ``d`` are not varied is the given arm's, and so is the payload. The mass of a link of
-        another length is not known: None.
+        A link of which neither ``a``, ``alpha`` nor ``d`` is varied is the given arm's, and so is the payload. The mass of a
+        link of another shape is not known: None.
 
         Args:
             values: (k,) rad or m, within the bounds.
@@ -263,7 +263,7 @@ class DesignSpace:
 
     @cached_property
     def _bodies(self) -> tuple[list[Link | None], Link | None]:
-        """Of the given arm: its links, each in the moving frame of its joint of the table, and the payload in the last row's."""
+        """The given arm's links, each in the moving frame of its joint of the table, and its payload in the last row's."""
         same = self.table.arm()
         frames = [np.linalg.inv(a) @ b for a, b in zip(_moving_frames(same), _moving_frames(self.arm), strict=True)]
         links = [None if link is None else link.moved(frame) for link, frame in zip(self.arm.links, frames, strict=True)]
