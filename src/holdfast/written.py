@@ -86,6 +86,43 @@ def read_hold(text: str, option: str = "--hold") -> dict[str, float]:
     return found
 
 
+def check_unit_of_joints(arm: Arm, q: NDArray[np.float64], option: str, degrees: bool = False) -> None:
+    """Refuse joint values (n,), rad and m, so far beyond the limits that they must be degrees, or millimetres.
+
+    Raises:
+        InputError: A joint is more than a turn, or ten times its range, beyond its limits.
+    """
+    unit = "degrees" if degrees else "radians, or degrees with --degrees"
+    for joint, value in zip(arm.joints, q.tolist(), strict=True):
+        factor, shown = joint.shown if degrees else (1.0, joint.unit)
+        bounded = np.isfinite(joint.upper - joint.lower)
+        room = 10 * (joint.upper - joint.lower) if joint.prismatic else 2 * np.pi
+        low, high = (joint.lower, joint.upper) if bounded else (-2 * np.pi, 2 * np.pi)
+        if (bounded or not joint.prismatic) and not low - room <= value <= high + room:
+            limits = f"its limits, {factor * low:.4g} to {factor * high:.4g} {shown}" if bounded else "a turn"
+            raise InputError(
+                f"{option}: joint '{joint.name}' is at {factor * value:.6g} {shown}, far beyond {limits}; give "
+                f"{'metres' if joint.prismatic else unit}"
+            )
+
+
+def check_unit_of_places(arm: Arm, places: NDArray[np.float64], option: str) -> None:
+    """Refuse places (3,) or (N, 3), m, so far from an arm that they must be millimetres.
+
+    Raises:
+        InputError: A place is more than ten times as far from the base as the arm, stretched out, could be long.
+    """
+    strokes = sum(max(abs(j.lower), abs(j.upper)) for j in arm.joints if j.prismatic)
+    parts = [*(j.origin for j in arm.joints), arm.tool]
+    longest = sum(float(np.linalg.norm(part[:3, 3])) for part in parts) + strokes
+    away = float(np.linalg.norm(np.atleast_2d(places) - arm.base[:3, 3], axis=1).max(initial=0.0))
+    if np.isfinite(longest) and away > 10 * longest:
+        raise InputError(
+            f"{option}: a place is {away:.4g} m from the base of '{arm.name}', which is at most {longest:.4g} m long; "
+            "give metres"
+        )
+
+
 def default_task(spec: str, arm: Arm) -> str:
     """The task of an arm for which none was given: its own, or planar if it moves in a plane, or pose."""
     from holdfast import arms

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import real_numbers
 from holdfast.errors import ArmError, InputError
 
 if TYPE_CHECKING:
@@ -378,10 +379,7 @@ class Arm:
         Raises:
             InputError: Wrong number of joint values, or not numbers.
         """
-        try:
-            a = np.asarray(q, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"q for '{self.name}' must be numbers, {self.n} per configuration") from error
+        a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
         if a.ndim not in (1, 2) or a.shape[-1] != self.n:
             got = a.shape[-1] if a.ndim else 0
             raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")

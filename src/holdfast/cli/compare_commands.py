@@ -114,7 +114,7 @@ def compare(
     elif motions is not None or distance is not None or reachable_after:
         raise InputError("--motions, --distance and --reachable-after are about random motions; leave out --start and --target")
     else:
-        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0].task, target)
+        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0].arm, laws[0].task, target)
         about = f"one motion of '{model.name}'"
     result = compare_laws(laws, q0, goal, locked, cycles, time_limit=time_limit, seed=seed)
     files = []

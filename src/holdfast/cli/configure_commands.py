@@ -30,6 +30,7 @@ from holdfast.cli.options import (
     PayloadOption,
     TaskOption,
     TipOption,
+    check_unit_of_places,
     console,
     number,
     outside_limits,
@@ -143,7 +144,7 @@ def configure(
     if [x is not None for x in (pose, poses, at)].count(True) != 1:
         raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv and --at "joint values"')
     given = None if at is None else np.array([read_configuration(model, x, degrees, "--at") for x in at])
-    targets = model.forward_kinematics(given) if given is not None else _targets(chosen, pose or [], poses)
+    targets = model.forward_kinematics(given) if given is not None else _targets(model, chosen, pose or [], poses)
     apart = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
     optimum = optimise(model, targets, objective, seed, starts, task=chosen, clearance=apart, margin=margin or 0.0)
     if not optimum.success.any():
@@ -164,15 +165,16 @@ def configure(
         _print(result, csv)
 
 
-def _targets(task: Task, texts: Sequence[str], file: Path | None) -> Array:
+def _targets(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> Array:
     if file is None:
-        option, given = "--pose", [read_pose("--pose", text) for text in texts]
+        option, given = "--pose", [read_pose(arm, "--pose", text) for text in texts]
     else:
         from holdfast.paths.path_file import pose_table
 
         option, given = "--poses", pose_table(file, "--poses")
     if not given:
         raise InputError(f"{option}: '{file}' holds no poses; give at least one row of them")
+    check_unit_of_places(arm, np.array([x[:3, 3] if x.shape == (4, 4) else x for x in given]), option)
     targets = np.tile(np.eye(4), (len(given), 1, 1))
     for target, found in zip(targets, given, strict=True):
         if found.shape == (4, 4):

@@ -19,6 +19,7 @@ from holdfast.cli.options import (
     MountOption,
     PayloadOption,
     TipOption,
+    check_unit_of_places,
     console,
     number,
     placed,
@@ -132,6 +133,7 @@ def follow(
             raise InputError(f"{option}: '{file}' does not end in {ending}; give it that ending")
     model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     timed = _timed(path, duration)
+    check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
     chosen = read_task(_task(task, timed, model), arm, model)
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *wish, chosen)  # the other way round already, if that is meant

@@ -26,6 +26,7 @@ from holdfast.cli.options import (
     HoldOption,
     JsonOption,
     TipOption,
+    check_unit_of_places,
     console,
     number,
     plain,
@@ -141,13 +142,16 @@ def recover(
     chosen = None if task is None else read_task(task, arm, model)
     if positions:
         chosen = _position_task(model, chosen)
+    hand_path = None if path is None else HandPath.load(path)
+    if hand_path is not None:
+        check_unit_of_places(model, hand_path.pose(np.linspace(0, 1, 21))[:, :3, 3], "--path")
     result = converge.recover(
         model,
         {name: float(stands[model.joint_index(name)]) if value is None else value for name, value in locked.items()},
         stands,
         aim,
         chosen,
-        path=None if path is None else HandPath.load(path),
+        path=hand_path,
         clearance=shape or False,
         margin=margin or 0.0,
         metric=metric,  # type: ignore[arg-type]
@@ -192,7 +196,7 @@ def _locks(arm: Arm, texts: list[str], degrees: bool) -> dict[str, float | None]
 
 def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
     """--goal as the library takes it, and whether it is a position alone."""
-    if text in ("", "home"):
+    if text in ("", "home") or text in arm.states:
         return text or None, False
     kind, colon, rest = text.partition(":")
     if not colon:
@@ -203,8 +207,11 @@ def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
     if kind == "q":
         return read_configuration(arm, rest, degrees, "--goal"), False
     if kind != "pose":
-        raise InputError(f"--goal '{text}' is not known; write home, 'q:...' with {arm.n} joint values, or 'pose:...'")
-    pose = read_pose("--goal", rest)
+        raise InputError(
+            f"--goal '{text}' is not known; write {', '.join({'home': 0, **arm.states})}, "
+            f"'q:...' with {arm.n} joint values, or 'pose:...'"
+        )
+    pose = read_pose(arm, "--goal", rest)
     if pose.shape == (4, 4):
         return pose, False
     whole = np.eye(4)

@@ -80,7 +80,7 @@ def self_motion(
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
-    wanted = read_target(rows, target) if target is not None else _pose(rows, str(pose))
+    wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
     motion = trace(model, wanted, rows, spacing, seed)
     arcs = joint_bounds(model, wanted, rows, seed) if bounds or plot is not None else None
     if csv is not None:
@@ -93,8 +93,8 @@ def self_motion(
         _print(model, motion, arcs, [file for file in (csv, plot) if file is not None])
 
 
-def _pose(task: Task, text: str) -> NDArray[np.float64]:
-    values = read_pose("--pose", text)
+def _pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
+    values = read_pose(arm, "--pose", text)
     if values.shape == (4, 4):
         return values
     if task.angular:

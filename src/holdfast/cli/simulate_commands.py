@@ -99,7 +99,7 @@ def simulate(
     model = read_arm(arm, base, tip, hold)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
-    goal, locks = read_target(made.task, target), [_lock(model, text) for text in lock or []]
+    goal, locks = read_target(made.arm, made.task, target), [_lock(model, text) for text in lock or []]
     runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
     physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None
     files: list[Path] = []

@@ -79,7 +79,7 @@ def stationary(
 
     model = read_arm(arm, base, tip, hold)
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
-    joints, goal = [read_joint(model, text) for text in lock], read_target(made.task, target)
+    joints, goal = [read_joint(model, text) for text in lock], read_target(made.arm, made.task, target)
     if at is None:
         curves = find(made, goal, joints, seed=seed)
         if plot is not None:
@@ -133,7 +133,7 @@ def basins(
     model = read_arm(arm, base, tip, hold)
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
     joints = [read_joint(model, text) for text in lock]
-    found = find(made, read_target(made.task, target), joints, _at(model, joints, at, degrees), starts, grid, seed)
+    found = find(made, read_target(made.arm, made.task, target), joints, _at(model, joints, at, degrees), starts, grid, seed)
     if plot is not None:
         from holdfast.converge.pictures import basins_figure
         from holdfast.report.figures import save_png

@@ -187,7 +187,7 @@ def read_state(
             raise InputError(f"{option}: there is no file or folder '{path}'")
     goal = None
     if target is not None:
-        goal = pose_numbers(target_pose(rows, read_target(rows, target)))
+        goal = pose_numbers(target_pose(rows, read_target(model, rows, target)))
     return State(
         arm=arm,
         names=model.joint_names,

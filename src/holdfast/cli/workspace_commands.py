@@ -146,7 +146,9 @@ def workspace(
             "--procedure, --sampled, --whole and --points belong to the measures; leave them out, or --map and --laws"
         )
     options = {
-        "targets": _places(target) if target.startswith(("grid", "random:")) else read_target(made[0].task, target),
+        "targets": _places(target)
+        if target.startswith(("grid", "random:"))
+        else read_target(made[0].arm, made[0].task, target),
         "starts": _places(starts or "1000"),
         "configurations": 20 if configurations is None else configurations,
         "over": over,
@@ -165,7 +167,7 @@ def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, 
     from holdfast.converge import workspace as run
     from holdfast.converge.workspace_output import save, summary
 
-    goal = read_target(law.task, target)
+    goal = read_target(law.arm, law.task, target)
     with progress_bar(json_, "starts") as progress:
         w = run(law, goal, store=None if out is None else out / "run", progress=progress, **options)
     files = [] if out is None else save(w, out)

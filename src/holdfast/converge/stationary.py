@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_pose
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind, Kinds, attracts, kinds
 from holdfast.converge.rest_system import RestSystem, distinct, idle_joints, wrapped
@@ -118,6 +119,7 @@ class RestPoints:
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> RestPoints: ...
 @overload
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
+@checked
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0) -> RestPoints | Curves:
     """Where the arm can come to rest while its controller does not know that joints have locked.
 

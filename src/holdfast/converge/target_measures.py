@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.measures import NAMES
 from holdfast.converge.place_panels import measure_maps
@@ -119,6 +120,7 @@ class TargetMeasures:
         return measure_maps(self.law, self.targets, self.measures, about, f"{count} failures" if count else "")
 
 
+@checked
 def target_measures(
     law: Law,
     targets: ArrayLike | str | int | Places | None = None,

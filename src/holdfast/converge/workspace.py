@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.convergence_map import shared
 from holdfast.converge.measures import FINISH, NAMES, REACH, Arcs, Measures
@@ -152,6 +153,7 @@ class Workspace:
         return lines
 
 
+@checked
 def workspace(
     law: Law,
     target: ArrayLike,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.starts import read_places
 from holdfast.design.arrival import Arrivals, Failures
@@ -141,6 +142,7 @@ class ConvergenceDesigns:
         return files
 
 
+@checked
 def design_for_convergence(
     law: Law,
     vary: Vary,

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
@@ -353,6 +354,7 @@ class LawComparison:
         return lines
 
 
+@checked
 def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,

@@ -16,6 +16,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
 from holdfast.linalg import damped_least_norm
@@ -344,6 +345,7 @@ def solver(arm: Arm, task: Task) -> InverseKinematics:
     return _solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
+@checked
 def solve_ik(
     arm: Arm,
     poses: ArrayLike,
