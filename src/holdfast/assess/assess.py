@@ -19,6 +19,7 @@ from holdfast.assess.plan import Plan, Rows, make_plan
 from holdfast.assess.region import Region, Sampling
 from holdfast.assess.run import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
 from holdfast.assess.upgrade import Upgrade, if_never_fails, upgrades
+from holdfast.checked import checked
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
@@ -301,6 +302,7 @@ class Assessment:
         return write(self, Path(path), threshold)
 
 
+@checked
 def assess(
     arm: Arm,
     region: Region,
@@ -397,6 +399,7 @@ def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
     return weights
 
 
+@checked
 def load(path: str | Path) -> Assessment:
     """The assessment in a results folder; of a run that was stopped, what is there.
 

@@ -215,7 +215,10 @@ def _candidates(c: Comparison) -> Table:
         gaps = [number(x) for x in (a.gap(), a.gap(True) if a.optimised is not None else None) if x is not None]
         code = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
         source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
-        rows.append([name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", source or "no source given", code])
+        ends = "" if a.arm.chain is None else f"; {a.arm.chain}"
+        rows.append(
+            [name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", (source or "no source given") + ends, code]
+        )
     head = [
         "Candidate",
         "arm",

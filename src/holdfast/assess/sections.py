@@ -285,7 +285,7 @@ def method(f: Facts) -> list[Block]:
         ("Failures", "a locked joint stands still where it failed"),
         ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
-        ("Arm", a.arm.source or "no source given"),
+        ("Arm", a.arm.provenance),
         ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),
         (
             "Seed, samples",

@@ -21,6 +21,7 @@ from holdfast.cli.law_options import (
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -80,6 +81,7 @@ def simulate(
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     out: Annotated[
@@ -94,10 +96,10 @@ def simulate(
     """
     from holdfast.simulate import simulate as run
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
-    goal, locks = read_target(made.task, target), [_lock(model, text) for text in lock or []]
+    goal, locks = read_target(made.arm, made.task, target), [_lock(model, text) for text in lock or []]
     runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
     physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None
     files: list[Path] = []
@@ -135,7 +137,7 @@ def _data(runs: Runs) -> dict[str, Any]:
 
     unit = "cycles" if runs.cycles else "s"
     return {
-        "arm": runs.law.arm.name,
+        **runs.law.arm.entry(),
         "law": runs.law.slug,
         "task": runs.law.task.name,
         "locked": {name: t for name, t in by_name(runs.lock_time).items() if np.isfinite(t)},
@@ -166,7 +168,7 @@ def _print(runs: Runs, files: list[Path]) -> None:
     unit = "cycles" if runs.cycles else "s"
     locked = [f"{name} at {t:g} {unit}" for name, t in zip(arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)]
     standing = f"locked: {', '.join(locked)}" if locked else "no joint locked"
-    out.print(f"Arm {escape(arm.name)}, {escape(runs.law.describe())}; {escape(standing)}", soft_wrap=True)
+    out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(standing)}", soft_wrap=True)
     reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
     out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.convergence_map import shared
 from holdfast.converge.measures import FINISH, NAMES, REACH, Arcs, Measures
@@ -133,7 +134,7 @@ class Workspace:
         """A few sentences for people."""
         reached = int((self.configurations > 0).sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {reached} of {len(self.places)} starts in reach, "
+            f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
             f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
         ]
         ends = dict(zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
@@ -152,6 +153,7 @@ class Workspace:
         return lines
 
 
+@checked
 def workspace(
     law: Law,
     target: ArrayLike,

@@ -15,6 +15,7 @@ from holdfast.arm.serial import to_dict
 from holdfast.arm.task import Task
 from holdfast.assess.distribution import Distribution
 from holdfast.assess.region import Region, default_region
+from holdfast.checked import checked
 from holdfast.design.evaluate import Evaluated, Evaluator
 from holdfast.design.family import Family
 from holdfast.design.gradient import sensitivity
@@ -40,6 +41,7 @@ _SAME = 1e-6  # of the index: no gain that anybody would build an arm for
 _CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
 
 
+@checked
 def design(
     arm: Arm,
     vary: Vary,

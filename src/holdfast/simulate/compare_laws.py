@@ -15,6 +15,7 @@ from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.scale import length_unit
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
@@ -343,7 +344,7 @@ class LawComparison:
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        lines = [f"{len(self)} motions of '{self.arm.name}', task {self.laws[0].task.describe()}"]
+        lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
         for name in self.names:
             healthy = self.case(name).share()
             assert healthy is not None
@@ -355,6 +356,7 @@ class LawComparison:
         return lines
 
 
+@checked
 def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,

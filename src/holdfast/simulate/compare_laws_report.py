@@ -319,7 +319,7 @@ def _method(c: LawComparison, command: str, about: str) -> list[Block]:
         ),
         ("Arrived", f"error at most {c.arrives:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
         ("Undecided", "; ".join(f"{n}: {_reasons(c, n)}" for n in c.names)),
-        ("Arm", c.arm.source or "no source given"),
+        ("Arm", c.arm.provenance),
         ("Fingerprint of the arm", c.arm.fingerprint),
         ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
     ]

@@ -216,7 +216,7 @@ class RunReport:
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
             ("Took", f"{number(float(self._of('time')))} {self.unit}"),
             ("Law", self.runs.law.describe()),
-            ("Arm", self.arm.source or "no source given"),
+            ("Arm", self.arm.provenance),
             ("Fingerprint of the arm", Markup("<code>{}</code>").format(self.arm.fingerprint)),
             ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
         ]

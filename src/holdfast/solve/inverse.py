@@ -17,6 +17,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
 from holdfast.linalg import damped_least_norm
@@ -369,6 +370,7 @@ def solver(arm: Arm, task: Task) -> InverseKinematics:
     return _solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
+@checked
 def solve_ik(
     arm: Arm,
     poses: ArrayLike,

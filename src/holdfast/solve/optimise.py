@@ -20,6 +20,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
@@ -301,6 +302,7 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
     return np.asarray(order[rank < most])
 
 
+@checked
 def optimise(
     arm: Arm,
     poses: ArrayLike,

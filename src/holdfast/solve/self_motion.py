@@ -20,6 +20,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.targets import target_pose
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel
 from holdfast.linalg import damped_least_norm, householder
@@ -92,6 +93,7 @@ class SelfMotion:
         return f"{len(self.components)} curve{plural} of configurations, {closed} closed, lengths {lengths} rad"
 
 
+@checked
 def self_motion(
     arm: Arm,
     target: ArrayLike,
