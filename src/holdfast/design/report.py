@@ -88,8 +88,8 @@ def headline(d: Designs) -> str:
     more = farther(d.guaranteed, d.reach, d.best)
     if d.best_is_start:
         text = (
-            f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} is at least "
-            f"{_interval(given.guaranteed)}, {_failures(d)}."
+            f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} is "
+            f"at least {_interval(given.guaranteed)}, {_failures(d)}."
         )
         return f"{text} {more}".rstrip()
     if d.guaranteed[d.best] <= (1 + SAME) * d.start_guaranteed:
