@@ -154,6 +154,7 @@ def _data(runs: Runs) -> dict[str, Any]:
         "q_low": by_name(runs.q_low),
         "q_high": by_name(runs.q_high),
         "limits_passed": [name for name, passed in by_name(runs.limits_passed).items() if passed],
+        "limits": {j.name: [x if np.isfinite(x) else None for x in (j.lower, j.upper)] for j in runs.law.arm.joints},
     }
 
 
@@ -171,6 +172,8 @@ def _print(runs: Runs, files: list[Path]) -> None:
     out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(standing)}", soft_wrap=True)
     reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
     out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
+    if limits := escape(runs.limits_sentence()):
+        out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"
     facts = Table.grid(padding=(0, 2))
     facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
