@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from holdfast import reading
 from holdfast.arm.builtin import Builtin, about, load, names
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
@@ -42,7 +43,7 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
         return mjcf.load(spec, base, tip)
     if ending in URDF_ENDINGS:
         return urdf.load(spec, base, tip)
-    if Path(spec).exists():
+    if reading.exists(spec):
         raise ArmError(
             f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); "
             "rename or convert it"
@@ -57,10 +58,11 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
 
 def _outermost(path: str) -> str:
     """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file then explains."""
+    import io
     from xml.etree import ElementTree
 
     try:
-        for _, element in ElementTree.iterparse(path, events=("start",)):
+        for _, element in ElementTree.iterparse(io.BytesIO(reading.raw(path)), events=("start",)):
             return str(element.tag)
     except (OSError, ElementTree.ParseError, LookupError, ValueError):
         pass

@@ -13,11 +13,13 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
+_LARGEST = 64 << 20  # bytes
 TYPES = (*MOVING, "fixed", "floating", "planar")
 
 
@@ -80,7 +82,7 @@ def robot_element(path: Path) -> ElementTree.Element:
         ArmError: The file cannot be read, or is no URDF.
     """
     try:
-        content = path.read_bytes()
+        content = reading.raw(path, _LARGEST)
     except OSError as error:
         raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a URDF file") from error
     try:

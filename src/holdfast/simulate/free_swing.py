@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.mjcf import import_mujoco
+from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm, Joint
 from holdfast.errors import ArmError, InputError
 from holdfast.simulate.mujoco_model import mujoco_model
@@ -98,6 +98,7 @@ class FreeSwing:
         return self.outcome == "stop"
 
 
+@quiet()
 def free_swing(
     arm: Arm,
     q: ArrayLike,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import yaml
 
-from holdfast import arms
+from holdfast import arms, reading
 from holdfast.errors import InputError, StoreError
 
 _TEXT = """\
@@ -103,7 +103,7 @@ def write(
         raise InputError("no arm is named; give --arm, a built-in name or a file")
     for spec in arm:
         arms.resolve(spec, base, tip)
-    if path.exists():
+    if reading.exists(path):
         raise InputError(f"'{path}' exists; give another name, or remove it first")
     motions = min(poses, 200)
     block = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"

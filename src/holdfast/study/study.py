@@ -9,8 +9,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from holdfast import reading
 from holdfast.errors import HoldfastError, StoreError
-from holdfast.study.folder import held
+from holdfast.study.folder import held, is_plain, too_many
 from holdfast.study.job import Cell
 from holdfast.study.journal import Entry, Journal
 from holdfast.study.made import Made
@@ -78,7 +79,7 @@ class Study:
 
     @classmethod
     def create(cls, path: str | Path, name: str, seed: int, cells: Sequence[Cell], source: str = "") -> Study:
-        """A new folder, or the existing one of the same study, to go on; it takes over a name and source that have changed.
+        """A new folder, or the existing one of the same study, to go on; it takes over a new name, source and labels.
 
         Args:
             path: The folder.
@@ -92,20 +93,20 @@ class Study:
         """
         folder = Path(path)
         data = described(name, seed, cells, source)
-        if (folder / _FILE).exists():
+        if reading.exists(folder / _FILE):
             study = cls.open(folder)
             if study.digest != data["digest"]:
                 raise StoreError(
                     f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
                     "go on with it"
                 )
-            if (study.name, study.source) != (name, source):
+            if study._data != data:
                 study._write(data)
             return study
-        if folder.exists() and not folder.is_dir():
+        if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
         try:
-            if folder.exists() and any(folder.iterdir()):
+            if reading.exists(folder) and any(folder.iterdir()):
                 raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -123,12 +124,12 @@ class Study:
         """
         folder = Path(path)
         file = folder / _FILE
-        if not file.exists():
+        if not reading.exists(file):
             raise StoreError(
                 f"'{folder}' is not a study: it has no {_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
-            data = json.loads(file.read_text(encoding="utf-8"))
+            data = json.loads(reading.text(file))
         except (OSError, ValueError, RecursionError) as error:
             raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
         if not isinstance(data, dict) or data.get("format") != _FORMAT:
@@ -136,6 +137,8 @@ class Study:
         if data.get("version") != _VERSION:
             raise StoreError(f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_VERSION}")
         wrong = next((k for k, kind in _KEYS.items() if not isinstance(data.get(k), kind)), None)
+        wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
+        wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
         wrong = wrong or ("digest" if _digest(data) != data["digest"] else None)
         if wrong:
             raise StoreError(
@@ -226,7 +229,7 @@ class Study:
         Raises:
             StoreError: None of it is computed, or it is damaged.
         """
-        if not self.folder(cell).exists():
+        if not reading.exists(self.folder(cell)):
             raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
         return Store.open(self.folder(cell))
 
@@ -326,7 +329,7 @@ class Study:
         with held(self.path, LOCK):
             total, at = sum(s.chunks_done for s in self.status()), 0
             for k, c in enumerate(self._data["cells"]):
-                if not self.folder(k).exists():
+                if not reading.exists(self.folder(k)):
                     continue
                 store = self.store(k)
                 bad = []
@@ -369,6 +372,13 @@ def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[
         ],
     }
     return {**data, "digest": _digest(data)}
+
+
+def _is_cell(data: Any) -> bool:
+    kinds = {"labels": dict, "rows": int, "chunk": int, "digest": str}
+    if not isinstance(data, dict) or not all(isinstance(data.get(k), kind) for k, kind in kinds.items()):
+        return False
+    return is_plain(data.get("name")) and data["rows"] >= 0 and data["chunk"] >= 1 and not too_many(data["rows"], data["chunk"])
 
 
 def _digest(data: Mapping[str, Any]) -> str:
