@@ -39,26 +39,11 @@ MOST_SECONDS = 10.0
 MOST_LETTERS = 1500
 
 # What people and programs write where something else belongs.
-WORDS = (
-    *(
-        "",
-        "0",
-        "-1",
-        "1e308",
-        "-1e308",
-        "1e-320",
-        "1e400",
-        "nan",
-        ".nan",
-        "inf",
-        "-.inf",
-        "2e",
-        "1_0",
-        "0x1F",
-        "017",
-        "190:20:30",
-    ),
-    *(str(2**31), str(2**63), str(2**70), "9" * 30, "9" * 5000, "1." + "3" * 400, "true", "no", "null", "~", "text", "rows"),
+NUMBERS = (
+    *("0", "-1", "1e308", "-1e308", "1e-320", "1e400", "nan", ".nan", "inf", "-.inf", "2e", "1_0", "0x1F", "017", "190:20:30"),
+    *(str(2**31), str(2**63), str(2**70), "9" * 30, "9" * 5000, "1." + "3" * 400, "0b", "0x", "1__2", "-0", "+"),
+)
+YAML = (
     *("2026-02-30", "2026-02-30T25:61:61Z", "12:61:99", "!!int x", "!!int ''", "!!float x", "!!bool x", "!!timestamp x"),
     *(
         "!!binary '@'",
@@ -92,31 +77,31 @@ WORDS = (
         "\t",
         "#",
         "---",
-        "...",
     ),
-    *("/dev/zero", "/dev/stdin", "/proc/self/mem", "/etc/passwd", ".", "..", "../../../x", "a/b", "x" * 300, "y" * 5000, "CON"),
-    *(
-        "<",
-        ">",
-        "&",
-        "&lt;",
-        "&#0;",
-        "<!--",
-        "]]>",
-        "<![CDATA[",
-        '"',
-        "'",
-        ",",
-        ";",
-        '""',
-        "=1+1",
-        "é",
-        "\u202e",
-        "\U0001f600",
-        "\x00",
-    ),
-    *("joint1", "base", "world", "revolute", "fixed", "pose", "deg", "box", "panda", "planar-2r", "default", "single", "arm"),
+    *("...", "true", "no", "null", "~", "&a [*a]", "!!int 0b", "!!float .", "!!seq {}", "!!map []", "? ", "!", "''"),
 )
+PLACES = (
+    "/dev/zero",
+    "/dev/stdin",
+    "/proc/self/mem",
+    "/etc/passwd",
+    ".",
+    "..",
+    "../../../x",
+    "a/b",
+    "x" * 300,
+    "y" * 5000,
+    "CON",
+)
+SIGNS = (
+    *("", "<", ">", "&", "&lt;", "&#0;", "<!--", "]]>", "<![CDATA[", '"', "'", ",", ";", '""', "=1+1", "é", "\u202e", "\x00"),
+    *("\U0001f600", "\r", "\n", " " * 300),
+)
+NAMES = (
+    *("joint1", "base", "world", "revolute", "fixed", "pose", "deg", "box", "panda", "planar-2r", "default", "single", "arm"),
+    *("text", "rows", "file", "name"),
+)
+GROUPS = (NUMBERS, YAML, PLACES, SIGNS, NAMES)
 THINGS = (
     *(None, True, False, 0, 1, -1, 2**31, 2**63, 2**70, -(2**70), 0.5, -0.0, 1e308, 1e-320, float("inf"), float("nan")),
     *(
@@ -144,6 +129,12 @@ TOKEN = re.compile(rb"[+-]?\d+\.?\d*(?:[eE][+-]?\d+)?|[A-Za-z_][\w.-]*|[^\s\w]|\
 
 
 # ---- mutations ---------------------------------------------------------------------------------------------------
+
+
+def word(rng: np.random.Generator) -> str:
+    """Something that people or programs write."""
+    group = GROUPS[rng.integers(len(GROUPS))]
+    return group[rng.integers(len(group))]
 
 
 def of_bytes(data: bytes, rng: np.random.Generator) -> bytes:
@@ -184,7 +175,7 @@ def of_tokens(data: bytes, rng: np.random.Generator) -> bytes:
             case 2:
                 tokens[a], tokens[b] = tokens[b], tokens[a]
             case _:
-                tokens[a] = WORDS[rng.integers(len(WORDS))].encode()
+                tokens[a] = word(rng).encode()
     return b"".join(tokens)
 
 
@@ -214,7 +205,7 @@ def of_entries(data: object, rng: np.random.Generator) -> object:
             case 1 if isinstance(block, list):
                 block += [block[key]] * int(rng.integers(1, 20))  # type: ignore[call-overload]
             case 1:
-                block[str(rng.choice(WORDS))] = block.pop(key)  # type: ignore[call-overload, index, arg-type]
+                block[word(rng)] = block.pop(key)  # type: ignore[call-overload, index, arg-type]
             case 2:
                 for _ in range(int(rng.choice([1, 3, 60, 400]))):
                     block[key] = [block[key]] if rng.random() < 0.5 else {"a": block[key]}  # type: ignore[call-overload, index]
@@ -278,9 +269,8 @@ def of_xml(data: bytes, rng: np.random.Generator) -> bytes:
             case _ if child.attrib:
                 key = str(rng.choice(list(child.attrib)))
                 values = [e.attrib[k] for e in root.iter() for k in e.attrib]
-                pick = (WORDS, values, [""])[rng.integers(3)]
-                word = pick[rng.integers(len(pick))]
-                child.attrib.pop(key) if rng.random() < 0.2 else child.attrib.update({key: word})
+                new = word(rng) if rng.random() < 0.5 else values[rng.integers(len(values))]
+                child.attrib.pop(key) if rng.random() < 0.2 else child.attrib.update({key: new})
     return ElementTree.tostring(root)
 
 
@@ -295,13 +285,13 @@ def of_table(data: bytes, rng: np.random.Generator) -> bytes:
             case 0:
                 del row[at : at + 1]
             case 1:
-                row.insert(at, str(rng.choice(WORDS)))
+                row.insert(at, word(rng))
             case 2:
                 rows.insert(int(rng.integers(len(rows) + 1)), list(row))
             case 3 if len(rows) > 1:
                 del rows[k]
             case _ if row:
-                row[at] = str(rng.choice(WORDS))
+                row[at] = word(rng)
     out = io.StringIO()
     csv.writer(out, delimiter=",;\t"[int(rng.integers(20)) % 3 if rng.random() < 0.1 else 0]).writerows(rows)
     return out.getvalue().encode("utf-8", "surrogatepass")

@@ -113,7 +113,8 @@ def test_a_long_message_keeps_its_ends():
     assert shown.startswith("the beginning xxx")
     assert shown.endswith("xxx the end")
     assert len(shown) < 1100
-    assert str(hf.InputError("short")) == "short"
+    assert str(hf.InputError("short é")) == "short é"
+    assert str(hf.InputError("a\nb \x1b[2J\u202e")) == "a\\nb \\x1b[2J\\u202e"
 
 
 def test_numbers_that_overflow_are_no_arm():

@@ -10,6 +10,7 @@ import casadi as ca
 
 from holdfast.arm import kinematics
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
@@ -83,7 +84,7 @@ def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path]:
     try:
         target.mkdir(parents=True, exist_ok=True)
         for file, text in zip(files, (source, header), strict=True):
-            file.write_text(text, encoding="utf-8")
+            replaced(file, text)
     except OSError as error:
         raise StoreError(
             f"cannot write '{name}.c' into '{target}': {error.strerror or error}; choose another folder"

@@ -10,6 +10,7 @@ import yaml
 
 from holdfast import arms, reading
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
 
 _TEXT = """\
 # A study of holdfast: what is computed is every combination of the lists below.
@@ -121,8 +122,7 @@ def write(
         convergence=block,
     )
     try:
-        with path.open("x", encoding="utf-8", newline="\n") as out:
-            out.write(text)
+        replaced(path, text)
     except OSError as error:
         raise StoreError(f"cannot write study file '{path}': {error.strerror or error}; choose another path") from error
     try:

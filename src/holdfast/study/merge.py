@@ -80,6 +80,8 @@ class _Merge:
                 continue
             source = other.store(k)
             mine = Store.create(self._study.folder(k), source.plan, source.columns, *source.shape, journal=True)
+            if source.done and k not in self._study.begun:
+                self._study.note_begun(k)
             for chunk in source.done:
                 self._chunk(cell["name"], chunk, source, mine, numbers)
                 self._at += 1

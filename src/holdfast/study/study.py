@@ -21,7 +21,7 @@ from holdfast.study.work import Progress, Work
 from holdfast.whole_file import replaced
 
 _FORMAT, _VERSION = "holdfast-study", 1
-_FILE, LOCK, _CELLS = "study.json", "study.lock", "cells"
+_FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
 _KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 
@@ -55,10 +55,10 @@ class CellStatus:
 
 @dataclass(frozen=True)
 class Damage:
-    """A committed chunk that is not as it was written; number from 0."""
+    """A committed chunk that is not as it was written; number from 0, None for all of a cell that was begun and is gone."""
 
     cell: str
-    chunk: int
+    chunk: int | None
     what: str
 
 
@@ -74,6 +74,7 @@ class Study:
         self.path = path
         self.made = Made(path)
         self._data = data
+        self._begun = Journal(path / _BEGUN)
 
     # ---- opening ---------------------------------------------------------------------------------------------------
 
@@ -233,6 +234,29 @@ class Study:
             raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
         return Store.open(self.folder(cell))
 
+    def note_begun(self, cell: int) -> None:
+        """Write down that a cell has rows, so that it is missed when it is gone.
+
+        Raises:
+            StoreError: The disk refuses.
+        """
+        try:
+            self._begun.add(cell, Entry("begun", 0, 0.0, 0))
+        except OSError as error:
+            raise _unwritable(self.path, error) from error
+
+    @property
+    def begun(self) -> frozenset[int]:
+        """Cells that had rows once, from 0; folders from before holdfast kept count do not say.
+
+        Raises:
+            StoreError: It cannot be read.
+        """
+        try:
+            return frozenset(self._begun.read())
+        except OSError as error:
+            raise StoreError(f"'{self._begun.path}' cannot be read: {error.strerror or error}") from error
+
     def entries(self, cell: int) -> dict[int, Entry]:
         """What is done of a cell, by number of the chunk.
 
@@ -322,13 +346,19 @@ class Study:
     def verify(self, progress: Progress | None = None) -> list[Damage]:
         """Read every committed chunk and compare its checksum; damaged ones are missing from then on, to be run again.
 
+        A cell that was begun and of which nothing is left counts too.
+
         Raises:
             StoreError: Another program is at work in the folder, or it is not writable.
         """
         found: list[Damage] = []
         with held(self.path, LOCK):
             total, at = sum(s.chunks_done for s in self.status()), 0
+            begun = self.begun
             for k, c in enumerate(self._data["cells"]):
+                if k in begun and not self.entries(k):
+                    found.append(Damage(c["name"], None, "it was begun, and nothing of it is left"))
+                    self._forget(k)
                 if not reading.exists(self.folder(k)):
                     continue
                 store = self.store(k)
@@ -344,7 +374,15 @@ class Study:
                         progress(at, total, None)
                 if bad:
                     store.drop(bad)
+                    if not store.done:
+                        self._forget(k)
         return found
+
+    def _forget(self, cell: int) -> None:
+        try:
+            self._begun.drop([cell])
+        except OSError as error:
+            raise _unwritable(self.path, error) from error
 
 
 def _unwritable(folder: Path, error: OSError) -> StoreError:

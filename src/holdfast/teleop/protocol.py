@@ -45,6 +45,7 @@ from holdfast.teleop.order import Indices, scenario_orders, williams
 from holdfast.teleop.plant import SUBSTEPS, Plant
 from holdfast.teleop.point_task import PointTasks, Scenario
 from holdfast.teleop.stick import Stick
+from holdfast.whole_file import replaced
 from holdfast.yaml_file import Number, Strict, content, sentence
 
 PAPER, SMOOTH = "goel2003", "goel2003-smooth"
@@ -202,9 +203,9 @@ class Protocol:
         """
         file = Path(path)
         try:
-            file.write_text(self.text(), encoding="utf-8")
+            replaced(file, self.text())
             if self.arm_file is not None and not reading.exists(beside := file.parent / self.arm_spec):
-                beside.write_bytes(self.arm_file.read_bytes())
+                replaced(beside, reading.raw(self.arm_file))
         except OSError as error:
             raise StoreError(f"cannot write '{file}': {error.strerror or error}; choose another path") from error
         return file
