@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
+_MOST = 1e12  # of any number, so that their products stay finite
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +116,8 @@ class Link:
             raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
         if self.mass < 0:
             raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
+        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MOST:
+            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MOST:g}; give kg, m and kg m^2")
         if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
             raise ArmError(f"{label}: the inertia matrix is not symmetric")
         object.__setattr__(self, "mass", float(self.mass))
@@ -526,6 +529,8 @@ def _transform(value: ArrayLike, what: str) -> Array:
     t = _numbers(value, what)
     if t.shape != (4, 4) or not np.isfinite(t).all():
         raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
+    if np.abs(t).max() > _MOST:
+        raise ArmError(f"{what} is beyond {_MOST:g} m; give lengths in metres")
     rotation = t[:3, :3]
     if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
         raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")

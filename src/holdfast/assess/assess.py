@@ -409,10 +409,7 @@ def load(path: str | Path) -> Assessment:
     store = Store.open(path)
     if store.plan.get("kind") != "assess":
         raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
-    try:
-        plan = Plan.from_dict(store.plan, store.rows)
-    except (KeyError, TypeError) as error:
-        raise StoreError(f"'{path}' is damaged: its plan lacks {error}; start the run again in a new folder") from error
+    plan = Plan.stored(store, store.rows)
     tally = Tally(plan)
     for rows in stored(store, plan):
         tally.add(rows)

@@ -38,6 +38,7 @@ from holdfast.cli.options import (
 )
 from holdfast.cli.physics_output import physics_data, print_physics, run_physics
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -229,7 +230,7 @@ def _write(runs: Runs, path: MotionPath, file: Path) -> None:
     header = ",".join(["time_cycles" if runs.cycles else "time_s", *joints, "tool_x_m", "tool_y_m", "tool_z_m", "error"])
     rows = np.column_stack([path.time, path.q, path.x, path.error])
     try:
-        with file.open("w", encoding="utf-8") as stream:
+        with writing(file) as stream:
             np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error

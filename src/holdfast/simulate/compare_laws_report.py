@@ -21,6 +21,7 @@ from holdfast.report.words import counted, fixed, number, percent
 from holdfast.simulate.compare_laws import ANY, HEALTHY, LawComparison
 from holdfast.simulate.runs import Outcome
 from holdfast.versions import versions
+from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
 
@@ -401,7 +402,7 @@ def save(c: LawComparison, folder: Path) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name, rows in tables.items():
             file = folder / f"{name}.csv"
-            with file.open("w", encoding="utf-8", newline="") as stream:
+            with writing(file) as stream:
                 writer = csv.DictWriter(stream, list(rows[0]))
                 writer.writeheader()
                 writer.writerows(rows)

@@ -80,7 +80,8 @@ def build(study: Study) -> Page:
 
 
 def _of(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
-    return [read(study, k) for k, c in enumerate(study.cells) if c["labels"]["job"] == job and study.folder(k).exists()]
+    mine = [k for k in range(len(study.cells)) if results.labels_of(study, k)["job"] == job]
+    return [read(study, k) for k in mine if study.folder(k).exists()]
 
 
 def _thresholds(study: Study, found: Sequence[Assessed]) -> dict[Key, float]:

@@ -8,6 +8,7 @@ from contextlib import closing
 from datetime import UTC, datetime
 from pathlib import Path
 
+from holdfast import reading
 from holdfast.errors import StoreError
 from holdfast.teleop import protocol as protocols
 from holdfast.teleop.protocol import Protocol
@@ -54,7 +55,7 @@ def make(folder: Path, protocol: Protocol) -> None:
     Raises:
         StoreError: The folder is not empty, or cannot be written.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+    if reading.exists(folder) and (not folder.is_dir() or any(folder.iterdir())):
         raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
     try:
         folder.mkdir(parents=True, exist_ok=True)
