@@ -283,7 +283,7 @@ def method(f: Facts) -> list[Block]:
             f"{'0' if f.larger else 'infinite'} by convention",
         ),
         ("Failures", "a locked joint stands still where it failed"),
-        ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
         ("Arm", a.arm.source or "no source given"),
         ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),

@@ -143,7 +143,7 @@ def print_assessment(result: Assessment, at_least: list[float] | None, rates: di
     if not d.samples:
         return
     if d.weighted:
-        text = f"poses count by weight: effective sample size {d.effective():.4g}, from which the intervals are approximated"
+        text = f"poses count by weight: effective sample size {d.effective():.4g} (total over largest), which intervals go by"
         out.print(text, soft_wrap=True)
     both = [(result.distribution, "as inverse kinematics found them")]
     if result.optimised is not None:
