@@ -200,7 +200,8 @@ class Assessment:
     def gap(self, optimised: bool = False) -> float | None:
         """What the median over the reached poses lacks to the bound that no configuration can exceed, or None if unknown.
 
-        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``, for other failures see the index.
+        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
+        the bound for several failures at a time, ``index.bound_note`` says.
         """
         d = self.of(optimised)
         if self.index.bound is None or not d.reached:
