@@ -267,7 +267,7 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
         ("Index", f"worst-case {f.index.name}{f.unit and f', unit{f.unit}'}; {'larger' if f.larger else 'smaller'} is better"),
         ("Threshold", f"{as_given(c.threshold)}{f.unit}: {why}"),
         ("Not found", f"a pose without a configuration counts as {'0' if f.larger else 'infinite'}"),
-        ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         (
             "Ranking",
             "by the probability of meeting the threshold as inverse kinematics found the configurations; then the median",

@@ -374,7 +374,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     facts.append(
         (
             "Intervals",
-            "95 %: Wilson score for shares of poses; by their spread for motions; DKW for curves",
+            "95 %: exact (Clopper-Pearson) for shares of poses; betting for means over motions; DKW for curves",
         )
     )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
