@@ -84,7 +84,7 @@ def by_hand(folder):
                     now = sha(now + packed(row))
                 now = sha(now + packed(db.execute(f"SELECT ended, end FROM trials WHERE id = {item}").fetchone()))
                 assert now == content
-            elif kind == "rating":
+            elif kind == "rating" and last[kind, item] == number:
                 assert content == sha(
                     packed(db.execute(f"SELECT id, rating, answers FROM trials WHERE id = {item}").fetchone())
                 )
@@ -124,6 +124,8 @@ def test_a_stranger_gets_the_same_digests(study):
         ("DELETE FROM cycles WHERE trial = 4 AND k = 5", "trial 4 of S01 is not"),
         ("UPDATE trials SET scenario = 1 - scenario WHERE id = 4", "trial 4 of S01 is not"),
         ("UPDATE trials SET rating = 0 WHERE id = 4", "the rating of trial 4 of S01 is not"),
+        ("UPDATE trials SET answers = '{ }' WHERE id = 1", "the rating of trial 1 of S01 is not"),
+        ("UPDATE trials SET rating = 2 WHERE id = 7", "the rating of trial 7 of S02 is not"),
         ("DELETE FROM trials WHERE id = 4", "trial 4 of S01 is missing"),
         ("DELETE FROM digests WHERE kind = 'trial' AND item = 4", "trial 4 of S01 has no digest"),
         ("UPDATE subjects SET note = 'left' WHERE code = 'S02'", "subject S02 is not as it was written"),

@@ -172,9 +172,9 @@ class Chain:
         if row is not None:
             self._db.execute("UPDATE sessions SET digest = ? WHERE subject = ?", (of_session(row), subject))
 
-    def begin(self, trial: int) -> None:
-        """A trial begins."""
-        self.prepare()
+    def begin(self, trial: int, subject: str) -> None:
+        """A trial begins; that it has no rating is on record as well."""
+        self.add("rating", subject, trial)
         self._db.execute("INSERT INTO under_way VALUES (?, ?)", (trial, of_trial(self._db, trial)))
 
     def go_on(self, trial: int, rows: Iterable[Sequence[Any]]) -> None:

@@ -263,7 +263,7 @@ class Records:
                 (subject, kind, position, task, scenario, int(tasks.joint[0]), blob(tasks.q0[0]), blob(tasks.target[0]), now()),
             )
             assert cursor.lastrowid is not None
-            self._chain.begin(cursor.lastrowid)
+            self._chain.begin(cursor.lastrowid, subject)
         return cursor.lastrowid
 
     def append(self, trial: int, first: int, time: Array, velocity: Array, q: Array) -> None:

@@ -16,7 +16,7 @@ from holdfast.teleop.records_file import FILE, opened
 _STATES = ("experiment", "subject", "rating")  # change: only the last digest of each is of what is there now
 _ITEMS = {  # what must have a digest: number, subject, and what a person calls it
     "trial": "SELECT id, subject, 'trial ' || id FROM trials WHERE end IS NOT NULL AND id > ? ORDER BY id",
-    "rating": "SELECT id, subject, 'the rating of trial ' || id FROM trials WHERE rating IS NOT NULL AND id > ? ORDER BY id",
+    "rating": "SELECT id, subject, 'the rating of trial ' || id FROM trials WHERE id > ? ORDER BY id",
     "event": "SELECT id, subject, 'event ' || id FROM events WHERE id > ? ORDER BY id",
 }
 
