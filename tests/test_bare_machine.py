@@ -70,7 +70,8 @@ def test_without_a_browser_tests_of_pages_are_skipped_loudly_and_fail_where_it_i
     path = os.pathsep.join([str(ROOT / "src"), str(ROOT / "tests")])
     env = {**os.environ, "PATH": nowhere, "PLAYWRIGHT_BROWSERS_PATH": nowhere, "PYTHONPATH": path}
     env["HOLDFAST_REQUIRE_BROWSER"] = required
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "conftest", "-p", "no:cacheprovider", "--rootdir", str(tmp_path), str(tmp_path)]
+    command = [sys.executable, "-m", "pytest", "-p", "conftest", "-p", "no:cacheprovider", "--rootdir", ".", "."]
     done = subprocess.run(command, env=env, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (done.returncode, "NO BROWSER, 1 TESTS SKIPPED" in done.stdout) == ((1, False) if required else (0, True)), done.stdout
+    loud = "NO BROWSER, 1 TESTS SKIPPED" in done.stdout
+    assert (done.returncode, loud) == ((1, False) if required else (0, True)), done.stdout
     assert "pages are looked at in Chromium, and there is none here" in done.stdout
