@@ -180,7 +180,7 @@ def main() -> None:
     own.add_argument("--python", default=sys.executable, help="interpreter with the dependencies (default: this one)")
     own.add_argument("--only", action="append", default=[], metavar="TEXT", help="commands that hold this; may be given again")
     own.add_argument("--single", action="store_true", help="only commands on one configuration, pose or motion")
-    own.add_argument("--limit", type=float, default=600.0, help="seconds after which a command is stopped (default %(default)s)")
+    own.add_argument("--limit", type=float, default=600.0, help="stop a command after so many seconds (default %(default)s)")
     chosen = harness.options(__doc__, rounds=1, parents=[own])
     candidates = []
     for text in chosen.candidate or [f"holdfast={HERE}"]:
