@@ -12,7 +12,7 @@ from typer.exceptions import TyperException
 from holdfast.cli.interrupt import STOPPED
 from holdfast.errors import HoldfastError
 
-_MODULES = {  # of each command, in the order of the help
+COMMANDS = {  # the module of each, in the order of the help
     "arms": "arm_commands",
     "describe": "arm_commands",
     "index": "index_commands",
@@ -52,7 +52,7 @@ def program(command: str | None = None) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_root)
-    for module in [_MODULES[command]] if command in _MODULES else dict.fromkeys(_MODULES.values()):
+    for module in [COMMANDS[command]] if command in COMMANDS else dict.fromkeys(COMMANDS.values()):
         import_module(f"holdfast.cli.{module}").add(app)
     return app
 
