@@ -209,7 +209,7 @@ def provenance(seconds: float | None) -> dict[str, Any]:
     return {
         "seconds": seconds,
         "finished": datetime.now(UTC).isoformat(timespec="seconds"),
-        "versions": versions("holdfast", "numpy", "scipy", "casadi", "heyoka", "xarray", "zarr"),
+        "versions": versions("holdfast", "numpy", "scipy", "casadi", "llvmlite", "xarray", "zarr"),
         "python": platform.python_version(),
         "machine": platform.machine(),
         "threads": thread_count(),

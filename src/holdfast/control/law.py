@@ -81,7 +81,7 @@ class Law(ABC):
 
     def scaled(self, v: SX) -> SX:
         """A task velocity (m,) in m/s and rad/s, its linear rows divided by the task's characteristic length."""
-        return ca.SX(ca.DM(_scale(self.task))) @ v
+        return ca.SX(ca.DM(self.task.scale(self.task.length))) @ v
 
     def command(self, error: SX) -> SX:
         """Task velocity (m,) for an error of the task's rows (m,), m and rad: eq. (6), within the speed limit.
@@ -248,11 +248,6 @@ class Law(ABC):
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
-
-
-def _scale(task: Task) -> Array:
-    """(m, m): what dividing the linear rows of a twist by the characteristic length does to the task's rows."""
-    return np.asarray(task.rows @ np.diag([1 / task.length] * 3 + [1.0] * 3) @ task.rows.T)
 
 
 def _linear(task: Task) -> Array:

@@ -307,7 +307,7 @@ def _healthy(c: LawComparison) -> list[Block]:
 
 
 def _method(c: LawComparison, command: str, about: str) -> list[Block]:
-    found = versions("holdfast", "numpy", "scipy", "casadi", "heyoka")
+    found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
     first = c.runs[0]
     facts: list[tuple[Cell, Cell]] = [("Motions", about or "as they were given")]
     facts += [(name, law.describe()) for name, law in zip(c.names, c.laws, strict=True)]

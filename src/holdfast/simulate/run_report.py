@@ -202,7 +202,7 @@ class RunReport:
 
     def _numbers(self, command: str) -> list[Block]:
         size = self.size
-        found = versions("holdfast", "numpy", "scipy", "casadi", "heyoka")
+        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
         rows = [
             ("Error at the end", f"{number(float(self._of('error')))} {size}"),
             ("Least that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),

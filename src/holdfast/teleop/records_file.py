@@ -61,7 +61,7 @@ def make(folder: Path, protocol: Protocol) -> None:
         kept = protocols.read(protocol.write(folder / PROTOCOL))
         with closing(sqlite3.connect(folder / (FILE + ".new"), isolation_level=None)) as db:
             db.executescript(_SCHEMA + _SESSIONS)
-            made_by = json.dumps(versions("holdfast", "numpy", "casadi", "heyoka"))
+            made_by = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
             about = {"format": str(_FORMAT), "protocol": kept.text(), "versions": made_by, "began": now()}
             db.executemany("INSERT INTO about VALUES (?, ?)", about.items())
         (folder / (FILE + ".new")).rename(folder / FILE)  # a folder with this file is whole
