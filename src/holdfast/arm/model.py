@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.checked import real_numbers
 from holdfast.errors import ArmError, InputError
-from holdfast.kernels import Kernel, recalled
+from holdfast.kernels import SX, Kernel, recalled
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH

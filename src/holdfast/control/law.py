@@ -9,7 +9,7 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (5), (6); Goel, Macie
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
@@ -24,15 +24,18 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
-from holdfast.control.step import Step
+from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]
 
 
-class Law(ABC):
+class Law(Steps):
     """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
+
+    In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);
+    ``step.others`` then holds what else :meth:`outputs` computes.
 
     Args:
         arm: The arm.
@@ -119,13 +122,8 @@ class Law(ABC):
             f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)]
         )
 
-    @cached_property
-    def step(self) -> Step:
-        """``step(q, v) -> rates`` for one configuration, (n,), (m,) -> (n,): for a control loop, without any checks.
-
-        ``step.others`` then holds what else :meth:`outputs` computes.
-        """
-        return Step(self._velocity_kernel, self.arm.n)
+    def _step_kernel(self) -> tuple[Kernel, int]:
+        return self._velocity_kernel, self.arm.n
 
     def velocity(self, q: ArrayLike, v: ArrayLike) -> Array:
         """Commanded joint rates.
