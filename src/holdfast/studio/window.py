@@ -30,6 +30,7 @@ Check = Callable[[], None]
 
 TICK = 1 / 30  # s between two pictures of what moves by itself
 OF_HERE = ("best-worst", "laws", "swing")  # what is of where the arm is, and of what has failed
+ROUNDING = 1e-9  # of an index: below it a number says nothing
 SPEED = 0.8  # rad/s along a self-motion at the end of its slider
 
 
@@ -213,6 +214,8 @@ class Window:
         if self.state.show not in OF_HERE or (q is not None and np.array_equal(q, self.q)):
             return
         self.work.cancel()
+        if self._ghosts:
+            self.panel.say("The ghosts were of where the arm stood; ask again for here.")
         self._drop_ghosts()
         self.state = replace(self.state, show="arm", time=0.0)
 
@@ -271,9 +274,7 @@ class Window:
         name = self.state.objective
 
         def show(found: Extremes) -> None:
-            from holdfast.report.words import number
-
-            best, worst, here = map(number, found.values)
+            best, worst, here = ("0" if abs(x) < ROUNDING else f"{x:.4g}" for x in found.values)
             words = [f"best: {best}", f"worst: {worst}"]
             self._haunt(
                 list(found.q), words, f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here."
