@@ -56,12 +56,12 @@ def headline(d: ConvergenceDesigns) -> str:
     """The answer in one or two sentences."""
     if d.checked is not None:
         given, best, apart = d.checked
-        both = f"the best design reaches {_share(best)} of the targets, the given arm {_share(given)}"
         if d.best == 0:
-            return (
-                f"Nothing better than the given arm was found: it reaches {_share(given)} of the targets after an unknown lock."
-            )
-        text = f"After a lock that the controller does not know of, {both}: {_points(apart)} apart."
+            return f"Nothing better than the given arm was found: it reaches its target in {_share(given)} of fresh failures."
+        text = (
+            "After a lock that the controller does not know of, the best design reaches its target in "
+            f"{_share(best)} of fresh failures, the given arm in {_share(given)}: {_points(apart)} more."
+        )
         return text if apart.low > 0 else f"No gain that lasts was found. {text} Search with more targets."
     name = d.objective if d.exact else "arrival"
     given_, best_ = (percent(float(d.measures[name][k])) for k in (0, d.best))
@@ -124,7 +124,10 @@ def _method(d: ConvergenceDesigns) -> list[Block]:
         ("Given arm", f"{d.law.arm.name}: {d.law.arm.source or 'no source given'}"),
         ("Law", d.law.describe()),
         ("Measured", how),
-        ("Search", f"{s['designs']:,} scrambled Sobol designs, those with equal lengths, and {s['climbs']} pattern searches"),
+        (
+            "Search",
+            f"{s['designs']:,} Sobol designs, those with equal lengths, and pattern searches from {s['climbs']} of them",
+        ),
         ("Seed", str(s["seed"])),
     ]
     p = provenance(None)
