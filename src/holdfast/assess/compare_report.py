@@ -226,7 +226,10 @@ def _candidates(c: Comparison) -> Table:
         gaps = [number(x) for x in (a.gap(), a.gap(True) if a.optimised is not None else None) if x is not None]
         code = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
         source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
-        rows.append([name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", source or "no source given", code])
+        ends = "" if a.arm.chain is None else f"; {a.arm.chain}"
+        rows.append(
+            [name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", (source or "no source given") + ends, code]
+        )
     head = [
         "Candidate",
         "arm",
@@ -264,7 +267,7 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
         ("Index", f"worst-case {f.index.name}{f.unit and f', unit{f.unit}'}; {'larger' if f.larger else 'smaller'} is better"),
         ("Threshold", f"{as_given(c.threshold)}{f.unit}: {why}"),
         ("Not found", f"a pose without a configuration counts as {'0' if f.larger else 'infinite'}"),
-        ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         (
             "Ranking",
             "by the probability of meeting the threshold as inverse kinematics found the configurations; then the median",

@@ -176,8 +176,8 @@ class Facts:
         """What weights do to the numbers."""
         return (
             f"poses count by weight: {percent(1 - self.d.unreached_share)} of the weight is reached. Effective sample size "
-            f"{self.d.effective():,.0f} of {self.d.samples:,} (Kish): intervals and bands are those of so many equal poses, "
-            "approximately"
+            f"{self.d.effective():,.0f} of {self.d.samples:,} (total weight over the largest weight): intervals and bands are "
+            "those of so many equal poses"
         )
 
     @property

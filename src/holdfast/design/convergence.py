@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.serial import to_dict
 from holdfast.arm.task import Task
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.starts import read_places
 from holdfast.design.arrival import Arrivals, Failures
@@ -27,7 +28,7 @@ from holdfast.interval import Difference, Interval
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
-Objective = Literal["guaranteed", "arrival"]
+Aim = Literal["guaranteed", "arrival"]
 
 RINGS = 40
 TARGETS, FAILURES = 12, 2  # of a sampled search; each failure is one of every joint
@@ -61,7 +62,7 @@ class ConvergenceDesigns:
     space: DesignSpace
     values: Array
     measures: dict[str, Array]
-    objective: Objective
+    objective: Aim
     exact: bool
     best: int
     checked: tuple[Interval, Interval, Difference] | None
@@ -87,7 +88,7 @@ class ConvergenceDesigns:
     def describe(self) -> list[str]:
         """A few sentences for people."""
         how = "from its stationary sets" if self.exact else "by simulation"
-        lines = [f"'{self.law.arm.name}' under {self.law.describe()}: {len(self.values)} designs, {how}"]
+        lines = [f"{self.law.arm.title} under {self.law.describe()}: {len(self.values)} designs, {how}"]
         for word, k in (("given", 0), ("best", self.best)):
             numbers = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.space.parameters, self.values[k], strict=True))
             told = ", ".join(f"{name} {100 * m[k]:.1f} %" for name, m in self.measures.items())
@@ -109,7 +110,7 @@ class ConvergenceDesigns:
             return {"values": values, **{name: float(m[k]) for name, m in self.measures.items()}}
 
         out: dict[str, Any] = {
-            "arm": self.law.arm.name,
+            **self.law.arm.entry(),
             "law": self.law.label,
             "task": self.law.task.name,
             "objective": self.objective,
@@ -163,11 +164,12 @@ class ConvergenceDesigns:
         return write(self, path)
 
 
+@checked
 def design_for_convergence(
     law: Law,
     vary: Vary,
     targets: ArrayLike | int | None = None,
-    objective: Objective = "guaranteed",
+    objective: Aim = "guaranteed",
     designs: int = 256,
     climbs: int = 4,
     keep_reach: bool = False,
@@ -266,7 +268,7 @@ def _exact(
     rest: PlanarRest,
     box: Box,
     rings: Array,
-    objective: Objective,
+    objective: Aim,
     designs: int,
     climbs: int,
     seed: int,
@@ -364,10 +366,8 @@ def _plan(own: tuple[Arm, str, str, Task], space: DesignSpace, searched: dict[st
 
 def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:
     """Of two designs: mean shares over the targets with their intervals, and of the difference."""
-    from holdfast.converge.convergence_map import shared
-
     shares = np.nan_to_num(arrivals.by_target)
     if shares.shape[1] < 2:
         return None
-    given, best = (shared(x, arrivals.arrived[0].size, 0.95) for x in shares)
-    return given, best, Difference.of_means(shares[1] - shares[0], 0.95)
+    given, best = (Interval.of_fractions(x) for x in shares)
+    return given, best, Difference.of_fractions(shares[1] - shares[0])

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 from markupsafe import Markup
 
+from holdfast import arms
 from holdfast.assess.run import provenance
 from holdfast.design.convergence import FAILURES, TARGETS, ConvergenceDesigns
 from holdfast.design.pictures import parameters_figure
-from holdfast.design.report import ARM_FILE, arm_spec, bounds_callout, parameters_table
+from holdfast.design.report import ARM_FILE, bounds_callout, parameters_table
 from holdfast.interval import Difference, Interval
 from holdfast.report import figures, page
 from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
@@ -136,15 +137,16 @@ def _method(d: ConvergenceDesigns) -> list[Block]:
     facts.append(("Fingerprint of the given arm", Markup("<code>{}</code>").format(d.law.arm.fingerprint)))
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     if d.exact or (s["targets"], s["failures"]) == (TARGETS, FAILURES):
-        blocks.append(Code(command(d), "The same search again:"))
+        line, remark = command(d)
+        blocks.append(Code(line, "The same search again" + (f" ({remark}):" if remark else ":")))
     return blocks
 
 
-def command(d: ConvergenceDesigns) -> str:
-    """The command that makes the search again."""
+def command(d: ConvergenceDesigns) -> tuple[str, str]:
+    """The command that makes the search again, and a remark."""
     s = d.searched
-    words = [f"holdfast design {shlex.quote(arm_spec(d.space)[0])} --maximise convergence --law {shlex.quote(d.law.label)}"]
-    words += [f"--task {shlex.quote(d.law.task.name)}", *(f"--vary {shlex.quote(p.written)}" for p in d.space.parameters)]
-    words += ["--keep-reach"] * bool(s.get("keep_reach"))
+    spec, words, remark = arms.command_words(d.law.arm)
+    words += [f"--maximise convergence --law {shlex.quote(d.law.label)} --task {shlex.quote(d.law.task.name)}"]
+    words += [f"--vary {shlex.quote(p.written)}" for p in d.space.parameters] + ["--keep-reach"] * bool(s.get("keep_reach"))
     words.append(f"--designs {s['designs']} --climbs {s['climbs']} --seed {s['seed']}")
-    return " \\\n    ".join(words)
+    return " \\\n    ".join([f"holdfast design {shlex.quote(spec)}", *words]), remark

@@ -315,8 +315,8 @@ def _task(d: Designs) -> str:
 def command(d: Designs) -> tuple[str, str]:
     """The command that makes the search again, and a remark."""
     space = d.space
-    spec, remark = arm_spec(space)
-    words = [f"--vary {shlex.quote(p.written)}" for p in space.parameters]
+    spec, words, remark = arms.command_words(space.arm)
+    words += [f"--vary {shlex.quote(p.written)}" for p in space.parameters]
     words += [f"--maximise {d.index.slug}", "--region region.yaml", f"--task {_task(d)}"]
     if d.index.task.length != 1.0:
         words.append(f"--length {d.index.task.length!r}")
@@ -334,20 +334,10 @@ def command(d: Designs) -> tuple[str, str]:
     return "\n".join(lines), remark
 
 
-def arm_spec(space: DesignSpace) -> tuple[str, str]:
-    """How a command names the given arm, and a remark."""
-    arm = space.arm
-    if arm.name in arms.names() and arms.load(arm.name).fingerprint == arm.fingerprint:
-        return arm.name, ""
-    known = arm.source.lower().endswith((*arms.URDF_ENDINGS, *arms.TABLE_ENDINGS)) and "\n" not in arm.source
-    what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
-    return arm.source if known else "ARM", f"{what}; for a URDF file also its --base and --tip, if any"
-
-
 def _method(d: Designs) -> list[Block]:
     joints = either([d.space.arm.joint_names[k] for k in sorted({k for f in d.index.failures for k in f})])
     facts: list[tuple[str, Cell]] = [
-        ("Given arm", f"{d.space.arm.name}: {d.space.arm.source or 'no source given'}"),
+        ("Given arm", f"{d.space.arm.name}: {d.space.arm.provenance}"),
         ("Index", f"worst-case {d.index.name} over the lock of {joints}; larger is better"),
         ("Task", d.index.task.name),
         ("Region", f"{d.region.name}: {d.region.describe()}; the same for all designs"),

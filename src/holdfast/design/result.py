@@ -176,7 +176,7 @@ class Designs:
             }
 
         return {
-            "arm": self.space.arm.name,
+            **self.space.arm.entry(),
             "index": self.index.slug,
             "task": self.index.task.name,
             "region": self.region.name,

@@ -17,7 +17,7 @@ from holdfast.report.motion import Panel, drawn_motion, motion_figure
 from holdfast.report.page import Block, Code, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
 from holdfast.report.words import number
-from holdfast.simulate.runs import Path, Reason, Runs
+from holdfast.simulate.runs import ENDS, Path, Reason, Runs
 from holdfast.versions import versions
 
 Array = NDArray[np.float64]
@@ -25,12 +25,6 @@ Array = NDArray[np.float64]
 SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn so far only
 _SAMPLES, _FRAMES = 1001, 201
 _STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
-ENDS = {
-    "converged": "arrives",
-    "stuck": "comes to rest elsewhere",
-    "moving": "never comes to rest",
-    "undecided": "is undecided",
-}
 
 
 class RunReport:
@@ -202,7 +196,7 @@ class RunReport:
 
     def _numbers(self, command: str) -> list[Block]:
         size = self.size
-        found = versions("holdfast", "numpy", "scipy", "casadi", "heyoka")
+        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
         rows = [
             ("Error at the end", f"{number(float(self._of('error')))} {size}"),
             ("Least that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),
@@ -210,7 +204,7 @@ class RunReport:
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
             ("Took", f"{number(float(self._of('time')))} {self.unit}"),
             ("Law", self.runs.law.describe()),
-            ("Arm", self.arm.source or "no source given"),
+            ("Arm", self.arm.provenance),
             ("Fingerprint of the arm", Markup("<code>{}</code>").format(self.arm.fingerprint)),
             ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
         ]

@@ -28,6 +28,14 @@ class Outcome(IntEnum):
     UNDECIDED = 3
 
 
+ENDS = {  # an outcome in a sentence about the hand
+    "converged": "arrives",
+    "stuck": "comes to rest elsewhere",
+    "moving": "never comes to rest",
+    "undecided": "is undecided",
+}
+
+
 class Reason(IntEnum):
     """Why a run is undecided; ``NONE`` where it is decided."""
 
@@ -50,8 +58,9 @@ _SENTENCES = {
     Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet come to rest: give a longer time_limit",
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.HALF_TURN: (
-        "for 100,000 steps the hand stayed half a turn from its target, where the shortest turn flips from one instant to the "
-        "next: bring the target nearer to its orientation by poses in between, or leave the orientation free"
+        "the hand was caught half a turn from its target, where the shortest turn flips from one instant to the next and the "
+        "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
+        "orientation free"
     ),
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }

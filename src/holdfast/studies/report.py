@@ -80,7 +80,8 @@ def build(study: Study) -> Page:
 
 
 def _of(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
-    return [read(study, k) for k, c in enumerate(study.cells) if c["labels"]["job"] == job and study.folder(k).exists()]
+    mine = [k for k in range(len(study.cells)) if results.labels_of(study, k)["job"] == job]
+    return [read(study, k) for k in mine if study.folder(k).exists()]
 
 
 def _thresholds(study: Study, found: Sequence[Assessed]) -> dict[Key, float]:
@@ -373,7 +374,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     facts.append(
         (
             "Intervals",
-            "95 %: Wilson score for shares of poses; by their spread for motions; DKW for curves",
+            "95 %: exact (Clopper-Pearson) for shares of poses; betting for means over motions; DKW for curves",
         )
     )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
