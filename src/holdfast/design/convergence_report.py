@@ -110,7 +110,10 @@ def _numbers(d: ConvergenceDesigns) -> Picture:
 
 def _file(d: ConvergenceDesigns) -> list[Block]:
     label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
-    return [Code(d.arm_file().rstrip(), label), Text("Masses are not in it.", quiet=True)]
+    return [
+        Code(d.arm_file().rstrip(), label),
+        Text("Masses are not in it: a table of Denavit-Hartenberg rows holds none.", quiet=True),
+    ]
 
 
 def _method(d: ConvergenceDesigns) -> list[Block]:
