@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.cli import main
+from holdfast.cli.app import main
 from holdfast.converge.starts import read_places
 from holdfast.converge.workspace_job import Beginnings
 

@@ -19,6 +19,7 @@ from holdfast.assess.plan import Plan, Rows, make_plan
 from holdfast.assess.region import Region, Sampling
 from holdfast.assess.run import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
 from holdfast.assess.upgrade import Upgrade, if_never_fails, upgrades
+from holdfast.checked import checked
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
@@ -302,6 +303,7 @@ class Assessment:
         return write(self, Path(path), threshold)
 
 
+@checked
 def assess(
     arm: Arm,
     region: Region,
@@ -398,6 +400,7 @@ def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
     return weights
 
 
+@checked
 def load(path: str | Path) -> Assessment:
     """The assessment in a results folder; of a run that was stopped, what is there.
 
@@ -407,10 +410,7 @@ def load(path: str | Path) -> Assessment:
     store = Store.open(path)
     if store.plan.get("kind") != "assess":
         raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
-    try:
-        plan = Plan.from_dict(store.plan, store.rows)
-    except (KeyError, TypeError) as error:
-        raise StoreError(f"'{path}' is damaged: its plan lacks {error}; start the run again in a new folder") from error
+    plan = Plan.stored(store, store.rows)
     tally = Tally(plan)
     for rows in stored(store, plan):
         tally.add(rows)

@@ -14,6 +14,7 @@ from holdfast.assess.assess import Assessment
 from holdfast.assess.region import Region
 from holdfast.assess.structure import structure
 from holdfast.assess.upgrade import Upgrade
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.failures import failure_sets
 from holdfast.interval import Interval
@@ -176,6 +177,7 @@ class Comparison:
         return write(self, Path(path))
 
 
+@checked
 def compare(
     assessments: Sequence[Assessment], names: Sequence[str] | None = None, threshold: float | None = None
 ) -> Comparison:

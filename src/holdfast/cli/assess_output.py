@@ -21,7 +21,7 @@ def summary(result: Assessment, at_least: list[float] | None, rates: dict[str | 
     names = result.index.failure_names
     reached = d.reached > 0
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "fingerprint": result.arm.fingerprint,
         "index": result.index.slug,
         "unit": result.index.unit,
@@ -128,7 +128,7 @@ def print_assessment(result: Assessment, at_least: list[float] | None, rates: di
 
     out = console()
     d = result.distribution
-    out.print(f"[bold]{escape(result.arm.name)}[/]: {escape(result.index.describe())}", soft_wrap=True)
+    out.print(f"[bold]{escape(result.arm.title)}[/]: {escape(result.index.describe())}", soft_wrap=True)
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
     if not result.complete:
         out.print(

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import finite_limits, without_limits
 from holdfast.arm.targets import target_pose
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind
 from holdfast.converge.rest_system import RestSystem, distinct
@@ -87,6 +88,7 @@ class Basins:
         return lines + [f"{name}: {share}" for name, share in self.shares]
 
 
+@checked
 def basins(
     law: Law,
     target: ArrayLike,

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.convergence_map import ConvergenceMap, convergence_map, shared
 from holdfast.converge.starts import Places
@@ -81,7 +82,7 @@ class LawChoice:
         """A few sentences for people."""
         first, best = self.maps[0], self.best
         lines = [
-            f"{len(self.names)} laws on '{first.law.arm.name}', task {first.law.task.describe()}: the same "
+            f"{len(self.names)} laws on {first.law.arm.title}, task {first.law.task.describe()}: the same "
             f"{int(first.known.sum()) * first.law.arm.n} failures, {int(first.known.any(axis=1).sum())} {first.over}"
         ]
         for name in self.ranking:
@@ -99,6 +100,7 @@ class LawChoice:
         return values.mean(axis=1) if joint is None else values[:, one.law.arm.joint_index(joint)]
 
 
+@checked
 def best_law(
     laws: Mapping[str, Law] | Sequence[Law],
     targets: ArrayLike | str | int | Places,

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations as as_configurations
 from holdfast.arm.configurations import without_idle_limits
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.starts import Places, picked_at, read_places
 from holdfast.errors import InputError
@@ -109,7 +110,7 @@ class ConvergenceMap:
         """A few sentences for people."""
         runs = int(self.known.sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {int(self.known.any(axis=1).sum())} of {len(self.places)} "
+            f"{self.law.describe()} on {self.law.arm.title}: {int(self.known.any(axis=1).sum())} of {len(self.places)} "
             f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         every = {outcome: self.shares(outcome) for outcome in (*_OUTCOMES, "trapped")} if runs else {}
@@ -145,6 +146,7 @@ def shared(values: Array, each: int, confidence: float) -> Interval:
     return Interval.of_fractions(values, confidence)
 
 
+@checked
 def convergence_map(
     law: Law,
     targets: ArrayLike | str | int | Places,

@@ -24,7 +24,7 @@ def summary(m: ConvergenceMap) -> dict[str, Any]:
     for word in _WORDS:
         shares[word] = {name: {"share": s.value, "low": s.low, "high": s.high} for name, s in m.shares(word).items()}
     return {
-        "arm": m.law.arm.name,
+        **m.law.arm.entry(),
         "law": m.law.describe(),
         "task": m.law.task.name,
         "over": m.over,

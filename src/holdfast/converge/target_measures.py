@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.measures import NAMES
 from holdfast.converge.place_panels import measure_maps
@@ -77,7 +78,7 @@ class TargetMeasures:
         told = ", ".join(f"{count} {name}" for name, count in zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
         within = int(np.isfinite(self.measures["Ravg"][:, -1]).sum())
         return [
-            f"{self.law.describe()} on '{self.law.arm.name}': {within} of {len(self.targets)} targets within reach of motions "
+            f"{self.law.describe()} on {self.law.arm.title}: {within} of {len(self.targets)} targets within reach of motions "
             f"from {len(self.starts)} starts",
             f"failures: {told}",
         ]
@@ -98,7 +99,7 @@ class TargetMeasures:
         for name, sure in self.target_intervals().items():
             values += [self.measures[name], sure[..., 0], sure[..., 1]]
             columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
-        facts: dict[str, Any] = {"arm": self.law.arm.name, "law": self.law.describe(), "starts": len(self.starts)}
+        facts: dict[str, Any] = {"arm": self.law.arm.title, "law": self.law.describe(), "starts": len(self.starts)}
         files = save_places(folder, "targets", self.targets, columns, values, facts)
         for name, figure in self.figures().items():
             files.append(save_png(figure, Path(folder) / f"targets-{name}.png", 130))
@@ -114,6 +115,7 @@ class TargetMeasures:
         return measure_maps(self.law, self.targets, self.measures, about, f"{count} failures" if count else "")
 
 
+@checked
 def target_measures(
     law: Law,
     targets: ArrayLike | str | int | Places | None = None,

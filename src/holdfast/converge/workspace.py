@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.measures import FINISH, NAMES, REACH, Arcs, Measures
 from holdfast.converge.starts import Places, read_places
@@ -132,7 +133,7 @@ class Workspace:
         """A few sentences for people."""
         reached = int((self.configurations > 0).sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {reached} of {len(self.places)} starts in reach, "
+            f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
             f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
         ]
         ends = dict(zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
@@ -151,6 +152,7 @@ class Workspace:
         return lines
 
 
+@checked
 def workspace(
     law: Law,
     target: ArrayLike,

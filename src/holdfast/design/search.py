@@ -15,6 +15,8 @@ from holdfast.arm.serial import to_dict
 from holdfast.arm.task import Task
 from holdfast.assess.distribution import Distribution
 from holdfast.assess.region import Region, default_region
+from holdfast.checked import checked
+from holdfast.design.choice import best_design
 from holdfast.design.evaluate import Evaluated, Evaluator
 from holdfast.design.family import Family
 from holdfast.design.gradient import sensitivity
@@ -36,10 +38,10 @@ _NEGLIGIBLE = 1e-7  # share of a pose in the smooth quantile below which its gra
 _ITERATIONS = 30  # of a climb
 _TRAIL = 12  # designs of a climb that the next ones may begin from
 _CLIMB_FRESH = 2  # random starts of each pose in every step of a climb
-_SAME = 1e-6  # of the index: no gain that anybody would build an arm for
 _CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
 
 
+@checked
 def design(
     arm: Arm,
     vary: Vary,
@@ -153,10 +155,8 @@ def design(
     # The given arm takes the place it had, looked at as closely as the ends of the climbs.
     merged = {name: np.concatenate([deep[name][:1], table[name][1:], deep[name][1:]]) for name in table}
     every = np.concatenate([values, ended[1:]])
-    best = int(np.lexsort((merged["smooth"], merged["guaranteed"]))[-1])
-    if merged["guaranteed"][best] <= merged["guaranteed"][0] + _SAME:
-        best = 0  # what is there already
-    checks = part("check", lambda: search.fresh(every[[0, best]], fresh))
+    best = best_design(merged["guaranteed"], merged["reach"])
+    checks = part(f"check {best}", lambda: search.fresh(every[[0, best]], fresh))
     given, chosen = (
         _checked(checks["value"][i], checks["reached"][i], checks["weights"], level, region.heaviest) for i in (0, 1)
     )

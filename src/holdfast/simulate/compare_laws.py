@@ -14,12 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
+from holdfast.arm.scale import length_unit
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
 from holdfast.simulate.closed_loop import RADIUS, TOLERANCE, simulate
 from holdfast.simulate.compiled import ARRIVES
-from holdfast.simulate.healthy_cost import HealthyCost, healthy_cost, prescribed_way
+from holdfast.simulate.healthy_cost import HealthyCost, healthy_cost
+from holdfast.simulate.motion import prescribed_way
 from holdfast.simulate.runs import Outcome, Reason, Runs
 
 Array = NDArray[np.float64]
@@ -126,7 +129,7 @@ class LawComparison:
     def arrives(self) -> float:
         """Error at which a target counts as reached, m and rad."""
         first = self.runs[0]
-        return first._setting.accuracy if first.cycles else ARRIVES
+        return first._setting.accuracy if first.cycles else _at_rest(first.law)
 
     def _law(self, name: str) -> int:
         if name not in self.names:
@@ -336,7 +339,7 @@ class LawComparison:
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        lines = [f"{len(self)} motions of '{self.arm.name}', task {self.laws[0].task.describe()}"]
+        lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
         for name in self.names:
             healthy = self.case(name).share()
             assert healthy is not None
@@ -348,6 +351,7 @@ class LawComparison:
         return lines
 
 
+@checked
 def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,
@@ -416,7 +420,7 @@ def compare_laws(
                 radius=radius,
             )
         )
-    least = _least(runs, radius if cycles else ARRIVES, restarts, seed).reshape(many, count)
+    least = _least(runs, radius if cycles else _at_rest(every[0]), restarts, seed).reshape(many, count)
     poses = _poses(every[0], goal)
     names = (HEALTHY, *[arm.joint_names[k] for k in joints])
     way = prescribed_way(every[0], arm.forward_kinematics(start), poses)
@@ -453,6 +457,11 @@ def _poses(law: Law, goal: Array) -> Array:
     poses = np.tile(np.eye(4), (len(goal), 1, 1))
     poses[:, :3, 3] = goal @ law.task.rows[:, :3]
     return poses
+
+
+def _at_rest(law: Law) -> float:
+    """Norm of the error, m and rad, below which a target counts as reached at rest."""
+    return ARRIVES if law.task.angular else ARRIVES * length_unit(law.arm)
 
 
 def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Array:

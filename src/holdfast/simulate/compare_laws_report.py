@@ -21,6 +21,7 @@ from holdfast.report.words import counted, fixed, number, percent
 from holdfast.simulate.compare_laws import ANY, HEALTHY, LawComparison
 from holdfast.simulate.runs import Outcome
 from holdfast.versions import versions
+from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
 
@@ -309,7 +310,7 @@ def _healthy(c: LawComparison) -> list[Block]:
 
 
 def _method(c: LawComparison, command: str, about: str) -> list[Block]:
-    found = versions("holdfast", "numpy", "scipy", "casadi", "heyoka")
+    found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
     first = c.runs[0]
     facts: list[tuple[Cell, Cell]] = [("Motions", about or "as they were given")]
     facts += [(name, law.describe()) for name, law in zip(c.names, c.laws, strict=True)]
@@ -321,7 +322,7 @@ def _method(c: LawComparison, command: str, about: str) -> list[Block]:
         ),
         ("Arrived", f"error at most {c.arrives:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
         ("Undecided", "; ".join(f"{n}: {_reasons(c, n)}" for n in c.names)),
-        ("Arm", c.arm.source or "no source given"),
+        ("Arm", c.arm.provenance),
         ("Fingerprint of the arm", c.arm.fingerprint),
         ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
     ]
@@ -403,7 +404,7 @@ def save(c: LawComparison, folder: Path) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name, rows in tables.items():
             file = folder / f"{name}.csv"
-            with file.open("w", encoding="utf-8", newline="") as stream:
+            with writing(file) as stream:
                 writer = csv.DictWriter(stream, list(rows[0]))
                 writer.writeheader()
                 writer.writerows(rows)
