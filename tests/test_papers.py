@@ -219,7 +219,7 @@ def test_the_angle_is_bounded_by_the_error_whatever_the_vectors(rng):
 def test_the_better_tool_is_as_good_as_another_program_says(rng):
     """What papers/design finds for the PA10's tool: 0.29 (0.2591 to 0.3081) for 95 % of the poses.
 
-    Transforms, Jacobian and optimiser of our own here; 120 poses of it gave 0.2597 with 2.5 % not reached (measured).
+    Transforms, Jacobian and optimiser of our own here; 120 poses of it gave 0.262 with 3 % not reached (measured).
     """
     alpha = np.radians([-90.0, 90, -90, 90, -90, 90, -61.5305, 91.8417, -45])
     a = np.array([0, 0, 0, 0, 0, 0, -0.2, -0.00264183, 0.121807])
