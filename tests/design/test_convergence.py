@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+import oracles
 from holdfast.arm.configurations import without_limits
+from holdfast.converge.starts import read_places
 from holdfast.design import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
 from holdfast.design.arrival import Failures
 from holdfast.report.words import percent
@@ -201,6 +203,29 @@ def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
     assert f"The best design has guaranteed {percent(float(found.measures['guaranteed'][found.best]))}" in unescape(text)
     assert "--maximise convergence --law pseudoinverse" in text
     assert "--keep-reach" in text
+
+
+def test_arrivals_of_designs_by_runs_of_scipy():
+    """Every failure of two designs from an integrator and a law of its own, and what the measures make of them."""
+    law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
+    joints = DesignJoints.of(design_space(law.arm, LENGTHS))
+    goals = np.array([[1.4, 0.6], [-0.5, 1.1], [9.0, 0.0]])
+    failures = Failures(LawOfDesigns(law, joints), read_places(law.arm, law.task, goals, np.random.default_rng(0)).poses, 2, 7)
+    designs = np.array([[1.0, 1.0, 1.0], [0.5, 1.2, 1.6]])
+    found = failures.of(designs)
+    at, known = failures._configurations(designs)
+    assert known[:, :2].all()
+    assert not known[:, 2].any()
+    arrived = np.zeros((2, 2, 2, 3))
+    for d, t, c, j in np.ndindex(2, 2, 2, 3):
+        np.testing.assert_allclose(oracles.planar_hand(designs[d], at[d, t, c]), goals[t], atol=1e-9)
+        q0 = failures._starts[t, c, j].copy()
+        q0[j] = at[d, t, c, j]
+        run = oracles.planar_run(designs[d], 0.1, q0, goals[t], j, 500.0, 1e-3)
+        arrived[d, t, c, j] = run.t_events[0].size
+    np.testing.assert_array_equal(found.arrived[:, :2], arrived)
+    np.testing.assert_allclose(found.arrival, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
+    np.testing.assert_allclose(found.reached, 2 / 3)
 
 
 @pytest.mark.parametrize(
