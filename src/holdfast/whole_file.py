@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 from pathlib import Path
@@ -18,6 +19,8 @@ def replaced(path: Path, text: str, errors: str = "strict") -> None:
     Raises:
         OSError: The disk refuses; what was there is as it was.
     """
+    if not path.name:
+        raise OSError(errno.EISDIR, "this is no name of a file")
     temporary = path.with_name(f".holdfast-{os.getpid()}-{secrets.token_hex(4)}.tmp")
     try:
         # Not tempfile: its files are private, and results are for sharing.

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm, Link, snapped
 from holdfast.arm.tip import listed
 from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
+from holdfast.checked import checked
 from holdfast.errors import ArmError, HoldfastError
 
 Array = NDArray[np.float64]
@@ -38,6 +39,7 @@ def import_mujoco() -> ModuleType:
     return mujoco  # type: ignore[no-any-return, unused-ignore]
 
 
+@checked
 def load(
     path: str | Path,
     base: str | None = None,

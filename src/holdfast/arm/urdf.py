@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
+from holdfast.checked import checked
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -26,6 +27,7 @@ XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself
 XACRO_TERM = re.compile(r"\$[{(]")
 
 
+@checked
 def load(
     path: str | Path,
     base: str | None = None,
