@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
+from holdfast import reading
 from holdfast.arm.builtin import Builtin, about, load, names
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
@@ -53,7 +54,7 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Ma
         return urdf.load(spec, base, tip, hold)
     if ending == ".xacro":
         raise ArmError(f"'{spec}' is a xacro file; {urdf.expand_first(Path(spec))}")
-    if Path(spec).exists():
+    if reading.exists(spec):
         raise ArmError(
             f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); "
             "rename or convert it"
@@ -82,10 +83,11 @@ def command_words(arm: Arm) -> tuple[str, list[str], str]:
 
 def _outermost(path: str) -> str:
     """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file then explains."""
+    import io
     from xml.etree import ElementTree
 
     try:
-        for _, element in ElementTree.iterparse(path, events=("start",)):
+        for _, element in ElementTree.iterparse(io.BytesIO(reading.raw(path)), events=("start",)):
             return str(element.tag)
     except (OSError, ElementTree.ParseError, LookupError, ValueError):
         pass

@@ -6,6 +6,7 @@ What MuJoCo adds to the format (defaults, includes, inertia from shapes, degrees
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm import mjcf_limits
 from holdfast.arm.model import Arm, Link, snapped
 from holdfast.arm.tip import listed
 from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
@@ -37,6 +39,18 @@ def import_mujoco() -> ModuleType:
             "MuJoCo is needed here and is not installed; install holdfast[physics] (pip install 'holdfast[physics]')"
         ) from error
     return mujoco  # type: ignore[no-any-return, unused-ignore]
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Keep MuJoCo from writing its warnings to stdout and to MUJOCO_LOG.TXT in the working folder."""
+    mujoco = import_mujoco()
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda _: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 @checked
@@ -86,15 +100,15 @@ def load(
 
 
 def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
-    if not path.is_file():
-        raise ArmError("the file cannot be read; give the path of an MJCF file")
+    text = mjcf_limits.check(path)
     try:
-        if path.suffix.lower() == ".xml":
-            spec = mujoco.MjSpec.from_file(str(path))
-        else:  # MuJoCo goes by the ending
-            spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
-            spec.modelfiledir = str(path.parent)
-        model = spec.compile()
+        with quiet():
+            if path.suffix.lower() == ".xml":
+                spec = mujoco.MjSpec.from_file(str(path))
+            else:  # MuJoCo goes by the ending
+                spec = mujoco.MjSpec.from_string(text)
+                spec.modelfiledir = str(path.parent)
+            model = spec.compile()
     except ValueError as error:
         reason = " ".join(str(error).split())
         raise ArmError(f"MuJoCo cannot read this ({reason}); give a sound MJCF file, with the files that it names") from error

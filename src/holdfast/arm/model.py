@@ -15,14 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.checked import checked, checked_class, real_numbers
 from holdfast.errors import ArmError, InputError
+from holdfast.kernels import Kernel, recalled
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH
-    from holdfast.kernels import SX, Kernel
+    from holdfast.kernels import SX
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
+_MOST = 1e12  # of any number, so that their products stay finite
 
 
 @checked_class
@@ -117,6 +119,8 @@ class Link:
             raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
         if self.mass < 0:
             raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
+        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MOST:
+            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MOST:g}; give kg, m and kg m^2")
         if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
             raise ArmError(f"{label}: the inertia matrix is not symmetric")
         object.__setattr__(self, "mass", float(self.mass))
@@ -398,42 +402,47 @@ class Arm:
 
     def _compiled(self, name: str, expression: Callable[[Arm, SX], SX]) -> Kernel:
         from holdfast.arm import kinematics
-        from holdfast.kernels import Kernel
 
         q = kinematics.joint_symbols(self)
         return Kernel(name, [q], [expression(self, q)])
 
     @cached_property
+    @recalled
     def _pose_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("pose", kinematics.tool_pose)
 
     @cached_property
+    @recalled
     def _jacobian_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("jacobian", kinematics.jacobian)
 
     @cached_property
+    @recalled
     def _jacobian_derivative_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("jacobian derivative", kinematics.jacobian_derivative)
 
     @cached_property
+    @recalled
     def _gravity_torque_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
         return self._compiled("gravity torque", lambda arm, q: statics.gravity_torques(arm, statics.composite(arm, q)))
 
     @cached_property
+    @recalled
     def _inertia_diagonal_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
         return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
 
     @cached_property
+    @recalled
     def _dynamics_kernel(self) -> Kernel:
         from holdfast.arm import dynamics
 
@@ -536,6 +545,8 @@ def transform(value: ArrayLike, what: str) -> Array:
     t = _numbers(value, what)
     if t.shape != (4, 4) or not np.isfinite(t).all():
         raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
+    if np.abs(t).max() > _MOST:
+        raise ArmError(f"{what} is beyond {_MOST:g} m; give lengths in metres")
     rotation = t[:3, :3]
     if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
         raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")

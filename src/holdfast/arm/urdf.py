@@ -16,12 +16,14 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
 from holdfast.checked import checked
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
+_LARGEST = 64 << 20  # bytes
 TYPES = (*MOVING, "fixed", "floating", "planar")
 XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself, so that a leftover does no harm
 XACRO_TERM = re.compile(r"\$[{(]")
@@ -104,7 +106,7 @@ def expand_first(path: Path) -> str:
 def _element(path: Path, kind: str) -> ElementTree.Element:
     """The ``<robot>`` of a file; prefixes of tags are left as they stand, declared or not, as the readers of ROS do."""
     try:
-        content = path.read_bytes()
+        content = reading.raw(path, _LARGEST)
     except OSError as error:
         raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a {kind} file") from error
     builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()

@@ -139,12 +139,12 @@ class Assessment:
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
-        """That probability with its Wilson score interval."""
+        """That probability with its exact (Clopper-Pearson) interval."""
         return self.of(optimised).interval(at_least, at_most, reachable_only, confidence)
 
     @checked
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
-        """Share of all poses of the region that can still be reached once a joint has locked, with its Wilson interval.
+        """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
 
         The joint stands at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
@@ -208,7 +208,8 @@ class Assessment:
     def gap(self, optimised: bool = False) -> float | None:
         """What the median over the reached poses lacks to the bound that no configuration can exceed, or None if unknown.
 
-        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``, for other failures see the index.
+        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
+        the bound for several failures at a time, ``index.bound_note`` says.
         """
         d = self.of(optimised)
         if self.index.bound is None or not d.reached:
@@ -421,10 +422,7 @@ def load(path: str | Path) -> Assessment:
     store = Store.open(path)
     if store.plan.get("kind") != "assess":
         raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
-    try:
-        plan = Plan.from_dict(store.plan, store.rows)
-    except (KeyError, TypeError) as error:
-        raise StoreError(f"'{path}' is damaged: its plan lacks {error}; start the run again in a new folder") from error
+    plan = Plan.stored(store, store.rows)
     tally = Tally(plan)
     for rows in stored(store, plan):
         tally.add(rows)

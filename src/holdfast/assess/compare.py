@@ -154,7 +154,7 @@ class Comparison:
         bounds = sorted({a.index.bound for a in runs if a.index.bound is not None})
         if len(bounds) > 1:
             values = ", ".join(f"{x:.3f}" for x in bounds)
-            found.append(f"The largest possible values differ ({values}): one threshold asks more of some than of others.")
+            found.append(f"The upper bounds of the index differ ({values}): one threshold asks more of some than of others.")
         if len({(a.seed, a.sampling) for a in runs}) > 1:
             found.append("Seeds or sampling differ, so the candidates were tried at different poses of the region.")
         if len({a.restarts for a in runs}) > 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -15,12 +16,12 @@ from holdfast.arm.serial import from_dict, to_dict
 from holdfast.arm.task import Task
 from holdfast.assess.region import Region, Sampling
 from holdfast.clearance import Capsules, Clearance
-from holdfast.errors import InputError
+from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.indices import BY_NAME, Evaluation, Index, WorstCase, by_name
 from holdfast.solve import solver
 from holdfast.solve.optimise import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
-from holdfast.study import Column
+from holdfast.study import Column, Store
 
 Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
@@ -168,6 +169,21 @@ class Plan:
             None if apart is None else Clearance(arm, Capsules.from_dict(apart["capsules"], arm)),
             0.0 if apart is None else apart["margin"],
         )
+
+    @classmethod
+    def stored(cls, store: Store, poses: int) -> Plan:
+        """The plan of a results folder of ``poses`` poses.
+
+        Raises:
+            StoreError: It is not the plan of an assessment.
+        """
+        try:
+            return cls.from_dict(store.plan, poses)
+        except HoldfastError as error:
+            raise StoreError(f"'{store.path}' is damaged: {error}; start the run again in a new folder") from error
+        except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+            reason = f"lacks {error}" if isinstance(error, KeyError) else f"cannot be read ({reprlib.repr(str(error))})"
+            raise StoreError(f"'{store.path}' is damaged: its plan {reason}; start the run again in a new folder") from error
 
     def columns(self) -> list[Column]:
         """What each row holds."""

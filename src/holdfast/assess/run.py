@@ -126,7 +126,7 @@ class Count:
     """Distribution of one index column and how often each failure is the worst."""
 
     def __init__(self, plan: Plan, index: str, worst: str) -> None:
-        self._collector = Collector(plan.index.better, plan.index.bound)
+        self._collector = Collector(plan.index.better, plan.index.bound, heaviest=plan.region.heaviest)
         self._index, self._worst = index, worst
         self.worst: NDArray[Any] = np.zeros(len(plan.index.failures), dtype=np.float64 if plan.weighted else np.int64)
 
@@ -212,7 +212,7 @@ def provenance(seconds: float | None) -> dict[str, Any]:
     return {
         "seconds": seconds,
         "finished": datetime.now(UTC).isoformat(timespec="seconds"),
-        "versions": versions("holdfast", "numpy", "scipy", "casadi", "heyoka", "xarray", "zarr"),
+        "versions": versions("holdfast", "numpy", "scipy", "casadi", "llvmlite", "xarray", "zarr"),
         "python": platform.python_version(),
         "machine": platform.machine(),
         "threads": thread_count(),

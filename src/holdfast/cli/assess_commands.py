@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from holdfast import reading
 from holdfast.cli.assess_output import comparison_summary, print_assessment, print_comparison, summary
 from holdfast.cli.candidates import TOOL_HELP, read_candidates
 from holdfast.cli.clearance_options import (
@@ -158,7 +159,7 @@ def assess(
         if several:  # what cannot run is said before the first candidate takes its time
             make_plan(c.arm, chosen, measure, **options)
         asked.append((measure, options))
-    if several and out is not None and (out / "run.json").exists():
+    if several and out is not None and reading.exists(out / "run.json"):
         raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
     if several and region is None:
         typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)

@@ -45,6 +45,7 @@ from holdfast.cli.options import (
 )
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.status import Status
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -396,7 +397,7 @@ def _write(result: _Result, path: Path) -> None:
     names = [f"{joint.name}_{joint.unit}" for joint in result.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
     try:
-        with path.open("w", encoding="utf-8", newline="") as file:
+        with writing(path) as file:
             table = csv.writer(file)
             table.writerow(columns + names)
             for k in range(len(result.targets)):

@@ -77,6 +77,7 @@ def _evaluate(measure: Index, q: NDArray[np.float64]) -> dict[str, Any]:
         "unit": measure.unit,
         "better": measure.better,
         "bound": measure.bound,
+        "bound_note": measure.bound_note,
         "source": measure.source,
         "q": dict(zip(measure.arm.joint_names, q.tolist(), strict=True)),
         "value": result.value,
@@ -101,7 +102,8 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
                 soft_wrap=True,
             )
         else:
-            bound = f"; at most {number(measure.bound)} for any configuration" if measure.bound is not None else ""
+            note = f" ({measure.bound_note})" if measure.bound_note else ""
+            bound = f"; at most {number(measure.bound)} for any configuration{note}" if measure.bound is not None else ""
             out.print(
                 f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}", soft_wrap=True
             )

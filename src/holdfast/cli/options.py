@@ -14,6 +14,7 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.errors import InputError
 from holdfast.written import check_unit_of_joints as check_unit_of_joints
 from holdfast.written import check_unit_of_places as check_unit_of_places
@@ -184,7 +185,7 @@ def read_weights(option: str, text: str) -> Any:
     if file.suffix.lower() != ".csv":
         return read_numbers(option, text, "effort, worst-case, a .csv file, or one number per joint")
     try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
+        lines = reading.text(file).splitlines()
     except OSError as error:
         raise InputError(f"{option}: cannot read {file}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:

@@ -40,6 +40,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -272,7 +273,7 @@ def _folder(result: Recovery, out: Path) -> list[Path]:
     try:
         out.mkdir(parents=True, exist_ok=True)
         file = out / "recovery.json"
-        file.write_text(json.dumps(plain(_data(result)), indent=2) + "\n", encoding="utf-8")
+        replaced(file, json.dumps(plain(_data(result)), indent=2) + "\n")
     except OSError as error:
         raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
     files = [file, save_png(result.figure(), out / "motion.png", 150)]

@@ -31,6 +31,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm, Joint
@@ -181,7 +182,7 @@ def _write(arm: Arm, motion: SelfMotion, degrees: bool, file: Path) -> None:
     rows = np.column_stack([curve, np.where(turning, np.rad2deg(motion.q), motion.q)])
     header = ",".join(["curve", *(f"{j.name}_{u}" for j, u in zip(arm.joints, units, strict=True))])
     try:
-        with file.open("w", encoding="utf-8") as stream:
+        with writing(file) as stream:
             np.savetxt(stream, rows, fmt=["%d", *["%.12g"] * arm.n], delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write points '{file}': {error.strerror or error}; choose another path") from error

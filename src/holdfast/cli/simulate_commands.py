@@ -38,6 +38,7 @@ from holdfast.cli.options import (
 )
 from holdfast.cli.physics_output import physics_data, print_physics, run_physics
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -154,6 +155,7 @@ def _data(runs: Runs) -> dict[str, Any]:
         "q_low": by_name(runs.q_low),
         "q_high": by_name(runs.q_high),
         "limits_passed": [name for name, passed in by_name(runs.limits_passed).items() if passed],
+        "limits": {j.name: [x if np.isfinite(x) else None for x in (j.lower, j.upper)] for j in runs.law.arm.joints},
     }
 
 
@@ -162,7 +164,7 @@ def _print(runs: Runs, files: list[Path]) -> None:
     from rich.table import Table
 
     from holdfast.simulate import Reason
-    from holdfast.simulate.run_report import ENDS
+    from holdfast.simulate.runs import ENDS
 
     out, arm = console(), runs.law.arm
     unit = "cycles" if runs.cycles else "s"
@@ -171,6 +173,8 @@ def _print(runs: Runs, files: list[Path]) -> None:
     out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(standing)}", soft_wrap=True)
     reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
     out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
+    if limits := escape(runs.limits_sentence()):
+        out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"
     facts = Table.grid(padding=(0, 2))
     facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
@@ -226,7 +230,7 @@ def _write(runs: Runs, path: MotionPath, file: Path) -> None:
     header = ",".join(["time_cycles" if runs.cycles else "time_s", *joints, "tool_x_m", "tool_y_m", "tool_z_m", "error"])
     rows = np.column_stack([path.time, path.q, path.x, path.error])
     try:
-        with file.open("w", encoding="utf-8") as stream:
+        with writing(file) as stream:
             np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error

@@ -23,6 +23,7 @@ from holdfast.cli.options import (
     read_joint,
 )
 from holdfast.errors import StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.simulate import FreeSwing
@@ -169,7 +170,7 @@ def _write(result: FreeSwing, path: Path) -> None:
     header = f"time_s,moved_{unit},speed_{unit}_s,tool_x_m,tool_y_m,tool_z_m"
     rows = np.column_stack([result.time, result.angle, result.velocity, result.tool_position])
     try:
-        with path.open("w", encoding="utf-8") as file:
+        with writing(path) as file:
             np.savetxt(file, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write motion '{path}': {error.strerror or error}; choose another path") from error

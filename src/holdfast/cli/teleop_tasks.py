@@ -11,6 +11,7 @@ import typer
 
 from holdfast.cli.options import JsonOption, console, number, print_json, read_arm, read_task
 from holdfast.errors import StoreError
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -116,7 +117,7 @@ def _folder(
     file = out / "bank.csv"
     try:
         out.mkdir(parents=True, exist_ok=True)
-        bank_table(bank, arm, cells).to_csv(file, index=False)
+        replaced(file, bank_table(bank, arm, cells).to_csv(index=False))
     except OSError as error:
         raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
     protocol = _protocol(spec, arm, rows, bank, every, seed)

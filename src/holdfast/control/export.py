@@ -14,6 +14,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.errors import InputError, StoreError
 from holdfast.versions import versions
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
@@ -263,7 +264,7 @@ def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Pa
     try:
         target.mkdir(parents=True, exist_ok=True)
         for file, text in texts.items():
-            (target / file).write_text(text, encoding="utf-8")
+            replaced(target / file, text)
     except OSError as error:
         raise StoreError(
             f"cannot write '{name}.c' into '{target}': {error.strerror or error}; choose another folder"

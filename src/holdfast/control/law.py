@@ -27,7 +27,7 @@ from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
 from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]
 
@@ -83,7 +83,7 @@ class Law(ABC):
 
     def scaled(self, v: SX) -> SX:
         """A task velocity (m,) in m/s and rad/s, its linear rows divided by the task's characteristic length."""
-        return ca.SX(ca.DM(_scale(self.task))) @ v
+        return ca.SX(ca.DM(self.task.scale(self.task.length))) @ v
 
     def command(self, error: SX) -> SX:
         """Task velocity (m,) for an error of the task's rows (m,), m and rad: eq. (6), within the speed limit.
@@ -108,11 +108,13 @@ class Law(ABC):
     # ---- numbers -----------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _velocity_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         return Kernel(self.name, [q, v], list(self.outputs(q, v).values()))
 
     @cached_property
+    @recalled
     def _deviation_kernel(self) -> Kernel:
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
         return Kernel(
@@ -260,11 +262,6 @@ class Law(ABC):
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
-
-
-def _scale(task: Task) -> Array:
-    """(m, m): what dividing the linear rows of a twist by the characteristic length does to the task's rows."""
-    return np.asarray(task.rows @ np.diag([1 / task.length] * 3 + [1.0] * 3) @ task.rows.T)
 
 
 def _linear(task: Task) -> Array:

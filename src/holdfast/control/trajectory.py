@@ -15,6 +15,7 @@ from holdfast.control.slow_motion import SlowMotion, slow_enough
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility import Susceptibility
+from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
 
@@ -182,7 +183,7 @@ class Trajectory:
 
                 parquet.write_table(pyarrow.table(table), target)
             else:
-                with target.open("w", newline="", encoding="utf-8") as file:
+                with writing(target) as file:
                     writer = csv.writer(file)
                     writer.writerow(table)
                     writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))

@@ -299,7 +299,7 @@ class _Facts:
     def method(self, command: str) -> list[Block]:
         """How it was computed, and the command that does it again."""
         t = self.t
-        found = versions("holdfast", "numpy", "scipy", "casadi", "heyoka")
+        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
         rows = [
             ("Law", t.method),
             ("Objective", f"{t.objective.name}, {t.objective.better} is better"),

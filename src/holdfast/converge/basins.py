@@ -62,7 +62,7 @@ class Basins:
 
     @property
     def shares(self) -> list[tuple[str, Interval]]:
-        """What was arrived at, solutions and sinks always, and the share of starts with its Wilson interval."""
+        """What was arrived at, solutions and sinks always, and the share of starts with its exact interval."""
         always = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
         codes = sorted({*self.end.tolist(), *np.flatnonzero(always).tolist()}, key=lambda k: (k < 0, abs(k)))
         return [(self.name(k), Interval.of(int((self.end == k).sum()), len(self.end), self.confidence)) for k in codes]

@@ -49,22 +49,24 @@ class LawChoice:
         """
         check_confidence(confidence)
         one = self.map_of(name)
-        return shared(self._by_place(name, joint), int(one.known.sum()), confidence)
+        each = int(one.known.sum(axis=1).max(initial=0)) * (one.law.arm.n if joint is None else 1)
+        return shared(self._by_place(name, joint), each, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, confidence: float = 0.95) -> Difference:
         """How much more often the hand arrives under a law than under another, on the same failures.
 
-        The interval is Student's over the differences of the places, which are independent; the motions of one are not.
+        The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
+        (:meth:`holdfast.interval.Difference.of_fractions`).
 
         Raises:
-            InputError: No such law or joint, or fewer than two places.
+            InputError: No such law or joint, or no place with a motion.
         """
         check_confidence(confidence)
         apart = self._by_place(name, joint) - self._by_place(other, joint)
         apart = apart[~np.isnan(apart)]
-        if apart.size < 2:
-            raise InputError(f"{apart.size} places have motions; an interval needs 2 or more")
-        return Difference.of_means(apart, confidence)
+        if not apart.size:
+            raise InputError("no place has a motion; choose places within reach")
+        return Difference.of_fractions(apart, confidence)
 
     @property
     def ranking(self) -> list[str]:
@@ -86,7 +88,7 @@ class LawChoice:
         for name in self.ranking:
             s = self.share(name)
             line = f"{name}: arrives after {100 * s.value:.1f} % of the failures ({100 * s.low:.1f} to {100 * s.high:.1f} %)"
-            if name != best and int(first.known.any(axis=1).sum()) > 1:
+            if name != best:
                 d = self.difference(name, best)
                 line += f", {100 * d.value:+.1f} points against the best ({100 * d.low:+.1f} to {100 * d.high:+.1f})"
             lines.append(line)

@@ -72,13 +72,14 @@ def reachable_when_locked(
     if len(counts) > 1:
         raise InputError(f"there are {len(poses)} targets and {angles.size} values; give the same number, or one for all")
     size = counts.pop() if counts else 1
-    found = solver(arm, rows).solve_locked(
+    engine = solver(arm, rows)
+    found = engine.solve_locked(
         np.broadcast_to(poses, (size, 4, 4)),
         np.full(size, k),
         np.ascontiguousarray(np.broadcast_to(angles, (size,))),
         np.random.SeedSequence(seed),
         restarts,
-        tolerance,
+        engine.within(tolerance),
     )
     if single_target and angles.ndim == 0:
         return Reach(*(getattr(found, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))

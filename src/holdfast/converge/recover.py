@@ -192,9 +192,8 @@ def _locks(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
         k = arm.joint_index(joint)
         if k in found:
             raise InputError(f"joint '{arm.joint_names[k]}' is locked twice; give each joint once")
-        number = (
-            float(at[k]) if value is None else float(real_numbers(value, f"the lock of '{arm.joint_names[k]}'", "a number"))
-        )
+        what = f"the lock of '{arm.joint_names[k]}'"
+        number = float(at[k]) if value is None else float(real_numbers(value, what, "a number"))
         if not np.isfinite(number):
             raise InputError(f"joint '{arm.joint_names[k]}' is locked at {number}; give a finite angle in rad, or m")
         found[k] = number

@@ -202,9 +202,9 @@ def _gathered(
 def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoints:
     """Points of rest q (P, n) with what there is to know of them, by kind and error."""
     arm, healthy = system.law.arm, system.healthy
-    rates, error = system.linear.rates(q, system.pose)
+    rates, error, scaled = system.linear.rates(q, system.pose)
     eigenvalues = system.eigenvalues(q)
-    kind = kinds(eigenvalues, error)
+    kind = kinds(eigenvalues, scaled)
     points = RestPoints(
         law=system.law,
         target=system.pose,
@@ -219,7 +219,7 @@ def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoi
         within_limits=np.asarray(((q >= arm.lower) & (q <= arm.upper)).all(axis=1)),
         starts=starts,
     )
-    return points._subset(np.lexsort((np.round(error, 9), ~points.attracting, kind)))
+    return points._subset(np.lexsort((np.round(scaled, 9), ~points.attracting, kind)))
 
 
 def _shown(arm: Arm, k: int, value: float) -> str:

@@ -63,8 +63,7 @@ class TargetMeasures:
         The unit is the target. NaN where no target has a value.
         """
         check_confidence(confidence)
-        runs = int(self.configurations.sum())
-        return {name: mean_intervals(v, runs, confidence) for name, v in self.measures.items()}
+        return {name: mean_intervals(v, confidence) for name, v in self.measures.items()}
 
     def target_intervals(self, confidence: float = 0.95) -> dict[str, Array]:
         """How sure the ``measures`` of each target are for starts that are a random sample: (T, n + 1, 2) each, percent.
@@ -72,11 +71,7 @@ class TargetMeasures:
         The unit is the start, as in :meth:`holdfast.Workspace.intervals`.
         """
         check_confidence(confidence)
-        runs = self.configurations.sum(axis=1).tolist()
-        return {
-            name: np.array([mean_intervals(v, count, confidence) for v, count in zip(values, runs, strict=True)])
-            for name, values in self.values.items()
-        }
+        return {name: np.array([mean_intervals(v, confidence) for v in values]) for name, values in self.values.items()}
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -311,10 +311,8 @@ def _sampled(
 
 def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:
     """Of two designs: mean shares over the targets with their intervals, and of the difference."""
-    from holdfast.converge.convergence_map import shared
-
     shares = np.nan_to_num(arrivals.by_target)
     if shares.shape[1] < 2:
         return None
-    given, best = (shared(x, arrivals.arrived[0].size, 0.95) for x in shares)
-    return given, best, Difference.of_means(shares[1] - shares[0], 0.95)
+    given, best = (Interval.of_fractions(x) for x in shares)
+    return given, best, Difference.of_fractions(shares[1] - shares[0])

@@ -14,6 +14,7 @@ from holdfast import arms
 from holdfast.arm.table import text as table_text
 from holdfast.assess.rerun import failures_option, region_files, task_option
 from holdfast.assess.run import provenance
+from holdfast.design.choice import SAME, farther
 from holdfast.design.pictures import arms_figure, front_figure
 from holdfast.design.result import Checked, Designs
 from holdfast.design.space import Parameter
@@ -84,11 +85,19 @@ def headline(d: Designs) -> str:
             f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses are "
             "not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or level."
         )
+    more = farther(d.guaranteed, d.reach, d.best)
     if d.best_is_start:
-        return (
-            f"Nothing better than the given arm was found: for {share} of the poses of the region its {name} is at least "
-            f"{_interval(given.guaranteed)}, {_failures(d)}."
+        text = (
+            f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} is "
+            f"at least {_interval(given.guaranteed)}, {_failures(d)}."
         )
+        return f"{text} {more}".rstrip()
+    if d.guaranteed[d.best] <= (1 + SAME) * d.start_guaranteed:
+        return (
+            f"No design guarantees more than the given arm, but the best one guarantees as much, {_interval(best.guaranteed)} "
+            f"for {share} of the poses (the given arm {_interval(given.guaranteed)}), and reaches {d.reach[d.best]:.3f} m "
+            f"instead of {d.start_reach:.3f} m. {more}"
+        ).rstrip()
     if best.guaranteed.value <= given.guaranteed.value:
         return (
             f"No gain that lasts was found: on the {counted(d.poses, 'pose')} of the search the best design guarantees a "
@@ -98,8 +107,8 @@ def headline(d: Designs) -> str:
     reaches = f"The reach goes from {d.start_reach:.3f} m to {d.reach[d.best]:.3f} m."
     return (
         f"For {share} of the poses of the region the best design keeps {article(name)} {name} of at least "
-        f"{_interval(best.guaranteed)}, {_failures(d)}; the given arm {_interval(given.guaranteed)}. {reaches}"
-    )
+        f"{_interval(best.guaranteed)}, {_failures(d)}; the given arm {_interval(given.guaranteed)}. {reaches} {more}"
+    ).rstrip()
 
 
 # ---- what to build -------------------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from holdfast.checked import checked
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status
 
@@ -70,11 +70,13 @@ class Index(Objective):
         failures: Sets of joints, indices from 0, that fail together.
         source: Paper and equation.
         bound: The value no configuration can beat, or None if there is none.
+        bound_note: What is known of how near one can come to it, a phrase; empty where some Jacobian of this size attains it.
     """
 
     better: Better = "larger"
     source = ""
     bound: float | None = None
+    bound_note = ""
 
     @checked
     def __init__(
@@ -235,6 +237,7 @@ class Index(Objective):
     # ---- shared machinery --------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -15,6 +15,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.checked import checked_class
 from holdfast.errors import InputError, TaskError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX
 from holdfast.linalg import HouseholderQR, lowest
 from holdfast.status import Status
@@ -54,6 +55,11 @@ class Objective(ABC):
     arm: Arm
     better: Better
     unit: str = "1"
+
+    @cached_property
+    def ascents(self) -> dict[object, Any]:
+        """Compiled ascents of this objective, for :func:`holdfast.solve.optimise.objective_ascent`."""
+        return {}
 
     @abstractmethod
     def __call__(self, q: ArrayLike) -> Array:

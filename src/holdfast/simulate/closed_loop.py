@@ -49,18 +49,24 @@ def simulate(
     How a run ends (continuous time; speeds are norms of the healthy joints' rates as they would be without the speed limit,
     which changes no path; times count likewise):
 
-    * at rest, where the speed falls below 1e-8 Ke: *converged* if the error is below 1e-5, *stuck* if not;
+    * at rest, where the speed falls below 1e-8 Ke: *converged* if the error is below 1e-5, *stuck* if not (rad, and m for an
+      arm of about 1 m: lengths count in units of the arm's own, its links end to end rounded to a power of two, so that an arm
+      and its copy in another size end alike);
     * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
-      its greatest value in the last tenth is at least 0.99 of that in the tenth before;
+      its greatest value in the last tenth is at least 0.99 of that in the tenth before; or if after 100,000 steps, before the
+      limit, it circles faster than that, and comes back to where it was, modulo whole turns, so nearly that until the limit it
+      would drift by less than a hundredth of the motion's extent;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
-      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise, and the hand
-      is half a turn from its target: the shortest turn, and with it the command, is discontinuous there), *bad input*.
+      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with the hand
+      half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
+      as soon as it would not come to its end at the pace of its last 2,000 steps), *bad input*.
 
     None of this looks at the steps that were taken, so that it does not depend on their size.
 
     In cycles the command is held for a cycle and the arm follows the law in 10 explicit Euler sub-steps. A run has
-    *converged* when the error is at most ``radius`` as a cycle begins; it is *stuck* when the hand moved less than 1e-6 m
-    per cycle for 50 cycles one after the other; at the limit it is *moving* or *undecided* as above.
+    *converged* when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other
+    the hand moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1 m); at the
+    limit it is *moving* or *undecided* as above.
 
     Args:
         law: The control law, with its arm, task, gain ``Ke`` and speed limit (per second, or per cycle).

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.mjcf import import_mujoco
+from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm, Joint
 from holdfast.checked import checked
 from holdfast.errors import ArmError, InputError
@@ -100,6 +100,7 @@ class FreeSwing:
 
 
 @checked
+@quiet()
 def free_swing(
     arm: Arm,
     q: ArrayLike,

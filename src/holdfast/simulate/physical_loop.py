@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.mjcf import import_mujoco
+from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
 from holdfast.checked import checked
 from holdfast.control.law import Law
@@ -34,6 +34,7 @@ EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
 
 
 @checked
+@quiet()
 def simulate_physics(
     law: Law,
     q0: ArrayLike,

@@ -23,18 +23,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import yaml
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
+from holdfast import reading
 from holdfast.errors import HoldfastError, InputError
 from holdfast.study import Cell
+from holdfast.study.folder import MOST_CHUNKS, MOST_ROWS, too_many
 from holdfast.written import ArmSpec
-from holdfast.yaml_file import Number, Strict, content, sentence
+from holdfast.yaml_file import Number, Strict, content, parse, sentence
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
 
+_MOST_CELLS = 100_000
 _EXAMPLE = "'holdfast study new'"
 _Count = Annotated[int, Field(ge=1, strict=True)]
 _Names = Annotated[list[str], Field(min_length=1)]
@@ -177,7 +179,7 @@ def read(path: str | Path) -> StudyFile:
 
 def thresholds(text: str) -> dict[str, float]:
     """Values of the indices that a report asks for, from the text of a study file that was sound."""
-    block = (yaml.safe_load(text) or {}).get("assess") or {}
+    block = (parse(text) or {}).get("assess") or {}
     return {index: float(value) for index, value in (block.get("thresholds") or {}).items()}
 
 
@@ -189,13 +191,20 @@ def _parsed(file: Path) -> tuple[str, _File]:
         raise InputError(sentence(error, _File, _ARM_TAGS)) from error
     if not any((model.assess, model.convergence, model.workspace, model.bank)):
         raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
-    return file.read_text(encoding="utf-8"), model
+    return reading.text(file), model
 
 
 def _named(cells: Iterator[Cell]) -> Iterator[Cell]:
     """With names that are folders, and none twice."""
     used: set[str] = set()
     for cell in cells:
+        if too_many(cell.rows, cell.chunk):
+            raise InputError(
+                f"cell '{cell.name}' has {cell.rows} rows in chunks of {cell.chunk}; a cell may have at most "
+                f"{MOST_ROWS} rows and {MOST_CHUNKS} chunks, so give fewer rows or a larger chunk"
+            )
+        if len(used) == _MOST_CELLS:
+            raise InputError(f"it asks for more than {_MOST_CELLS} cells (every arm with every index, task, ...); split it")
         name = re.sub(r"[^A-Za-z0-9._=-]+", "-", cell.name).strip("-.")[:120] or "cell"
         unique = next(n for n in itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2))) if n not in used)
         used.add(unique)

@@ -9,8 +9,9 @@ from typing import Any
 
 import yaml
 
-from holdfast import arms
+from holdfast import arms, reading
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
 from holdfast.written import ArmSpec
 
 _TEXT = """\
@@ -101,7 +102,7 @@ def write(
         raise InputError("no arm is named; give --arm, a built-in name or a file")
     for spec in arm:
         spec.load()
-    if path.exists():
+    if reading.exists(path):
         raise InputError(f"'{path}' exists; give another name, or remove it first")
     motions = min(poses, 200)
     block = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
@@ -119,8 +120,7 @@ def write(
         convergence=block,
     )
     try:
-        with path.open("x", encoding="utf-8", newline="\n") as out:
-            out.write(text)
+        replaced(path, text)
     except OSError as error:
         raise StoreError(f"cannot write study file '{path}': {error.strerror or error}; choose another path") from error
     try:
