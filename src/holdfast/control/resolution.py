@@ -29,6 +29,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked_class
 from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
@@ -63,6 +64,7 @@ class Rates:
     status: NDArray[np.uint8]
 
 
+@checked_class
 class Resolution(Steps):
     """A law that turns a velocity of the hand into joint rates.
 

@@ -349,8 +349,8 @@ def optimise(
     for name, value in (("starts", starts), ("restarts", restarts)):
         if value is not None and value < 1:
             raise InputError(f"{name} is {value}; it must be 1 or more")
-    if not tolerance > 0:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
