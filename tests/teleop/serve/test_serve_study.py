@@ -8,6 +8,7 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
+from holdfast.teleop.printed_arm import law_of
 from holdfast.teleop.protocol import read
 from holdfast.teleop.serve import texts
 from holdfast.teleop.serve.study import study, views, workspace
@@ -18,8 +19,7 @@ def test_study_of_the_paper(built):
     told = study(whole, texts.read(None, built[1]), tlx=True)
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["stick"] == {"limit": 0.05, "dead_zone": 0.005}
-    assert told["law_of"] == [0, 1, 0, 1]
-    assert told["training_scenario"] == 0
+    assert told["training_law"] == law_of(whole)[0]
     assert told["training"] == {"at_least": 10, "in_a_row": 5, "limit": 55.0, "most": 100}
     assert told["views"] == [{"label": "x, y", "rows": [[1, 0, 0], [0, 1, 0]]}]
     assert (told["reach"], told["centre"]) == (pytest.approx(3.0), [0.0, 0.0, 0.0])
