@@ -136,6 +136,7 @@ class Study:
         if data.get("version") != _VERSION:
             raise StoreError(f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_VERSION}")
         wrong = next((k for k, kind in _KEYS.items() if not isinstance(data.get(k), kind)), None)
+        wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
         wrong = wrong or ("digest" if _digest(data) != data["digest"] else None)
         if wrong:
             raise StoreError(
@@ -369,6 +370,12 @@ def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[
         ],
     }
     return {**data, "digest": _digest(data)}
+
+
+def _is_cell(data: Any) -> bool:
+    """Whether a cell of a study's file has all that is asked of it."""
+    kinds = {"name": str, "labels": dict, "rows": int, "chunk": int, "digest": str}
+    return isinstance(data, dict) and all(isinstance(data.get(k), kind) for k, kind in kinds.items())
 
 
 def _digest(data: Mapping[str, Any]) -> str:
