@@ -110,6 +110,32 @@ def test_half_a_turn_from_the_target_the_shortest_turn_flips():
     assert "half a turn" in runs.describe()[1]
 
 
+@pytest.mark.parametrize("tolerance", [1e-9, 1e-13])
+def test_a_run_caught_at_half_a_turn_is_told_soon_and_is_not_called_singular(rng, monkeypatch, tolerance):
+    """With joint 2 standing off 0 and pi the Jacobian of the planar pose, of determinant sin q2, is regular everywhere."""
+    from holdfast.kernels import Loop
+
+    taken, run = [], Loop.run
+
+    def counted(self, *given):
+        result = run(self, *given)
+        taken.append(int(result.steps.max(initial=0)))
+        return result
+
+    monkeypatch.setattr(Loop, "run", counted)
+    arm = hf.arms.load("planar-3r")
+    q0 = rng.uniform([-np.pi, 0.5, -np.pi], [np.pi, 2.5, np.pi], (150, 3))
+    target = arm.forward_kinematics(rng.uniform(-np.pi, np.pi, (150, 3)))
+    law = hf.control.pseudoinverse(arm, ["vx", "vy", "wz"])
+    runs = simulate(law, q0, target, locked=[1], time_limit=50.0, tolerance=tolerance)
+    assert not np.isin(runs.reason, (Reason.SINGULAR, Reason.STEPS)).any()
+    caught = runs.reason == Reason.HALF_TURN
+    away = runs.q_final.sum(axis=1) - np.arctan2(target[:, 1, 0], target[:, 0, 0])
+    np.testing.assert_allclose(np.cos(away[caught]), -1, atol=1e-6)
+    assert caught.sum() > 10
+    assert sum(taken) < 20_000
+
+
 def test_excess_error_is_what_the_closed_form_leaves(two):
     starts = np.tile(RAD([0.0, -30.0]), (2, 1))
     targets = np.array([around(2, 120), around(1, 45)])
@@ -159,6 +185,50 @@ def test_a_limit_cycle_is_moving(three):
     assert np.diff(rises).mean() == pytest.approx(79.76, abs=0.01)
     assert path.error[late].min() == pytest.approx(0.809, abs=1e-3)
     assert path.error[late].max() == pytest.approx(0.997, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("start", "x", "rate"),
+    [
+        ((-0.3283141, 2.08742931, -0.0742208), (-0.14897975, 0.06973707), 13),
+        ((1.07891254, -0.21329997, 0.01236121), (0.69898401, 0.53231833), 37),
+    ],
+)
+def test_a_fast_limit_cycle_is_moving(three, start, x, rate):
+    """Joint 3 stands nearly straight: joint 1 turns for ever, too fast for 100,000 steps to last until the limit."""
+    runs = simulate(three, start, x, locked=[2])
+    assert (runs.outcome, runs.reason) == ("moving", Reason.NONE)
+    assert runs.time < 3000
+    span = 6 * 2 * np.pi / rate
+
+    def rates(t, q):
+        return planar_rates(q, np.array(x), np.array([1, 1, 0]))
+
+    found = solve_ivp(rates, (0, span), runs.q_final, "DOP853", rtol=1e-12, atol=1e-13, dense_output=True)
+    turns = np.abs(found.y[0, -1] - found.y[0, 0]) / (2 * np.pi)
+    assert turns == pytest.approx(6, rel=0.05)
+    # Once round it is where it was, and so again and again.
+    once = found.sol(np.linspace(0.5, 1.5, 40_001) * span / turns)
+    there = once[1, np.argmin(np.abs(np.abs(once[0] - runs.q_final[0]) - 2 * np.pi))]
+    assert there == pytest.approx(runs.q_final[1], abs=1e-4)
+    assert np.linalg.norm([rates(0, q) for q in found.y.T], axis=1).min() > 0.1
+    if rate < 20:
+        orbit = hf.converge.orbit(runs)
+        assert orbit.label == "turning"
+        assert orbit.stable
+
+
+def test_only_what_goes_on_is_said_to_circle(three, random_runs, monkeypatch):
+    """With few steps every long run is looked at; one that would end elsewhere must not be taken for a cycle."""
+    from holdfast.simulate import compiled
+
+    monkeypatch.setattr(compiled, "MOST_STEPS", 250)
+    q0, x, locked, runs = random_runs
+    few = simulate(three, q0, x, locked)
+    assert (few.reason == Reason.STEPS).any()
+    moving = few.outcome == "moving"
+    assert moving.any()
+    assert (runs.outcome[moving] == "moving").all()
 
 
 def test_a_creeping_arm_is_undecided_until_it_has_the_time(three):
@@ -297,6 +367,28 @@ def test_a_joint_that_locks_on_the_way(three, rng):
     many = simulate(three, np.tile(q0, (3, 1)), x, locked=[(1, lock), (0, 2.5)])
     np.testing.assert_array_equal(many.q_final[0], many.q_final[2])
     assert many.q_final[0, 1] == runs.q_final[1]
+
+
+@pytest.mark.parametrize("method", ["adaptive", "rk4"])
+def test_every_sample_of_a_path_with_locks_on_the_way_is_that_of_scipy(three, rng, method):
+    """Before the first lock, between the two and after them."""
+    q0, x, locks = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6]), rng.uniform(-1.5, 1.5, 2), [(1, 0.5), (0, 1.2)]
+    path = simulate(three, q0, x, locks, method=method, time_limit=4.0).path(0, 47)
+    expected, q, ends = np.empty((47, 3)), q0, [0.0, 0.5, 1.2, 4.0]
+    for k, mask in enumerate(([1, 1, 1], [1, 0, 1], [0, 0, 1])):
+        found = solve_ivp(
+            lambda t, q, mask=mask: planar_rates(q, x, np.array(mask)),
+            ends[k : k + 2],
+            q,
+            "DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            dense_output=True,
+        )
+        here = (path.time >= ends[k]) & (path.time <= ends[k + 1])
+        expected[here], q = found.sol(path.time[here]).T, found.y[:, -1]
+    np.testing.assert_allclose(path.q, expected, atol=1e-7 if method == "adaptive" else 1e-4)
+    np.testing.assert_array_equal(path.locked, path.time[:, None] >= [1.2, 0.5, np.inf])
 
 
 @pytest.mark.parametrize("cycles", [False, True])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from holdfast import reading
 from holdfast.cli import teleop_serve, teleop_tasks
 from holdfast.cli.options import console
 from holdfast.errors import HoldfastError, InputError, StoreError
@@ -49,7 +50,7 @@ def run(
     from holdfast.teleop.experiment import simulate_experiment
     from holdfast.teleop.protocol import read
 
-    if out.exists() and (not out.is_dir() or any(out.iterdir())):
+    if reading.exists(out) and (not out.is_dir() or any(out.iterdir())):
         raise StoreError(f"--out: '{out}' exists and is not an empty folder; give a new one")
     with (
         working(f"compiling the laws of {protocol}") as say,
@@ -237,7 +238,7 @@ def protocol_(
     from holdfast.teleop.protocol import read
 
     chosen = read(protocol)
-    if write is not None and write.exists():
+    if write is not None and reading.exists(write):
         raise StoreError(f"--write: '{write}' exists already; choose another name")
     _print_protocol(chosen)
     if write is not None:

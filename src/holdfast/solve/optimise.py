@@ -20,9 +20,10 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
-from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
+from holdfast.kernels import SX, Kernel, in_pool, pool, recalled, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
 from holdfast.solve import joint_space
 from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
@@ -139,19 +140,21 @@ class Ascent:
         self.objective, self.task, self.arm = objective, task, objective.arm
         self.clearance, self.margin = clearance, margin
         self.engine: InverseKinematics = solver(self.arm, task)
-        self._step = self._compiled(None)
 
-    def _compiled(self, clearance: Clearance | None) -> Kernel | None:
-        if self.arm.n <= self.task.m:
-            return None
+    @recalled
+    def _compiled(self, clearance: Clearance | None) -> Kernel:
         inputs, step = ascent_step(self.objective, self.task, clearance, self.margin)
         measured = self.objective.measured
         return Kernel(f"ascent of {self.objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
 
     @cached_property
+    def _step(self) -> Kernel | None:
+        return self._compiled(None) if self.arm.n > self.task.m else None
+
+    @cached_property
     def _clear_step(self) -> Kernel | None:
         """The step that also keeps the arm clear of itself: compiled once it is needed."""
-        return self._compiled(self.clearance)
+        return self._compiled(self.clearance) if self.arm.n > self.task.m else None
 
     def _climb(
         self, step: Kernel | None, q: Array, poses: Array, steps: int, radius: Array | None = None
@@ -234,7 +237,7 @@ class Ascent:
             first: What inverse kinematics found for them: the first start, and what the result never falls below.
             seed: Of the other starts.
             starts: In all, the first included.
-            tolerance: Largest pose error, m and rad.
+            tolerance: Largest pose error, rad, and lengths in units of the arm's own.
         """
         count = len(poses)
         engine, sign = self.engine, 1.0 if self.objective.better == "larger" else -1.0
@@ -301,6 +304,7 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
     return np.asarray(order[rank < most])
 
 
+@checked
 def optimise(
     arm: Arm,
     poses: ArrayLike,
@@ -350,14 +354,15 @@ def optimise(
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
+    within = ascent.engine.within(tolerance)
     most = default_starts(arm, ascent.task) if starts is None else starts
     blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
 
     def work(number: int) -> Optimum:
         part = targets[blocks[number]]
         first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
-        reach = ascent.engine.solve(part, first, restarts, tolerance)
-        return ascent.solve(part, reach, others, most, tolerance)
+        reach = ascent.engine.solve(part, first, restarts, within)
+        return ascent.solve(part, reach, others, most, within)
 
     if len(blocks) == 1 or in_pool() or thread_count() == 1:
         parts = [work(k) for k in range(len(blocks))]
@@ -382,7 +387,7 @@ def objective_ascent(
     if own is not None and task is not None and not own.same_rows(task):
         raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
     chosen = own or task or as_task(objective.arm, "pose")
-    made: dict[object, Ascent] = objective.__dict__.setdefault("_ascents", {})
+    made = objective.ascents
     key = (chosen.rows.tobytes(), chosen.frame, clearance, margin)
     if key not in made:
         made[key] = Ascent(objective, chosen, clearance, margin)

@@ -8,6 +8,7 @@ from contextlib import closing
 from datetime import UTC, datetime
 from pathlib import Path
 
+from holdfast import reading
 from holdfast.errors import StoreError
 from holdfast.teleop import protocol as protocols
 from holdfast.teleop.digests import FORMAT, Chain
@@ -49,14 +50,14 @@ def make(folder: Path, protocol: Protocol) -> None:
     Raises:
         StoreError: The folder is not empty, or cannot be written.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+    if reading.exists(folder) and (not folder.is_dir() or any(folder.iterdir())):
         raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         kept = protocols.read(protocol.write(folder / PROTOCOL))
         with closing(sqlite3.connect(folder / (FILE + ".new"), isolation_level=None)) as db:
             db.executescript(_SCHEMA)
-            made_by = json.dumps(versions("holdfast", "numpy", "casadi", "heyoka"))
+            made_by = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
             about = {"format": _BEGUN, "protocol": kept.text(), "versions": made_by, "began": now()}
             db.execute("BEGIN")
             db.executemany("INSERT INTO about VALUES (?, ?)", about.items())
