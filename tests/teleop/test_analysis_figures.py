@@ -16,8 +16,8 @@ def titles(figure):
     canvas.draw()
     rows = {}
     for axes in figure.axes:
-        if axes.get_visible() and axes.get_title():
-            rows.setdefault(round(axes.get_position().y0, 3), []).append(axes.title.get_window_extent())
+        if axes.get_visible() and axes.get_title("left"):
+            rows.setdefault(round(axes.get_position().y0, 3), []).append(axes._left_title.get_window_extent())
     return [sorted(row, key=lambda b: b.x0) for row in rows.values()]
 
 
@@ -43,7 +43,5 @@ def test_titles_of_measures(rng, rated):
 @pytest.mark.parametrize("count", [1, 3, 8, 11])
 def test_titles_of_motions(rng, count):
     names = ["2: healthy, failure-tolerant", "computer, 3: failed, pseudoinverse", "computer, 4: failed, failure-tolerant"]
-    motions = [
-        Motion(np.cumsum(rng.normal(size=(20, 2)), axis=0), names[k % 3], rng.normal(size=2), 0.1) for k in range(count)
-    ]
+    motions = [Motion(np.cumsum(rng.normal(size=(20, 2)), axis=0), names[k % 3], rng.normal(size=2), 0.1) for k in range(count)]
     check(motions_figure(motions))

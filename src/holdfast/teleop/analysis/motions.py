@@ -107,7 +107,7 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
                     (float(m.target[0]), float(m.target[1])), m.radius, fill=False, edgecolor=ORANGE, linewidth=1.6, zorder=4
                 )
             )
-            axes.set_title(fill(plain(m.title, 48), 26), fontsize=8.6, pad=4)
+            axes.set_title(fill(plain(m.title, 48), 26, break_on_hyphens=False), fontsize=8.6, pad=4)
             axes.set_aspect("equal")
             axes.grid(visible=False)
             axes.tick_params(labelsize=8)
