@@ -484,7 +484,10 @@ BAD = {
     "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a holds NaN"]),
     "a tool that climbs": (["assess", "panda", "--tool", "../a=0,0,0,0,0,0"], ["is not NAME="]),
     "one of two not redundant": (["assess", "panda", "ur5"], ["'ur5' is not redundant"]),
-    "missing region": (["assess", "pa10-9dof", "--region", "nowhere.yaml"], ["cannot read region file 'nowhere.yaml'"]),
+    "missing region": (
+        ["assess", "pa10-9dof", "--region", "nowhere.yaml"],
+        ["region file 'nowhere.yaml': the file cannot be read"],
+    ),
     "report of nothing": (["report", "/nowhere"], ["'/nowhere' is not a holdfast run"]),
     "report of another folder": (["report", "/tmp"], ["'/tmp' is not a holdfast run"]),
     "unwritable": (["assess", "pa10-9dof", "--poses", "5", "--out", "/proc/x"], ["cannot write to '/proc/x'"]),
@@ -506,7 +509,7 @@ def test_bad_input_is_one_sentence(case, refused):
     [
         ("box: {center: [0, 0, 0], size: 1, edge: 2}", ["'box.edge' is not known", "rpy_size"]),
         ("box: {center: [0, 0, .nan], size: 1}", ["center", "finite"]),
-        ("box: [", ["not valid YAML"]),
+        ("box: [", ["not sound YAML"]),
         ("joints: {lower: [0], upper: [1]}", ["1 joints", "9"]),
     ],
 )
