@@ -40,7 +40,7 @@ _ADVICE = {
     Status.SINGULAR: "the task Jacobian is singular here, so the index is 0 by convention: move off the singularity",
     Status.INFEASIBLE: "no choice meets the constraint: relax it",
     Status.NO_INERTIA: "the arm has no inertial data for this: add masses and inertias to its description",
-    Status.UNDEFINED: "the formula gives no number at this configuration, though it is finite: look at where it divides by zero "
+    Status.UNDEFINED: "the formula gives no number at this configuration, which is finite: look at where it divides by zero "
     "or takes a root or logarithm",
     Status.NOT_COMPUTED: "not computed yet: resume the run",
 }

@@ -14,7 +14,7 @@ from holdfast.interval import Interval
 from holdfast.report.page import Page, Section, render
 from holdfast.studies.report import _headline, _standings, _structure
 from holdfast.studies.results import Assessed, Driven
-from holdfast.studies.standings import standings
+from holdfast.studies.standings import ended_of, standings, structures_of
 
 
 def assessed(arm: str, values, better: str = "larger", unit: str = "1", best=None) -> Assessed:
@@ -79,6 +79,31 @@ def test_a_joint_whose_lock_ends_the_task_everywhere_is_named():
 
     indices = ("relative-manipulability", "manipulability")
     found = [of(arm, index) for arm in ("panda", "iiwa14") for index in indices]
-    (callout,) = _structure(found)  # an iiwa's hand is as far from its shoulder as its elbow says
+    (callout,) = _structure(found, structures_of(found))  # an iiwa's hand is as far from its shoulder as its elbow says
     assert "once lbr_iiwa_joint_4 (joint 4) locks, 'iiwa14' is singular for task 'pose'" in callout.text
-    assert _structure([of("iiwa14", "manipulability", "pairs")]) == []
+    pairs = [of("iiwa14", "manipulability", "pairs")]
+    assert _structure(pairs, structures_of(pairs)) == []
+    ended = ended_of([*found, *pairs], structures_of([*found, *pairs]))
+    assert [(a.labels["arm"], a.plan.index.slug) for a in ended] == [
+        ("iiwa14", "relative-manipulability"),
+        ("iiwa14", "manipulability"),
+        ("iiwa14", "manipulability"),
+    ]
+    mean = [of("iiwa14", "mean-singular-value")]  # of a Jacobian that has lost rank it is not 0
+    assert ended_of(mean, structures_of(mean)) == []
+
+
+def test_an_arm_that_is_0_by_structure_is_level_with_none():
+    """Of six poses: the intervals overlap, and yet no number of samples would bring the two together."""
+    few = [assessed("ended", np.zeros(6)), assessed("some", np.r_[np.zeros(5), 1.0]), assessed("none", np.zeros(6))]
+    asked = {("manipulability", "pose"): 0.5}
+    assert standings(few, [], asked)[0].level == ["some", "ended", "none"]
+    (s,) = standings(few, [], asked, few[:1])
+    assert s.level == ["some", "none"]
+    assert [name for name, _ in s.ranked] == ["some", "none", "ended"]  # of two zeros the one by structure is last
+    text = render(Page("t", _headline([s]), [Section("s", _standings([s]))]))
+    assert "level with none; 0 by structure: ended" in text
+    (s,) = standings(few[:1] * 2, [], asked, few[:1])  # all of them: nobody is ahead
+    assert len(s.level) == 2
+    (s,) = standings(few, [], {("manipulability", "pose"): 0.0}, few[:1])  # at least 0 is kept by all
+    assert s.level == ["ended", "some", "none"]

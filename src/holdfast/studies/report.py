@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from markupsafe import Markup
 
-from holdfast.assess.structure import explain, structure
+from holdfast.assess.structure import Structure, explain
 from holdfast.errors import StoreError
 from holdfast.interval import Interval
 from holdfast.report import figures, page
@@ -20,12 +20,11 @@ from holdfast.report.words import article, as_given, counted, interval, number, 
 from holdfast.studies import results
 from holdfast.studies.design_report import sentence, sweep
 from holdfast.studies.results import Assessed, Driven
-from holdfast.studies.standings import Key, Standing, counted_range, place, said, standings
+from holdfast.studies.standings import Key, Standing, counted_range, ended_of, place, said, standings, structures_of
 from holdfast.studies.study_file import thresholds
 from holdfast.study import Study
 
 T = TypeVar("T")
-
 _ENDS = ("arrives", "stands still elsewhere", "keeps moving", "undecided")
 
 
@@ -52,10 +51,11 @@ def build(study: Study) -> Page:
         missing = f"{done:,} of {total:,} chunks are there; give the same command again to go on."
         alerts.append(Callout(missing, "bad", "Not complete."))
     sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
-    stand = standings(found, laws, asked)
+    structures = structures_of(found)
+    stand = standings(found, laws, asked, ended_of(found, structures))
     sections = [
         Section("Which arm for what", _standings(stand)),
-        Section("Single points of failure by structure", _structure(found)),
+        Section("Single points of failure by structure", _structure(found, structures)),
         *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
@@ -146,12 +146,15 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         (name, p), *rest = s.ranked
         level = s.level[1:]
         sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
+        zero = [other for other, _ in rest if other in s.ended and other not in level]
+        sure += f"; 0 by structure: {', '.join(zero)}" if zero else ""
         after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
         question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
         rows.append([question, _whole(name), _share(p), after, sure, s.about])
     about = (
         "Of each question the arm with the largest share. Clearly ahead: its 95 % interval lies above those of all others; "
-        "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "
+        "level: the intervals overlap, and more samples would be needed to tell them apart. 0 by structure: a single lock ends "
+        "the task of this arm in every configuration, which no sample needs to show. Poses: those at which the "
         "index meets the threshold whatever single failure happens. Arrives: with a locked joint that the controller does not "
         "know of."
     )
@@ -162,14 +165,13 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
     ]
 
 
-def _structure(found: Sequence[Assessed]) -> list[Block]:
+def _structure(found: Sequence[Assessed], structures: dict[tuple[str, str], Structure]) -> list[Block]:
     """Of each arm and task that a lock ends in every configuration: why nothing is left there, whatever the samples."""
     plans = [a.plan for a in found if a.labels.get("failures", "single") == "single"]
     blocks: list[Block] = []
-    for plan in {(p.arm.fingerprint, p.index.task.name): p for p in plans}.values():
-        own = structure(plan.arm, plan.index.task)
-        if not own.survives:
-            blocks.append(Callout(explain(plan.arm, own, []), "bad"))
+    for key, plan in {(p.arm.fingerprint, p.index.task.name): p for p in plans}.items():
+        if not structures[key].survives:
+            blocks.append(Callout(explain(plan.arm, structures[key], []), "bad"))
     return blocks
 
 
