@@ -110,6 +110,32 @@ def test_half_a_turn_from_the_target_the_shortest_turn_flips():
     assert "half a turn" in runs.describe()[1]
 
 
+@pytest.mark.parametrize("tolerance", [1e-9, 1e-13])
+def test_a_run_caught_at_half_a_turn_is_told_soon_and_is_not_called_singular(rng, monkeypatch, tolerance):
+    """With joint 2 standing off 0 and pi the Jacobian of the planar pose, of determinant sin q2, is regular everywhere."""
+    from holdfast.kernels import Loop
+
+    taken, run = [], Loop.run
+
+    def counted(self, *given):
+        result = run(self, *given)
+        taken.append(int(result.steps.max(initial=0)))
+        return result
+
+    monkeypatch.setattr(Loop, "run", counted)
+    arm = hf.arms.load("planar-3r")
+    q0 = rng.uniform([-np.pi, 0.5, -np.pi], [np.pi, 2.5, np.pi], (150, 3))
+    target = arm.forward_kinematics(rng.uniform(-np.pi, np.pi, (150, 3)))
+    law = hf.control.pseudoinverse(arm, ["vx", "vy", "wz"])
+    runs = simulate(law, q0, target, locked=[1], time_limit=50.0, tolerance=tolerance)
+    assert not np.isin(runs.reason, (Reason.SINGULAR, Reason.STEPS)).any()
+    caught = runs.reason == Reason.HALF_TURN
+    away = runs.q_final.sum(axis=1) - np.arctan2(target[:, 1, 0], target[:, 0, 0])
+    np.testing.assert_allclose(np.cos(away[caught]), -1, atol=1e-6)
+    assert caught.sum() > 10
+    assert sum(taken) < 20_000
+
+
 def test_excess_error_is_what_the_closed_form_leaves(two):
     starts = np.tile(RAD([0.0, -30.0]), (2, 1))
     targets = np.array([around(2, 120), around(1, 45)])
@@ -297,6 +323,28 @@ def test_a_joint_that_locks_on_the_way(three, rng):
     many = simulate(three, np.tile(q0, (3, 1)), x, locked=[(1, lock), (0, 2.5)])
     np.testing.assert_array_equal(many.q_final[0], many.q_final[2])
     assert many.q_final[0, 1] == runs.q_final[1]
+
+
+@pytest.mark.parametrize("method", ["adaptive", "rk4"])
+def test_every_sample_of_a_path_with_locks_on_the_way_is_that_of_scipy(three, rng, method):
+    """Before the first lock, between the two and after them."""
+    q0, x, locks = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6]), rng.uniform(-1.5, 1.5, 2), [(1, 0.5), (0, 1.2)]
+    path = simulate(three, q0, x, locks, method=method, time_limit=4.0).path(0, 47)
+    expected, q, ends = np.empty((47, 3)), q0, [0.0, 0.5, 1.2, 4.0]
+    for k, mask in enumerate(([1, 1, 1], [1, 0, 1], [0, 0, 1])):
+        found = solve_ivp(
+            lambda t, q, mask=mask: planar_rates(q, x, np.array(mask)),
+            ends[k : k + 2],
+            q,
+            "DOP853",
+            rtol=1e-11,
+            atol=1e-13,
+            dense_output=True,
+        )
+        here = (path.time >= ends[k]) & (path.time <= ends[k + 1])
+        expected[here], q = found.sol(path.time[here]).T, found.y[:, -1]
+    np.testing.assert_allclose(path.q, expected, atol=1e-7 if method == "adaptive" else 1e-4)
+    np.testing.assert_array_equal(path.locked, path.time[:, None] >= [1.2, 0.5, np.inf])
 
 
 @pytest.mark.parametrize("cycles", [False, True])

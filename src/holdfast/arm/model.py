@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import real_numbers
 from holdfast.errors import ArmError, InputError
 
 if TYPE_CHECKING:
@@ -144,6 +145,25 @@ class Link:
         return Link(mass, com, inertia, name)
 
 
+@dataclass(frozen=True)
+class Chain:
+    """Which part of a file an arm is.
+
+    Attributes:
+        base: Link on which it stands.
+        tip: Link whose frame is the tool; None once the tool is another one.
+        held: Joints of the file that were told to stand, and where, rad or m.
+    """
+
+    base: str
+    tip: str | None
+    held: tuple[tuple[str, float], ...] = ()
+
+    def __str__(self) -> str:
+        tip = [] if self.tip is None else [f"tip '{self.tip}'"]
+        return ", ".join([f"base '{self.base}'", *tip, *(f"'{name}' held at {value:g}" for name, value in self.held)])
+
+
 @dataclass(frozen=True, eq=False)
 class Arm:
     """A serial arm.
@@ -161,6 +181,8 @@ class Arm:
         gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
         payload: Body held by the hand, in the last joint's moving frame.
         source: Where the description comes from, for reports.
+        chain: Which links of that file are base and tip; None for a DH table.
+        states: Configurations (n,) that have a name, rad and m, such as ``home``.
     """
 
     name: str
@@ -172,6 +194,8 @@ class Arm:
     payload: Link | None = None
     source: str = ""
     flange: Array = field(default_factory=lambda: np.eye(4))
+    chain: Chain | None = None
+    states: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         joints = tuple(self.joints)
@@ -193,6 +217,9 @@ class Arm:
         object.__setattr__(self, "tool", _transform(self.tool, f"tool of arm '{self.name}'"))
         object.__setattr__(self, "flange", _transform(self.flange, f"flange of arm '{self.name}'"))
         object.__setattr__(self, "gravity", _frozen(gravity))
+        # An arm made by replace() may have other joints than the states were written for.
+        states = {name: _frozen(q) for name, q in self.states.items() if np.shape(q) == (len(joints),)}
+        object.__setattr__(self, "states", states)
 
     # ---- builders ----------------------------------------------------------------------------------------------
 
@@ -254,7 +281,8 @@ class Arm:
 
     def with_tool(self, tool: ArrayLike) -> Arm:
         """The same arm with another tool, given as ``from_dh`` and URDF files do: (4, 4) in the last link's own frame."""
-        return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"))
+        chain = None if self.chain is None else replace(self.chain, tip=None)
+        return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"), chain=chain)
 
     def with_payload(self, payload: Link | None) -> Arm:
         """The same arm holding another body, given in the last link's own frame; None: nothing."""
@@ -263,6 +291,23 @@ class Arm:
     def with_base(self, base: ArrayLike) -> Arm:
         """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
+
+    # ---- what it is called -------------------------------------------------------------------------------------
+
+    @property
+    def title(self) -> str:
+        """Name, base and tip: what an answer about the arm begins with."""
+        return self.name if self.chain is None else f"{self.name} ({self.chain})"
+
+    @property
+    def provenance(self) -> str:
+        """Source, base and tip, for reports."""
+        return "; ".join([self.source or "no source given", *([] if self.chain is None else [str(self.chain)])])
+
+    def entry(self) -> dict[str, Any]:
+        """``arm``, ``base`` and ``tip`` by name, and the joints ``held``: what a JSON answer about the arm begins with."""
+        base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
+        return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
 
     # ---- joints ------------------------------------------------------------------------------------------------
 
@@ -337,10 +382,7 @@ class Arm:
         Raises:
             InputError: Wrong number of joint values, or not numbers.
         """
-        try:
-            a = np.asarray(q, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"q for '{self.name}' must be numbers, {self.n} per configuration") from error
+        a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
         if a.ndim not in (1, 2) or a.shape[-1] != self.n:
             got = a.shape[-1] if a.ndim else 0
             raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")

@@ -79,6 +79,10 @@ class Task:
             twist = ca.vertcat(tool_rotation.T @ twist[:3], tool_rotation.T @ twist[3:])
         return ca.sparsify(ca.SX(ca.DM(self.rows))) @ twist
 
+    def scale(self, length: float) -> Array:
+        """(m, m): what dividing the linear rows of a twist by a length, m, does to the task's rows."""
+        return np.asarray(self.rows @ np.diag([1 / length] * 3 + [1.0] * 3) @ self.rows.T)
+
     def jacobian(self, arm: Arm, q: SX) -> SX:
         """Task Jacobian (m, n), linear rows divided by the characteristic length."""
         full = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.jacobian(arm, q)

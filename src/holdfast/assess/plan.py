@@ -215,6 +215,7 @@ class Plan:
                 ),
             ]
         survives = _SURVIVES_AT if self.lock_at else _SURVIVES
+        angle = Column("lock_angle", "float64", (("lock", n),), "rad or m", "where each joint locked; NaN where none did")
         return [
             *(pose if self.region.kind != "joints" else []),
             *([Column("weight", "float64", (), "1", "how much the pose counts")] if self.weighted else []),
@@ -225,7 +226,7 @@ class Plan:
             Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
             *(best if self.optimise else []),
             *(apart if self.clearance is not None else []),
-            *([Column("survives", "int8", (("lock", n),), "1", survives)] if self.locks else []),
+            *([Column("survives", "int8", (("lock", n),), "1", survives), angle] if self.locks else []),
         ]
 
     # ---- rows ------------------------------------------------------------------------------------------------------
@@ -300,7 +301,7 @@ class Plan:
         if self.weighted:
             rows["weight"] = self.region.weights(samples)
         if self.locks:
-            rows["survives"] = self._survival(poses, reach.q, reach.success, number)
+            rows["survives"], rows["lock_angle"] = self._survival(poses, reach.q, reach.success, number)
         return rows
 
     def worst_cases(self, configurations: Array) -> Rows:
@@ -308,16 +309,16 @@ class Plan:
         found = self.index.worst_case(configurations)
         return {"status": found.status, "index": found.value, "worst": _worst(found)}
 
-    def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> NDArray[np.int8]:
-        """For each reached pose and each joint asked for: is it still reached once the joint has locked?
+    def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> tuple[NDArray[np.int8], Array]:
+        """For each reached pose and each joint asked for: is it still reached once the joint has locked, and where it locked.
 
         It locks at the angle given, or at one drawn from those in use: where it was at another reached pose of the block.
         """
         n = self.arm.n
-        result = np.full((len(poses), n), -1, dtype=np.int8)
+        result, where = np.full((len(poses), n), -1, dtype=np.int8), np.full((len(poses), n), np.nan)
         rows = np.flatnonzero(reached)
         if not rows.size:
-            return result
+            return result, where
         seed = np.random.SeedSequence(self.seed, spawn_key=(3, number))
         draw, starts = seed.spawn(2)
         generator = np.random.default_rng(draw)
@@ -331,7 +332,8 @@ class Plan:
             poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE
         )
         result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
-        return result
+        where[np.ix_(rows, asked)] = angles[:, asked]
+        return result, where
 
 
 def make_plan(

@@ -21,12 +21,15 @@ from holdfast.cli.clearance_options import (
 )
 from holdfast.cli.options import (
     TASK_HELP,
-    BaseOption,
+    BasesOption,
     FailuresOption,
+    HoldsOption,
     IndexOption,
     JsonOption,
     LengthOption,
-    TipOption,
+    NamesOption,
+    TipsOption,
+    each_arm,
     print_json,
     read_by_joint,
     read_failures,
@@ -97,8 +100,10 @@ def assess(
     threads: Annotated[
         int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
     ] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
+    base: BasesOption = None,
+    tip: TipsOption = None,
+    hold: HoldsOption = None,
+    name: NamesOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
@@ -121,7 +126,7 @@ def assess(
     check_clearance(clearance, capsules, radius, margin)
     if threads is not None:
         set_threads(threads)
-    candidates = read_candidates(arm, tool or [], task or [], base, tip)
+    candidates = read_candidates(each_arm(arm, base, tip, hold, name), tool or [], task or [])
     several = len(candidates) > 1
     first = candidates[0]
     chosen = read_region(region, first.spec, first.arm)

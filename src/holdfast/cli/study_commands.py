@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import BaseOption, JsonOption, TipOption, console, print_json
+from holdfast.cli.options import (
+    BasesOption,
+    HoldsOption,
+    JsonOption,
+    NamesOption,
+    TipsOption,
+    console,
+    each_arm,
+    print_json,
+)
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
 
@@ -49,8 +58,10 @@ def new(
         typer.Option("--law", help="Also maps of convergence under this control law; may be given again.", show_default=False),
     ] = None,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
+    base: BasesOption = None,
+    tip: TipsOption = None,
+    hold: HoldsOption = None,
+    name: NamesOption = None,
 ) -> None:
     """Write a study file with comments, to edit and run.
 
@@ -59,7 +70,9 @@ def new(
     from holdfast.studies.template import write
 
     usual = ["relative-manipulability"]
-    written = write(file, arm, poses, chunk, seed, usual if index is None else index, law or [], optimise, base, tip)
+    indices = usual if index is None else index
+    files = each_arm(arm, base, tip, hold, name)
+    written = write(file, files, poses, chunk, seed, indices, law or [], optimise)
     typer.echo(f"written: {written}")
 
 

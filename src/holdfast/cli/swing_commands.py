@@ -11,6 +11,7 @@ import typer
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TipOption,
     console,
@@ -63,6 +64,7 @@ def swing(
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
@@ -75,7 +77,7 @@ def swing(
     """
     from holdfast.simulate.free_swing import BRAKES, free_swing
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     result = free_swing(
         model,
         read_configuration(model, q, degrees),
@@ -99,7 +101,7 @@ def _data(result: FreeSwing) -> dict[str, Any]:
     failed = result.arm.joints[result.joint]
     unit = failed.unit
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "joint": failed.name,
         "q": dict(zip(result.arm.joint_names, result.q.tolist(), strict=True)),
         "unit": unit,
@@ -136,7 +138,7 @@ def _print(result: FreeSwing, files: list[Path]) -> None:
     unit = failed.unit
     friction = "N s/m" if unit == "m" else "N m s/rad"
     out.print(
-        f"Free swing of [bold]{escape(failed.name)}[/], arm {escape(result.arm.name)}, all other joints held", soft_wrap=True
+        f"Free swing of [bold]{escape(failed.name)}[/], arm {escape(result.arm.title)}, all other joints held", soft_wrap=True
     )
     out.print(f"It {ENDS[result.outcome]}.", soft_wrap=True)
     facts = Table.grid(padding=(0, 2))

@@ -76,7 +76,7 @@ def tasks(
         files = [] if out is None else _folder(out, arm, model, rows, bank, cells, chosen, apart, seed)
     if json_:
         data = {
-            "arm": model.name,
+            **model.entry(),
             "tasks": len(bank),
             "cells_occupied": len(cells.occupied),
             "chosen": chosen + 1,
@@ -179,7 +179,7 @@ def _print(
     out = console()
     count = (len(cells.difficulty) - 1) * (len(cells.ratio) - 1)
     out.print(
-        f"Arm {escape(arm.name)}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers", soft_wrap=True
+        f"Arm {escape(arm.title)}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers", soft_wrap=True
     )
     table = Table(
         "scenario",

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked
 from holdfast.control.events import Course, Curvature, events
 from holdfast.control.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.control.resolution import Resolution, chosen_task
@@ -39,6 +40,7 @@ _AT = 1e-6  # rad and m from a limit
 _GRID = 101  # poses whose whole manifold is traced
 
 
+@checked
 def follow(
     arm: Arm,
     path: TimedPath,

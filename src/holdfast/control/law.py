@@ -81,7 +81,7 @@ class Law(ABC):
 
     def scaled(self, v: SX) -> SX:
         """A task velocity (m,) in m/s and rad/s, its linear rows divided by the task's characteristic length."""
-        return ca.SX(ca.DM(_scale(self.task))) @ v
+        return ca.SX(ca.DM(self.task.scale(self.task.length))) @ v
 
     def command(self, error: SX) -> SX:
         """Task velocity (m,) for an error of the task's rows (m,), m and rad: eq. (6), within the speed limit.
@@ -215,19 +215,24 @@ class Law(ABC):
         count = max(len(np.atleast_2d(a)), len(np.atleast_2d(b)))
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
 
-    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path]:
-        """Write the law as a C99 file that needs nothing but ``math.h``, and its header.
+    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path, Path, Path]:
+        """Write the law as a C99 file that needs nothing but ``math.h``, its header, an example and a test.
 
         The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0; or 1 and zero rates
         where an input is not finite or the law has no answer. What else the law computes (:meth:`outputs`) follows the rates.
-        The same inputs give what :meth:`velocity` gives, to rounding.
+        The same inputs give what :meth:`velocity` gives, to rounding. ``NAME_check_joints`` compares the joints of a driver, by
+        name, with the order of q. The header, which C++ takes too, holds holdfast's version and the arm's fingerprint.
 
         Args:
-            folder: Where ``NAME.c`` and ``NAME.h`` go; made if it is not there.
+            folder: Where the files go; made if it is not there.
             name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
 
+        Returns:
+            ``NAME.c``, ``NAME.h``, ``NAME_example.c`` (a control loop) and ``NAME_test.c`` (returns 0 if the compiled function
+            gives what holdfast computed for five configurations).
+
         Raises:
-            InputError: A name that C does not take.
+            InputError: A name that C does not take, or an arm that is close to singular everywhere.
             StoreError: The files cannot be written.
         """
         return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
@@ -248,11 +253,6 @@ class Law(ABC):
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
-
-
-def _scale(task: Task) -> Array:
-    """(m, m): what dividing the linear rows of a twist by the characteristic length does to the task's rows."""
-    return np.asarray(task.rows @ np.diag([1 / task.length] * 3 + [1.0] * 3) @ task.rows.T)
 
 
 def _linear(task: Task) -> Array:

@@ -65,7 +65,7 @@ class TradeOff:
         """A few sentences for people."""
         middle, paid = np.median(self.gain, axis=0), np.median(self.healthy_error, axis=0)
         low, high = self.median_interval()
-        lines = [f"'{self.arm.name}', task {self.task.describe()}, {len(self.gain)} configurations and directions"]
+        lines = [f"{self.arm.title}, task {self.task.describe()}, {len(self.gain)} configurations and directions"]
         for k, e in enumerate(self.allowed):
             lines.append(
                 f"pre-failure error up to {e:.2f}: median peak error after a failure {middle[k]:.3f} of the pseudoinverse's "

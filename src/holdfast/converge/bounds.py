@@ -12,6 +12,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_pose
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.converge.critical import CriticalPoints, critical_points
 from holdfast.errors import InputError, TaskError
 from holdfast.solve import joint_space
@@ -22,12 +23,13 @@ Arcs = list[tuple[float, float]]
 STARTS = 256
 RESTARTS = 60
 _SCAN = 90  # values of each joint that are tried besides the critical ones
-_REACHED = 1e-8  # m and rad
+_REACHED = 1e-8  # rad, and lengths in units of the arm's own
 _HALVINGS = 18  # of a gap of the scan: 5 deg becomes 3e-7 rad
 _SAME = 1e-6  # rad and m: critical values nearer than this are one
 _INSIDE = 1e-4  # rad and m: nearer to a cut, a value says nothing: at the edge of the workspace it may be that wrong
 
 
+@checked
 def joint_bounds(
     arm: Arm,
     target: ArrayLike,

@@ -13,11 +13,11 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.kernels import Kernel
-from holdfast.solve.inverse import solver, task_error
+from holdfast.solve.inverse import scaled_error, solver
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-10  # m and rad off the target, and of the rank condition
+TOLERANCE = 1e-10  # off the target, rad and in units of the arm's own length, and of the rank condition
 _STEPS = 80
 _CHUNK = 4096  # rows of which the matrices are held at once
 
@@ -36,7 +36,7 @@ class CriticalPoints:
         self.engine = solver(arm, task)
         q = kinematics.joint_symbols(arm)
         p, r, u = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("u", task.m)
-        e, j = task_error(arm, task, q, p, r)
+        e, j = scaled_error(arm, task, q, p, r)
         across = j.T @ u
         residual = ca.vertcat(e, across, ca.sumsqr(u) - 1)
         # On the target the derivative of the error is -J, and that is where the steps go.

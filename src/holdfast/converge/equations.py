@@ -6,6 +6,7 @@ and d = 0 that is along the column of the joint. Any other law is asked for a un
 error must be along ``b = u``. In both, the unknowns are q, u and a pair (c, s) of length 1 with ``c error = s b``, as many
 equations as unknowns but for the locked joints. That the target is reached (s = 0) does not satisfy them by itself, so that
 solutions are elsewhere, and rest points run smoothly through the target, and through places where b vanishes (c = 0).
+Lengths are in units of :func:`holdfast.arm.scale.length_unit`.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (21); the form with u, c and s is ours.
 """
@@ -19,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
+from holdfast.arm.scale import length_unit
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
-from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel, Loop
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
@@ -28,7 +29,7 @@ from holdfast.simulate.motion import System
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-TOLERANCE = 1e-11  # norm of the equations, m
+TOLERANCE = 1e-11  # norm of the equations
 _STEPS = 80
 _FIRST, _EASIER, _HARDER, _HOPELESS = 1e-2, 0.2, 5.0, 1e6
 
@@ -56,16 +57,18 @@ class RestEquations:
         self._z = ca.SX.sym("z", self.size)
         q, u, c, s = self._z[:n], self._z[n : n + m], self._z[n + m], self._z[n + m + 1]
         mask, form = self.system.mask, metric(law)
-        error, _ = self.system.error(q)
+        error, _ = self.system.scaled_error(q)
+        unit = length_unit(law.arm)
         if form is None:
-            rates = law.rates(q, u)
+            rates = law.rates(q, ca.SX(ca.DM(np.linalg.inv(law.task.scale(unit)))) @ u)
             still, along = rates / ca.sqrt(ca.sumsqr(rates)), u
         else:
             a, damping = ca.SX(ca.DM(form[0])), form[1]
-            j = law.jacobian(q)
-            still, error = a @ j.T @ u, law.scaled(error)
+            scale = ca.sparsify(ca.SX(ca.DM(law.task.scale(unit / law.task.length))))  # from the law's own unit of length
+            j = scale @ law.jacobian(q)
+            still = a @ j.T @ u
             # The column itself does not vanish where J loses rank, as J A J' u does.
-            along = j @ (1 - mask) if single and not damping else j @ still + damping * u
+            along = j @ (1 - mask) if single and not damping else j @ still + damping * (scale @ scale @ u)
         # As many equations as unknowns, but for the locked joints.
         self._equations = ca.vertcat(mask * still, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * along)
         self._pull = ca.sum1((1 - mask) * still)
@@ -74,7 +77,7 @@ class RestEquations:
     @cached_property
     def _kernel(self) -> Kernel:
         inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
-        return Kernel("rest", inputs, outputs, suitable(inputs, outputs))
+        return Kernel("rest", inputs, outputs)
 
     @cached_property
     def _pulls(self) -> Kernel:
@@ -92,8 +95,7 @@ class RestEquations:
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
         parameters = [*self.system.parameters, free]
-        backend = suitable([state, *parameters], [after])
-        return Loop("rest points", state, parameters, after, residual, backend)
+        return Loop("rest points", state, parameters, after, residual)
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""

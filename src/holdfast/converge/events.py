@@ -56,8 +56,8 @@ def marked(system: RestSystem, joint: int, z: Array, closed: bool, constant: boo
     order = np.argsort(position, kind="stable")
     z, label = np.concatenate([z, points])[order], label[order]
     q = z[:, :n]
-    eigenvalues, (_, error) = system.eigenvalues(q), system.linear.rates(q, system.pose)
-    kind = np.full(len(q), Kind.DEGENERATE, dtype=np.uint8) if constant else kinds(eigenvalues, error)
+    eigenvalues, (_, error, scaled) = system.eigenvalues(q), system.linear.rates(q, system.pose)
+    kind = np.full(len(q), Kind.DEGENERATE, dtype=np.uint8) if constant else kinds(eigenvalues, scaled)
     kind[label == Event.TARGET] = Kind.SOLUTION
     segments = (Segment(Kind.DEGENERATE, 0, len(q) - 1),) if constant else _segments(system, z, label, kind)
     return Curve(
@@ -155,7 +155,7 @@ def _segments(system: RestSystem, z: Array, label: NDArray[np.int64], kind: NDAr
         if not len(inside):
             chord = (z[[end]] - z[[first]]) / np.linalg.norm(z[end] - z[first])
             middle = Steps(system, z[[first]], z[[end]], chord, chord).between(np.array([0.5]))[:, :n]
-            inside = kinds(system.eigenvalues(middle), system.linear.rates(middle, system.pose)[1])
+            inside = kinds(system.eigenvalues(middle), system.linear.rates(middle, system.pose)[2])
         found = Kind(int(inside[len(inside) // 2]))
         if out and out[-1].kind == found and not (label[out[-1].first + 1 : end] == Event.FOLD).any():
             out[-1] = Segment(found, out[-1].first, int(end))

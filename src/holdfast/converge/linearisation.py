@@ -15,14 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
-from holdfast.converge.backend import suitable
 from holdfast.kernels import Kernel
 from holdfast.simulate.motion import System
 
 Array = NDArray[np.float64]
 Kinds = NDArray[np.uint8]
 
-REACHED = 1e-6  # m and rad: an error below it is none
+REACHED = 1e-6  # rad, and lengths in units of the arm's own: an error below it is none
 ZERO_BAND = 1e-6  # of the linearisation's norm, or of 1: real parts below it have no sign
 
 
@@ -51,11 +50,11 @@ def attracts(eigenvalues: NDArray[np.complex128]) -> NDArray[np.bool_]:
     return np.asarray((eigenvalues.real < band).all(axis=1))
 
 
-def kinds(eigenvalues: NDArray[np.complex128], error: Array) -> Kinds:
-    """(N,) :class:`Kind` from eigenvalues (N, h), complex, and errors (N,); NaN is degenerate."""
+def kinds(eigenvalues: NDArray[np.complex128], scaled: Array) -> Kinds:
+    """(N,) :class:`Kind` from eigenvalues (N, h), complex, and scaled errors (N,); NaN is degenerate."""
     real = np.real(eigenvalues)
     band = ZERO_BAND * np.maximum(1.0, np.abs(eigenvalues).max(axis=1, initial=0.0))[:, None]
-    conditions = [error < REACHED, (real < -band).all(axis=1), (real > band).all(axis=1), (np.abs(real) > band).all(axis=1)]
+    conditions = [scaled < REACHED, (real < -band).all(axis=1), (real > band).all(axis=1), (np.abs(real) > band).all(axis=1)]
     chosen = np.select(conditions, [Kind.SOLUTION, Kind.SINK, Kind.SOURCE, Kind.SADDLE], Kind.DEGENERATE)
     return chosen.astype(np.uint8)
 
@@ -70,20 +69,21 @@ class Linearisation:
     def _rates(self) -> Kernel:
         s = self._system
         e, _ = s.error(s.q)
-        return Kernel("rest rates", [s.q, s.target, s.rotation], [ca.vertcat(self.law.rates(s.q, e), ca.norm_2(e))])
+        sizes = ca.norm_2(e), ca.norm_2(s.scaled_error(s.q)[0])
+        return Kernel("rest rates", [s.q, s.target, s.rotation], [ca.vertcat(self.law.rates(s.q, e), *sizes)])
 
     @cached_property
     def _slopes(self) -> Kernel:
         s = self._system
         e, j = s.error(s.q)
         inputs = [s.q, s.target, s.rotation]
-        outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(e)]
-        return Kernel("linearisation", inputs, outputs, suitable(inputs, outputs))
+        outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(s.scaled_error(s.q)[0])]
+        return Kernel("linearisation", inputs, outputs)
 
-    def rates(self, q: Array, pose: Array) -> tuple[Array, Array]:
-        """Commanded rates (N, n) of all joints at q (N, n), and errors (N,)."""
+    def rates(self, q: Array, pose: Array) -> tuple[Array, Array, Array]:
+        """Commanded rates (N, n) of all joints at q (N, n), errors (N,), m and rad, and (N,) with lengths scaled."""
         out = self._rates.rows(q, pose[:3, 3], pose[:3, :3])
-        return out[:, :-1], out[:, -1]
+        return out[:, :-2], out[:, -2], out[:, -1]
 
     def field(self, pose: Array, healthy: NDArray[np.bool_]) -> Callable[[Array], Array]:
         """The motion itself, rates (n,) of q (n,) with other joints still, as quick as it can be; not for several threads."""
@@ -99,10 +99,10 @@ class Linearisation:
 
     def matrices(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> Array:
         """Linearisation (N, h, h) of the healthy joints at q (N, n)."""
-        slopes, j, error = self._slopes(q, pose[:3, 3], pose[:3, :3])
+        slopes, j, scaled = self._slopes(q, pose[:3, 3], pose[:3, :3])
         # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
         # of the rotation vector is 0/0 there.
-        for row in np.flatnonzero(error < REACHED):
+        for row in np.flatnonzero(scaled < REACHED):
             slopes[row] = self.law.velocity(q[row], -j[row].T).T
         return np.asarray(slopes[:, healthy][:, :, healthy])
 

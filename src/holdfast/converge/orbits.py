@@ -164,7 +164,7 @@ class _Shooting:
         values = np.linalg.eigvals(matrix).astype(np.complex128) if matrix.size else np.empty(0, dtype=np.complex128)
         if values.size:
             values = np.delete(values, np.argmin(np.abs(values - 1)))
-        _, error = system.linear.rates(path, system.pose)
+        _, error, _ = system.linear.rates(path, system.pose)
         return Orbit(
             label=label,
             period=period / gain,

@@ -10,10 +10,12 @@ from numpy.typing import ArrayLike
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.solve.inverse import Reach, solver
 
 
+@checked
 def reachable_when_locked(
     arm: Arm,
     target: ArrayLike,
@@ -70,13 +72,14 @@ def reachable_when_locked(
     if len(counts) > 1:
         raise InputError(f"there are {len(poses)} targets and {angles.size} values; give the same number, or one for all")
     size = counts.pop() if counts else 1
-    found = solver(arm, rows).solve_locked(
+    engine = solver(arm, rows)
+    found = engine.solve_locked(
         np.broadcast_to(poses, (size, 4, 4)),
         np.full(size, k),
         np.ascontiguousarray(np.broadcast_to(angles, (size,))),
         np.random.SeedSequence(seed),
         restarts,
-        tolerance,
+        engine.within(tolerance),
     )
     if single_target and angles.ndim == 0:
         return Reach(*(getattr(found, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 HEALTHY_SHARE = 1e-7  # of all rates: healthy joints that move less stand
-VANISHED = 1e-5  # of c: b is that short, in m per m of error
+VANISHED = 1e-5  # of c: b is that short, per unit of error
 IDLE = 1e-12  # of the Jacobian: a joint with a smaller column does not move the task
 
 
@@ -70,8 +70,8 @@ class RestSystem:
         out, held = self.equations.search(z, self.pose, self.mask, free)
         # Where b vanishes the equations hold with c = 0, but J has lost rank and the law no answer.
         q = out[held & (np.abs(out[:, -2]) > VANISHED), : self.law.arm.n]
-        _, error = self.linear.rates(q, self.pose)
-        return q[self.still(q) & (error > REACHED)]
+        _, _, scaled = self.linear.rates(q, self.pose)
+        return q[self.still(q) & (scaled > REACHED)]
 
     def solutions(self, z: Array) -> Array:
         """Configurations (N, n) that reach the target from starts z, with locked joints where they stand."""
@@ -86,14 +86,14 @@ class RestSystem:
 
     def still(self, q: Array) -> Flags:
         """(N,) whether only locked joints are commanded at q (N, n)."""
-        rates, _ = self.linear.rates(q, self.pose)
+        rates, _, _ = self.linear.rates(q, self.pose)
         return np.asarray(np.linalg.norm(rates[:, self.healthy], axis=1) < HEALTHY_SHARE * np.linalg.norm(rates, axis=1))
 
     def holds(self, z: Array) -> bool:
         """Whether the law itself is at rest along z (N, size), where it has an answer."""
         q = z[:, : self.law.arm.n]
-        _, error = self.linear.rates(q, self.pose)
-        return bool(self.still(q)[error > 1e-3].mean() > 0.5)
+        _, _, scaled = self.linear.rates(q, self.pose)
+        return bool(self.still(q)[scaled > 1e-3].mean() > 0.5)
 
     def values(self, z: Array) -> tuple[Array, Array]:
         """The equations (N, e) at unknowns (N, size), and their Jacobian (N, e, a) by those that are active."""

@@ -22,7 +22,7 @@ class Solutions:
     def __init__(self, law: Law) -> None:
         self._system = System(law)
         q = self._system.q
-        e, j = self._system.error(q)
+        e, j = self._system.scaled_error(q)
         size = ca.sumsqr(e)
         step = damped_least_norm(j @ ca.diag(self._system.mask), e, 1e-3 * size + 1e-14)
         self._loop = Loop("solutions", q, self._system.parameters, q + step, ca.sqrt(size))

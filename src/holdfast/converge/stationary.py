@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_pose
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind, Kinds, attracts, kinds
 from holdfast.converge.rest_system import RestSystem, distinct, idle_joints, wrapped
@@ -95,7 +96,7 @@ class RestPoints:
         """A few sentences for people."""
         arm = self.law.arm
         where = ", ".join(f"{arm.joint_names[k]} at {_shown(arm, k, x)}" for k, x in zip(self.locked, self.at, strict=True))
-        lines = [f"'{arm.name}' under {self.law.describe()}, locked: {where}; {self.starts} starts"]
+        lines = [f"{arm.title} under {self.law.describe()}, locked: {where}; {self.starts} starts"]
         idle = [arm.joint_names[k] for k in idle_joints(self.law) if k not in self.locked]
         if idle:
             lines.append(f"the task does not notice {', '.join(idle)}, shown at 0")
@@ -118,6 +119,7 @@ class RestPoints:
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> RestPoints: ...
 @overload
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
+@checked
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0) -> RestPoints | Curves:
     """Where the arm can come to rest while its controller does not know that joints have locked.
 
@@ -200,9 +202,9 @@ def _gathered(
 def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoints:
     """Points of rest q (P, n) with what there is to know of them, by kind and error."""
     arm, healthy = system.law.arm, system.healthy
-    rates, error = system.linear.rates(q, system.pose)
+    rates, error, scaled = system.linear.rates(q, system.pose)
     eigenvalues = system.eigenvalues(q)
-    kind = kinds(eigenvalues, error)
+    kind = kinds(eigenvalues, scaled)
     points = RestPoints(
         law=system.law,
         target=system.pose,
@@ -217,7 +219,7 @@ def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoi
         within_limits=np.asarray(((q >= arm.lower) & (q <= arm.upper)).all(axis=1)),
         starts=starts,
     )
-    return points._subset(np.lexsort((np.round(error, 9), ~points.attracting, kind)))
+    return points._subset(np.lexsort((np.round(scaled, 9), ~points.attracting, kind)))
 
 
 def _shown(arm: Arm, k: int, value: float) -> str:

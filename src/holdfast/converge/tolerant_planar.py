@@ -50,7 +50,7 @@ class ThreeLinks:
         flat = np.array([*places, (t @ arm.tool)[:3, 3]]) @ task.rows[:, :3].T
         links = np.diff(flat, axis=0)
         lengths = np.linalg.norm(links, axis=1)
-        if lengths.min() < 1e-9:
+        if lengths.min() < 1e-9 * lengths.max():
             return None
         direction = np.arctan2(links[:, 1], links[:, 0])
         normal = np.cross(*task.rows[:, :3])

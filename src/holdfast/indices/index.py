@@ -70,11 +70,13 @@ class Index(Objective):
         failures: Sets of joints, indices from 0, that fail together.
         source: Paper and equation.
         bound: The value no configuration can beat, or None if there is none.
+        bound_note: What is known of how near one can come to it, a phrase; empty where some Jacobian of this size attains it.
     """
 
     better: Better = "larger"
     source = ""
     bound: float | None = None
+    bound_note = ""
 
     def __init__(
         self,

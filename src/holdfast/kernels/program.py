@@ -7,10 +7,11 @@ import struct
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import casadi as ca
+
+from holdfast.kept import cached_property
 
 SX = Any  # CasADi ships no type information
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import casadi as ca
 
 from holdfast.arm import kinematics
+from holdfast.arm.scale import length_unit
 from holdfast.kernels import SX
 from holdfast.simulate.motion import (
     ARRIVED,
@@ -26,7 +27,8 @@ from holdfast.simulate.motion import (
 )
 
 SUBSTEPS = 10
-STILL, PATIENCE = 1e-6, 50  # m per cycle, and for so many cycles one after the other: at rest
+STILL, SLOWEST = 2e-5, 1e-6  # of a cycle's way at the speed limit; of the arm's own unit of length where there is no limit
+PATIENCE = 50  # cycles one after the other in which the hand moved less than that: at rest
 
 
 class Cycles:
@@ -43,7 +45,9 @@ class Cycles:
 
     def __init__(self, system: System) -> None:
         self.system = system
-        n, m = system.law.arm.n, system.law.task.m
+        law = system.law
+        n, m = law.arm.n, law.task.m
+        self._still = SLOWEST * length_unit(law.arm) if law.speed_limit is None else STILL * law.speed_limit
         self._until, self._limit, self._radius = (ca.SX.sym(x) for x in ("until", "limit", "radius"))
         self.parameters = [*system.given, self._until, self._limit, self._radius]
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)
@@ -84,7 +88,7 @@ class Cycles:
         """What is noted, and decided, when a cycle begins."""
         place = kinematics.chain(self.system.law.arm, parts["q"]).position
         moved = ca.if_else(parts["time"] > 0, ca.sqrt(ca.sumsqr(place - parts["place"])), 0.0)
-        still = ca.if_else(ca.logic_and(parts["time"] > 0, moved < STILL), parts["still"] + 1, 0.0)
+        still = ca.if_else(ca.logic_and(parts["time"] > 0, moved < self._still), parts["still"] + 1, 0.0)
         error = ca.sumsqr(e)
         code = ca.if_else(parts["time"] >= self._limit, TIME, RUNNING)
         code = ca.if_else(still >= PATIENCE, REST, code)

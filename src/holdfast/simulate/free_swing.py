@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm, Joint
+from holdfast.checked import checked
 from holdfast.errors import ArmError, InputError
 from holdfast.simulate.mujoco_model import mujoco_model
 
@@ -98,6 +99,7 @@ class FreeSwing:
         return self.outcome == "stop"
 
 
+@checked
 @quiet()
 def free_swing(
     arm: Arm,

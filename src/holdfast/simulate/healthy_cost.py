@@ -13,6 +13,7 @@ from holdfast.arm.poses import check_poses
 from holdfast.control.law import Law
 from holdfast.kernels import Kernel
 from holdfast.simulate.closed_loop import CYCLE_LIMIT, simulate
+from holdfast.simulate.motion import prescribed_way
 from holdfast.solve.inverse import task_error
 
 Array = NDArray[np.float64]
@@ -80,17 +81,6 @@ class _Look:
         gap = prescribed_way(self._law, hand, every)
         angle = self._law.healthy_angle(rows, error)
         return error.reshape(samples, count, -1), gap.reshape(samples, count, 3), angle.reshape(samples, count)
-
-
-def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
-    """(N, 3) from hands to targets, poses (N, 4, 4), in the directions that the task prescribes, m."""
-    linear = law.task.rows[:, :3]
-    into = linear.T @ linear
-    way = target[:, :3, 3] - hand[:, :3, 3]
-    if law.task.frame == "base":
-        return np.asarray(way @ into)
-    turn = hand[:, :3, :3]
-    return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
 
 
 def _off_the_line(gap: Array) -> Array:

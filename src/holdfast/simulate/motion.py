@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.control.law import Law
 from holdfast.kernels import SX, Loop
-from holdfast.solve.inverse import task_error
+from holdfast.solve.inverse import scaled_error, task_error
 
 Array = NDArray[np.float64]
 
@@ -71,6 +71,10 @@ class System:
         """Error (m,) of the task's rows, m and rad, and their Jacobian (m, n)."""
         return task_error(self.law.arm, self.law.task, q, self.target, self.rotation)
 
+    def scaled_error(self, q: SX) -> tuple[SX, SX]:
+        """As :meth:`error`, with lengths in units of the arm's own, for what has a threshold."""
+        return scaled_error(self.law.arm, self.law.task, q, self.target, self.rotation)
+
     def command(self, e: SX) -> tuple[SX, SX]:
         """Commanded task velocity (m,) in units of ``1/Ke``, and how far the speed limit slows it."""
         v = self.law.command(e) / self.law.gain
@@ -94,6 +98,17 @@ class System:
         rates = self.rates(q, v)
         # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
         return Here(rates, self.hand_speed(q, rates), share, ca.sumsqr(e), -2 * ca.dot(e, j @ rates))
+
+
+def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
+    """(N, 3) from hands to targets, poses (N, 4, 4), in the directions that the task prescribes, m."""
+    linear = law.task.rows[:, :3]
+    into = linear.T @ linear
+    way = target[:, :3, 3] - hand[:, :3, 3]
+    if law.task.frame == "base":
+        return np.asarray(way @ into)
+    turn = hand[:, :3, :3]
+    return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
 
 
 class State:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
+from holdfast.arm.scale import length_unit
 from holdfast.kernels import Kernel, Loop
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
@@ -30,9 +31,12 @@ class Nearest:
         state = ca.SX.sym("state", n + 1)
         q, damping = state[:n], state[n]
         e, j = system.error(q)
+        # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
+        unit = 1.0 if system.law.task.angular else length_unit(self._arm)
+        e, j = e / unit, j / unit
         healthy = j @ ca.diag(system.mask)
         trial = q + damped_least_norm(healthy, e, damping)
-        better = ca.sumsqr(system.error(trial)[0]) < ca.sumsqr(e)
+        better = ca.sumsqr(system.error(trial)[0] / unit) < ca.sumsqr(e)
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-15), ca.vertcat(q, damping * _HARDER))
         slope = ca.sqrt(ca.sumsqr(healthy.T @ e))
         self._loop = Loop("nearest point", state, system.parameters, after, ca.if_else(damping > _HOPELESS, 0.0, slope))

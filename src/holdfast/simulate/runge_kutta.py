@@ -131,9 +131,10 @@ class Steps:
             # Beside a singularity a rest point pulls so strongly that errors allowed elsewhere would keep the arm moving.
             slow = greater(NEARLY * ca.sqrt(ca.sumsqr(parts["rates"])), FINEST)
             size = self._error(h, rates) / lesser(self._tolerance, slow) ** 2
-            good = size <= 1
-            # A stage that met a singularity makes the estimate NaN, and every comparison with it false.
-            usable = size < 1e20
+            # A stage that met a singularity makes the estimate NaN, and every comparison with it false. The estimate does not
+            # know the derivative at the end, with which the next step begins.
+            usable = ca.logic_and(size < 1e20, ca.sumsqr(here.rates) < FAR)
+            good = ca.logic_and(size <= 1, usable)
             root = ca.if_else(usable, size, 1.0) + 1e-20
             for _ in range(4):  # of the squared error of a method of order 8
                 root = ca.sqrt(root)

@@ -15,7 +15,9 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
+from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.kernels import SX, Kernel, Loop
 from holdfast.linalg import damped_least_norm
@@ -25,6 +27,7 @@ from holdfast.status import Status, require_ok
 Array = NDArray[np.float64]
 
 STEPS = 40  # per start; most starts that arrive do so within 15
+_FLAT, _TINY, _ROUNDING = 1e-6, 1e-9, 1e-15  # sines of half a turn, of no turn, and of which nothing is left but rounding
 _WAVE = 8192  # rows of starts that run side by side when poses are left over
 _BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
 
@@ -59,29 +62,39 @@ class Reach:
 
 
 def pose_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """World-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest turn, also near 180 degrees."""
+    """World-frame error (6,): ``(p_d - p; log(R_d R'))``; the vector part is the shortest turn, up to half a turn.
+
+    There the shortest turn flips from one way to the other. At exactly half a turn, where both ways are as long, it is about
+    the axis of which the largest component is positive.
+    """
     r = target_rotation @ rotation.T
     skew = _skew_part(r)
     sine, cosine = ca.sqrt(ca.sumsqr(skew)), 0.5 * (r[0, 0] + r[1, 1] + r[2, 2] - 1)
     angle = ca.atan2(sine, cosine)
-    factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
-    # Half a turn about a: R = 2 a a' - I has no skew part either; the longest column of R + R' + 2 I = 4 a a' is along a.
-    half = [r[:, i] + r.T[:, i] + 2 * ca.SX.eye(3)[:, i] for i in range(3)]
-    first = ca.if_else(r[0, 0] >= r[2, 2], half[0], half[2])
-    axis = ca.if_else(ca.logic_and(r[1, 1] >= r[0, 0], r[1, 1] >= r[2, 2]), half[1], first)
-    opposite = ca.logic_and(cosine < 0, sine <= 1e-9)
-    turn = ca.if_else(opposite, np.pi * axis / ca.if_else(opposite, ca.norm_2(axis), 1.0), skew * factor)
+    factor = ca.if_else(sine > _TINY, angle / ca.if_else(sine > _TINY, sine, 1.0), 1.0)
+    # Near half a turn the skew part is too short to give the axis a, but says which way it points. The other part of R,
+    # R + R' - 2 cos I = 2 (1 - cos) a a', has it in every column; the longest is that of the largest component.
+    columns = [r[:, i] + r.T[:, i] - 2 * cosine * ca.SX.eye(3)[:, i] for i in range(3)]
+    first = ca.if_else(r[0, 0] >= r[2, 2], columns[0], columns[2])
+    axis = ca.if_else(ca.logic_and(r[1, 1] >= r[0, 0], r[1, 1] >= r[2, 2]), columns[1], first)
+    opposite = ca.logic_and(cosine < 0, sine <= _FLAT)
+    way = ca.if_else(ca.dot(axis, skew) < 0, -angle, angle)
+    turn = ca.if_else(opposite, way * axis / ca.if_else(opposite, ca.norm_2(axis), 1.0), skew * factor)
     return ca.vertcat(target - position, turn)
 
 
 def pointing_error(position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """As :func:`pose_error` for a task that leaves the turn about the tool axis free: turns z to the target's z."""
+    """As :func:`pose_error` for a task that leaves the turn about the tool axis free: turns z to the target's z.
+
+    Where z points exactly away from it, every axis across z is as good, and the tool's x axis is taken.
+    """
     z, zd = rotation[:, 2], target_rotation[:, 2]
     turn = ca.cross(z, zd)
     sine, cosine = ca.sqrt(ca.sumsqr(turn)), ca.dot(z, zd)
     angle = ca.atan2(sine, cosine)
-    factor = ca.if_else(sine > 1e-9, angle / ca.if_else(sine > 1e-9, sine, 1.0), 1.0)
-    opposite = ca.logic_and(cosine < 0, sine <= 1e-9)  # any axis across z will do
+    opposite = ca.logic_and(cosine < 0, sine <= _ROUNDING)
+    known = ca.logic_or(sine > _TINY, ca.logic_and(cosine < 0, sine > _ROUNDING))
+    factor = ca.if_else(known, angle / ca.if_else(known, sine, 1.0), 1.0)
     return ca.vertcat(target - position, ca.if_else(opposite, np.pi * rotation[:, 0], turn * factor))
 
 
@@ -111,6 +124,13 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
     return task.error(error, chain.rotation), j
 
 
+def scaled_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
+    """As :func:`task_error` with lengths in units of :func:`holdfast.arm.scale.length_unit`, for what has a threshold."""
+    e, j = task_error(arm, task, q, target, target_rotation)
+    scale = ca.sparsify(ca.SX(ca.DM(task.scale(length_unit(arm)))))
+    return scale @ e, scale @ j
+
+
 def smooth_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> SX:
     """As the error of :func:`task_error`, with sines in place of angles: the same near 0, but with derivatives."""
     chain = kinematics.chain(arm, q)
@@ -136,20 +156,26 @@ class InverseKinematics:
 
     One step is damped least squares with the joints that press against a limit taken out:
     ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
+    Lengths in it, and in every ``tolerance``, are in units of :func:`holdfast.arm.scale.length_unit`; see :meth:`within`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm, self.task = arm, task
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        e, j = task_error(arm, task, q, p, r)
+        e, j = scaled_error(arm, task, q, p, r)
         step, residual = damped_step(arm, q, e, j)
         self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
         self._symbols = q, p, r, e, j
         # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
-        back = ca.SX(ca.DM(task.rows)).T @ e
+        back = ca.SX(ca.DM(task.rows)).T @ task_error(arm, task, q, p, r)[0]
         self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
+        self._unit = length_unit(arm)
         self._low, self._high = finite_limits(arm)
+
+    def within(self, tolerance: float) -> float:
+        """The tolerance that keeps errors within so many m and rad."""
+        return tolerance / max(self._unit, 1.0)
 
     def starts(self, rows: int, generator: np.random.Generator) -> Array:
         """Random configurations (rows, n), uniform within the limits."""
@@ -218,7 +244,7 @@ class InverseKinematics:
             q: (n,) where the arm is, rad and m.
             pose: (4, 4) in the world.
             free: (n,) 1 for joints that may move, 0 for those that stand.
-            tolerance: m and rad.
+            tolerance: rad, and lengths in units of the arm's own.
             steps: At most so many.
 
         Returns:
@@ -281,7 +307,7 @@ class InverseKinematics:
         """(N,) True where q is on the pose and within the limits."""
         position_error, rotation_error = self.errors(q, poses)
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
-        return np.asarray(inside & (position_error <= tolerance) & (rotation_error <= tolerance))
+        return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
     def errors(self, q: Array, poses: Array) -> tuple[Array, Array]:
         """Position (m) and rotation error (rad) of the task's rows, (N,) each; NaN where q or the pose is."""
@@ -344,6 +370,7 @@ def solver(arm: Arm, task: Task) -> InverseKinematics:
     return _solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
+@checked
 def solve_ik(
     arm: Arm,
     poses: ArrayLike,
@@ -361,7 +388,7 @@ def solve_ik(
         seed: Of the random starts: the same seed gives the same result.
         task: Rows of the pose that matter.
         restarts: Random starts per pose before giving up.
-        tolerance: Largest error, m and rad.
+        tolerance: Largest error, m and rad; of an arm that is shorter than 1 m, lengths are as much nearer.
         start: (n,) or (N, n) where to start from the first time; random if not given.
 
     Returns:
@@ -385,7 +412,7 @@ def solve_ik(
         if not np.isfinite(first).all():
             raise InputError("start holds NaN or infinity; give finite joint values")
         first = np.clip(first, arm.lower, arm.upper)
-    result = engine.solve(targets, np.random.SeedSequence(seed), restarts, tolerance, first)
+    result = engine.solve(targets, np.random.SeedSequence(seed), restarts, engine.within(tolerance), first)
     if np.ndim(poses) == 2:
         return Reach(*(getattr(result, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))
     return result

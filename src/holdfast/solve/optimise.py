@@ -20,6 +20,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
 from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
@@ -235,7 +236,7 @@ class Ascent:
             first: What inverse kinematics found for them: the first start, and what the result never falls below.
             seed: Of the other starts.
             starts: In all, the first included.
-            tolerance: Largest pose error, m and rad.
+            tolerance: Largest pose error, rad, and lengths in units of the arm's own.
         """
         count = len(poses)
         engine, sign = self.engine, 1.0 if self.objective.better == "larger" else -1.0
@@ -306,6 +307,7 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
     return np.asarray(order[rank < most])
 
 
+@checked
 def optimise(
     arm: Arm,
     poses: ArrayLike,
@@ -355,14 +357,15 @@ def optimise(
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
+    within = ascent.engine.within(tolerance)
     most = default_starts(arm, ascent.task) if starts is None else starts
     blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
 
     def work(number: int) -> Optimum:
         part = targets[blocks[number]]
         first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
-        reach = ascent.engine.solve(part, first, restarts, tolerance)
-        return ascent.solve(part, reach, others, most, tolerance)
+        reach = ascent.engine.solve(part, first, restarts, within)
+        return ascent.solve(part, reach, others, most, within)
 
     if len(blocks) == 1 or in_pool() or thread_count() == 1:
         parts = [work(k) for k in range(len(blocks))]

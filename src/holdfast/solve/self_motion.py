@@ -20,17 +20,18 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.targets import target_pose
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel
 from holdfast.linalg import damped_least_norm, householder
 from holdfast.solve import joint_space
-from holdfast.solve.inverse import solver, task_error
+from holdfast.solve.inverse import scaled_error, solver
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
 
 STARTS = 128
-TOLERANCE = 1e-10  # m and rad: how far from the pose a point may be
+TOLERANCE = 1e-10  # rad, and lengths in units of the arm's own: how far from the pose a point may be
 _NEWTON = 5  # corrector steps before a step counts as too long
 _SHORTEST = 2.0**-10  # of the spacing: shorter steps are not tried, the curve ends there
 _STRAIGHT = 0.9  # least cosine between the null vectors at the two ends of a step
@@ -92,6 +93,7 @@ class SelfMotion:
         return f"{len(self.components)} curve{plural} of configurations, {closed} closed, lengths {lengths} rad"
 
 
+@checked
 def self_motion(
     arm: Arm,
     target: ArrayLike,
@@ -153,7 +155,7 @@ def fibres(
             behind it. Only with one degree of redundancy.
 
     Returns:
-        One :class:`SelfMotion` per pose; every point meets its pose to 1e-9 m and rad.
+        One :class:`SelfMotion` per pose; every point meets its pose to 1e-9 rad, and m for an arm of 1 m.
 
     Raises:
         InputError: Poses that are not 4x4 transforms, or options out of range.
@@ -212,7 +214,7 @@ class Tracer:
         self.free = arm.n - task.m
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        e, j = task_error(arm, task, q, p, r)
+        e, j = scaled_error(arm, task, q, p, r)
         basis = householder(j).null_rows()
         null = [basis[k][c] for c in range(self.free) for k in range(arm.n)]
         back = damped_least_norm(j, e, 1e-14)

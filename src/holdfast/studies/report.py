@@ -9,22 +9,25 @@ from typing import Any, TypeVar
 import numpy as np
 from markupsafe import Markup
 
-from holdfast.assess.structure import Structure, explain
+from holdfast.assess.plan import Plan
+from holdfast.assess.structure import Structure, explain, structure
 from holdfast.errors import StoreError
 from holdfast.interval import Interval
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.outcomes import Gains, Stack, share_figure, stack_figure
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.report.words import article, as_given, counted, interval, number, percent
+from holdfast.report.words import as_given, counted, either, number, percent
 from holdfast.studies import results
 from holdfast.studies.design_report import sentence, sweep
+from holdfast.studies.headline import headline
 from holdfast.studies.results import Assessed, Driven
-from holdfast.studies.standings import Key, Standing, counted_range, ended_of, place, said, standings, structures_of
+from holdfast.studies.standings import Ended, Key, Standing, counted_range, place, row_of, said, standings
 from holdfast.studies.study_file import thresholds
 from holdfast.study import Study
 
 T = TypeVar("T")
+
 _ENDS = ("arrives", "stands still elsewhere", "keeps moving", "undecided")
 
 
@@ -51,11 +54,11 @@ def build(study: Study) -> Page:
         missing = f"{done:,} of {total:,} chunks are there; give the same command again to go on."
         alerts.append(Callout(missing, "bad", "Not complete."))
     sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
-    structures = structures_of(found)
-    stand = standings(found, laws, asked, ended_of(found, structures))
+    own = _structures(found)
+    stand = standings(found, laws, asked, {key: _joints(plan, s) for key, (plan, s) in own.items()})
     sections = [
         Section("Which arm for what", _standings(stand)),
-        Section("Single points of failure by structure", _structure(found, structures)),
+        Section("Single points of failure by structure", _structure(own)),
         *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
@@ -68,7 +71,7 @@ def build(study: Study) -> Page:
     arms = list(dict.fromkeys(c["labels"]["arm"] for c in study.cells))
     return Page(
         study.name,
-        " ".join([*([_headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
+        " ".join([*([headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
         [s for s in sections if s.blocks],
         f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
         alerts,
@@ -102,34 +105,6 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 # ---- the answer --------------------------------------------------------------------------------------------------------
 
 
-def _headline(stand: Sequence[Standing]) -> str:
-    """The first index, as found and at its best, and the law and arm that arrive most often."""
-    parts = []
-    found = [s for s in stand if not s.law]
-    if found:
-        s = found[0]
-        often = " most often" if len(s.entries) > 1 else ""
-        text = f"After any failure considered, {_first(s)}{often} keeps {article(s.question)} {s.question}{said(s.unit)}: "
-        text += f"at {interval(s.ranked[0][1])} of the poses"
-        if found[1:] and found[1].question.startswith(f"{s.question}, "):
-            text += f"; in the best configuration of each pose, {_first(found[1])}: {interval(found[1].ranked[0][1])}"
-        parts.append(f"{text}.")
-    driven = [s for s in stand if s.law]
-    if driven:
-        top = max(driven, key=lambda s: s.ranked[0][1].value)
-        parts.append(
-            f"With a locked joint that nobody knows of, {_first(top)} arrives most often, under {top.law}: "
-            f"{interval(top.ranked[0][1])} of the motions."
-        )
-    return " ".join(parts)
-
-
-def _first(s: Standing) -> str:
-    """Who leads, or shares the lead."""
-    first, *others = s.level
-    return f"{first} (level with {', '.join(others)})" if others else first
-
-
 def _standings(stand: Sequence[Standing]) -> list[Block]:
     """The first page of a study of several arms: a figure of all questions, and who leads at each."""
     names = list(dict.fromkeys(name for s in stand for name, _ in s.entries))
@@ -146,15 +121,13 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         (name, p), *rest = s.ranked
         level = s.level[1:]
         sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
-        zero = [other for other, _ in rest if other in s.ended and other not in level]
-        sure += f"; 0 by structure: {', '.join(zero)}" if zero else ""
+        sure += "".join(f"; {arm}: 0 by structure" for arm in s.ended)
         after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
         question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
         rows.append([question, _whole(name), _share(p), after, sure, s.about])
     about = (
         "Of each question the arm with the largest share. Clearly ahead: its 95 % interval lies above those of all others; "
-        "level: the intervals overlap, and more samples would be needed to tell them apart. 0 by structure: a single lock ends "
-        "the task of this arm in every configuration, which no sample needs to show. Poses: those at which the "
+        "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "
         "index meets the threshold whatever single failure happens. Arrives: with a locked joint that the controller does not "
         "know of."
     )
@@ -165,14 +138,27 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
     ]
 
 
-def _structure(found: Sequence[Assessed], structures: dict[tuple[str, str], Structure]) -> list[Block]:
+def _structures(found: Sequence[Assessed]) -> dict[Ended, tuple[Plan, Structure]]:
     """Of each arm and task that a lock ends in every configuration: why nothing is left there, whatever the samples."""
-    plans = [a.plan for a in found if a.labels.get("failures", "single") == "single"]
-    blocks: list[Block] = []
-    for key, plan in {(p.arm.fingerprint, p.index.task.name): p for p in plans}.items():
-        if not structures[key].survives:
-            blocks.append(Callout(explain(plan.arm, structures[key], []), "bad"))
-    return blocks
+    out: dict[Ended, tuple[Plan, Structure]] = {}
+    known: dict[tuple[str, str], Structure] = {}
+    for a in found:
+        if a.labels.get("failures", "single") == "single":
+            plan, key = a.plan, (a.plan.arm.fingerprint, a.plan.index.task.name)
+            if key not in known:
+                known[key] = structure(plan.arm, plan.index.task)
+            if not known[key].survives:
+                out.setdefault(row_of(a), (plan, known[key]))
+    return out
+
+
+def _structure(own: dict[Ended, tuple[Plan, Structure]]) -> list[Block]:
+    return [Callout(explain(plan.arm, s, []), "bad") for plan, s in own.values()]
+
+
+def _joints(plan: Plan, s: Structure) -> str:
+    """The joints whose lock ends a task in every configuration."""
+    return either([plan.arm.joint_names[k] for k in s.fatal]) if s.fatal else "any joint"
 
 
 def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> list[Block]:
@@ -388,7 +374,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     facts.append(
         (
             "Intervals",
-            "95 %: Wilson score for shares of poses; by their spread for motions; DKW for curves",
+            "95 %: exact (Clopper-Pearson) for shares of poses; betting for means over motions; DKW for curves",
         )
     )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]

@@ -186,7 +186,7 @@ def driven(study: Study, cell: int) -> Driven | None:
     each = np.where(known, there[:, :-1].mean(axis=1), np.nan)
     arrives = tuple(Interval.of(int(there[known, k].sum()), runs) for k in range(code.shape[1]))
     joints = tuple(j["name"] for j in store.plan["arm"]["joints"] if j["type"] != "fixed")
-    whole = shared(each, runs * (code.shape[1] - 1), 0.95)
+    whole = shared(each, code.shape[1] - 1, 0.95)
     labels = labels_of(study, cell)
     return Driven(labels, joints, runs, ends, arrives, each, whole, float(reach[known, :-1].mean()))
 
@@ -194,7 +194,7 @@ def driven(study: Study, cell: int) -> Driven | None:
 def gain(first: Driven, second: Driven) -> Difference | None:
     """What the second law gains over the first, on the same motions."""
     both = ~np.isnan(first.each) & ~np.isnan(second.each) if first.each.shape == second.each.shape else np.zeros(1, bool)
-    return Difference.of_means(second.each[both] - first.each[both]) if both.sum() > 1 else None
+    return Difference.of_fractions(second.each[both] - first.each[both]) if both.any() else None
 
 
 @dataclass(frozen=True)
@@ -217,11 +217,10 @@ def workspace(study: Study, cell: int) -> Table | None:
     parts = list(chunks(study, cell))
     if not parts:
         return None
-    runs = int(sum((p["configurations"] - p["lost"]).sum() for p in parts))
     found = {}
     for name in ("R100", "Ravg", "F100", "Favg"):
         column = np.concatenate([p[name][:, -1] for p in parts])
-        low, high = mean_intervals(column[:, None], runs, 0.95)[0]
+        low, high = mean_intervals(column[:, None], 0.95)[0]
         found[name] = (float(mean_over(column[:, None], 0)[0]), float(low), float(high))
     return Table(labels_of(study, cell), sum(len(p["lost"]) for p in parts), found)
 

@@ -3,26 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from holdfast.assess.structure import Structure, structure
+from holdfast.assess.facts import EMPTY
 from holdfast.interval import Interval
-from holdfast.report.words import as_given
+from holdfast.report.words import as_given, number
 from holdfast.studies.results import Assessed, Driven
 
 Key = tuple[str, str]  # index and task
-
-# Of a Jacobian that has lost rank; a mean of singular values is not 0 then.
-_WORST_IF_SINGULAR = {
-    *(
-        "relative-manipulability",
-        "manipulability",
-        "minimum-singular-value",
-        "geometric-mean-singular-value",
-        "condition-number",
-    )
-}
+Ended = tuple[str, str, str]  # arm, task and failures
+_NOT_ZERO = ("mean-singular-value",)  # at a singular configuration
 
 
 @dataclass(frozen=True)
@@ -35,8 +26,9 @@ class Standing:
         entries: Name and share of each arm, in the order of the study.
         law: The control law, where the question is whether the arm arrives under it.
         unit: Of the threshold in the question; empty if it has none.
-        ended: Names of the arms of which a single lock ends the task in every configuration, so that their share is 0 whatever
-            the samples: they are level with none that may have more.
+        ended: Of each arm whose share is 0 by structure, the joints whose lock ends the task in every configuration.
+        median: Who has the best median, and what it is: what there is to say where the shares say nothing. Empty if unknown.
+        worst: The failure that is most often the worst of that arm; empty if unknown.
     """
 
     question: str
@@ -44,7 +36,9 @@ class Standing:
     entries: tuple[tuple[str, Interval], ...]
     law: str = ""
     unit: str = ""
-    ended: frozenset[str] = frozenset()
+    ended: Mapping[str, str] = field(default_factory=dict)
+    median: tuple[str, ...] = ()
+    worst: str = ""
 
     @property
     def ranked(self) -> tuple[tuple[str, Interval], ...]:
@@ -53,22 +47,26 @@ class Standing:
 
     @property
     def level(self) -> list[str]:
-        """The first, and the arms whose interval overlaps its own; those that are 0 by structure only if all are."""
-        first, p = self.ranked[0]
-        some = self.ranked if first in self.ended else [e for e in self.ranked if e[0] not in self.ended]
-        return [name for name, other in some if other.high >= p.low]
+        """The first, and the arms whose interval overlaps its own; an arm that is 0 by structure is level with none."""
+        first, top = self.ranked[0]
+        return [name for name, p in self.ranked if name == first or (p.high >= top.low and name not in self.ended)]
+
+    @property
+    def empty(self) -> bool:
+        """No arm has a share worth mentioning."""
+        return self.ranked[0][1].value < EMPTY
 
 
 def standings(
-    found: Sequence[Assessed], laws: Sequence[Driven], asked: Mapping[Key, float], ended: Sequence[Assessed] = ()
+    found: Sequence[Assessed], laws: Sequence[Driven], asked: Mapping[Key, float], ended: Mapping[Ended, str] | None = None
 ) -> list[Standing]:
     """One for each index and task, as found and optimised, and for each law.
 
     Args:
-        found: Assessments.
-        laws: Maps of convergence.
-        asked: Threshold of each index and task.
-        ended: Those of ``found`` in which the index is 0, or infinite if smaller is better, whatever the configuration.
+        found: Indices over regions.
+        laws: Motions under laws.
+        asked: Thresholds.
+        ended: Joints, as text, whose lock ends a task in every configuration, where there are any.
     """
     out: list[Standing] = []
     tasks = len({task for _, task in asked}) > 1
@@ -80,14 +78,20 @@ def standings(
         asks = f"{mine[0].plan.index.name} {sign} {as_given(h)}" + (f", {task}" if tasks else "")
         for optimised in (False, True):
             shares = [(a, a.interval(h, optimised)) for a in mine]
-            entries = [(place(a.labels, [x.labels for x in mine]), p) for a, p in shares if p is not None]
+            named = [(place(a.labels, [x.labels for x in mine]), a, p) for a, p in shares if p is not None]
+            entries = [(name, p) for name, _, p in named]
+            # A mean of singular values is not 0 where one of them is, and a threshold of 0 is met there too.
+            hit = index not in _NOT_ZERO and (h > 0 or sign == "≤")
+            over = {name: why for name, a, _ in named if hit and (why := (ended or {}).get(row_of(a))) is not None}
             if entries:
                 counts = [a.plain.samples for a in mine if a.plain is not None]
                 about = f"{counted_range(counts)} poses"
                 question = asks + ", best configuration" * optimised
-                lost = [a for a in mine if any(a is x for x in ended) and (h > 0 or a.plan.index.better == "smaller")]
-                names = frozenset(place(a.labels, [x.labels for x in mine]) for a in lost)
-                out.append(Standing(question, about, tuple(entries), unit=said(mine[0].plan.index.unit, ""), ended=names))
+                unit = said(mine[0].plan.index.unit, "")
+                first = _best_median(named, over, optimised)
+                median = () if first is None else (first[0], f"{number(first[1])}{said(mine[0].plan.index.unit)}")
+                worst = "" if first is None or first[2].worst is None else first[2].worst[0]
+                out.append(Standing(question, about, tuple(entries), unit=unit, ended=over, median=median, worst=worst))
     for law, task in dict.fromkeys((d.labels["law"], d.labels["task"]) for d in laws):
         mine_ = [d for d in laws if (d.labels["law"], d.labels["task"]) == (law, task)]
         entries = [(d.labels["arm"], d.any) for d in mine_]
@@ -98,21 +102,22 @@ def standings(
     return out
 
 
-def structures_of(found: Sequence[Assessed]) -> dict[tuple[str, str], Structure]:
-    """What locks do to each arm and task whatever the configuration, by fingerprint and name of the task."""
-    plans = {(a.plan.arm.fingerprint, a.plan.index.task.name): a.plan for a in found}
-    return {key: structure(plan.arm, plan.index.task) for key, plan in plans.items()}
+def row_of(a: Assessed) -> Ended:
+    """Arm, task and failures."""
+    return a.labels["arm"], a.labels["task"], a.labels.get("failures", "single")
 
 
-def ended_of(found: Sequence[Assessed], structures: dict[tuple[str, str], Structure]) -> list[Assessed]:
-    """Assessments in which some failure leaves a singular Jacobian, and so the worst value, in every configuration."""
-    ended = []
-    for a in found:
-        own = structures[a.plan.arm.fingerprint, a.plan.index.task.name]
-        hit = own.never or any(set(f) & set(own.fatal) for f in a.plan.index.failures)
-        if hit and a.plan.index.slug in _WORST_IF_SINGULAR:
-            ended.append(a)
-    return ended
+def _best_median(
+    named: Sequence[tuple[str, Assessed, Interval]], over: Mapping[str, str], optimised: bool
+) -> tuple[str, float, Assessed] | None:
+    """Of the arms that are not 0 by structure the one with the best median over the reached poses."""
+    medians = []
+    for name, a, _ in named:
+        d = a.optimised if optimised else a.plain
+        if d is not None and d.reached and name not in over:
+            medians.append((name, float(d.quantile(0.5)), a))
+    choose = max if named[0][1].plan.index.better == "larger" else min
+    return choose(medians, key=lambda entry: entry[1]) if medians else None
 
 
 def place(labels: Mapping[str, Any], among: Sequence[Mapping[str, Any]]) -> str:

@@ -29,6 +29,7 @@ from holdfast import reading
 from holdfast.errors import HoldfastError, InputError
 from holdfast.study import Cell
 from holdfast.study.folder import MOST_CHUNKS, MOST_ROWS, too_many
+from holdfast.written import ArmSpec
 from holdfast.yaml_file import Number, Strict, content, parse, sentence
 
 if TYPE_CHECKING:
@@ -56,12 +57,15 @@ class _ArmFile(Strict):
     file: str
     base: str | None = None
     tip: str | None = None
+    hold: dict[str, Number] = Field(default_factory=dict)
+    name: str | None = None
 
 
 class _Designs(Strict):
     arm: str
     base: str | None = None
     tip: str | None = None
+    hold: dict[str, Number] = Field(default_factory=dict)
     vary: Annotated[dict[str, str], Field(min_length=1), BeforeValidator(_bounds)]
     designs: _Count
     chunk: _Count = 64
@@ -226,10 +230,9 @@ def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
 
     if isinstance(given, str) and given in arms.names():
         return given, arms.load(given), given
-    file = given if isinstance(given, str) else given.file
-    more = (None, None) if isinstance(given, str) else (given.base, given.tip)
-    spec = str(folder / file) if Path(file).suffix else file
-    arm = arms.resolve(spec, *more)
+    entry = _ArmFile(file=given) if isinstance(given, str) else given
+    spec = str(folder / entry.file) if Path(entry.file).suffix else entry.file
+    arm = ArmSpec(spec, entry.base, entry.tip, entry.hold, entry.name).load()
     return spec, arm, arm.name
 
 
@@ -297,7 +300,8 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     for name in ("convergence", "workspace", "bank"):
         if getattr(model, name) is not None:
             raise InputError(f"arms: designs of '{given.arm}' cannot be swept in {name}; give that block in a file of its own")
-    whole = _ArmFile(file=given.arm, base=given.base, tip=given.tip) if given.base or given.tip else given.arm
+    chosen = given.base or given.tip or given.hold
+    whole = _ArmFile(file=given.arm, base=given.base, tip=given.tip, hold=given.hold) if chosen else given.arm
     spec, arm, label = _arm(whole, folder)
     texts = [f"{name}={bounds}" for name, bounds in given.vary.items()]
     space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))

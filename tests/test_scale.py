@@ -1,0 +1,178 @@
+"""An arm and its copies in other sizes, from 1 mm to 1 km and beyond, do the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.arm.scale import length_unit
+from holdfast.arm.task import as_task
+from holdfast.control import Damped, Pseudoinverse
+from holdfast.simulate import Outcome, simulate
+from holdfast.solve import solve_ik
+
+# A power of two rounds nothing: such a copy does the same to the last bit. The others are 1 mm and 1 km exactly.
+EXACT, ROUNDED = [2.0**-10, 2.0**10], [1e-3, 1e3]
+
+pytestmark = pytest.mark.interpreted
+
+
+def scaled(arm, size):
+    """A copy of an arm of turning joints."""
+
+    joints = tuple(replace(j, origin=resized(j.origin, size)) for j in arm.joints)
+    return hf.Arm(arm.name, joints, base=resized(arm.base, size), tool=resized(arm.tool, size))
+
+
+def resized(targets, size):
+    """Poses (..., 4, 4), or positions, for the copy."""
+    out = np.array(targets)
+    if out.shape[-2:] == (4, 4):
+        out[..., :3, 3] *= size
+        return out
+    return out * size
+
+
+@pytest.fixture(scope="module")
+def links():
+    return hf.arms.load("planar-3r")
+
+
+@pytest.fixture(scope="module")
+def bent(generator):
+    """Four turning joints in space, nothing aligned."""
+    return oracles.random_arm(generator("scaled arm"), types="CCCC")
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED, 1.0])
+def test_the_unit_is_a_power_of_two_near_the_arm_s_links_end_to_end(bent, size):
+    arm = scaled(bent, size)
+    whole = sum(np.linalg.norm(j.origin[:3, 3]) for j in arm.joints[1:]) + np.linalg.norm(arm.tool[:3, 3])
+    unit = length_unit(arm)
+    assert np.log2(unit) == np.round(np.log2(unit))
+    assert 2**-0.5 <= unit / whole <= 2**0.5
+    assert length_unit(hf.Arm("point", (hf.Joint("a", "continuous", np.eye(4), [0, 0, 1]),))) == 1.0
+
+
+def cases(rng, arm, task, count):
+    q0 = rng.uniform(-np.pi, np.pi, (count, arm.n))
+    target = arm.forward_kinematics(rng.uniform(-np.pi, np.pi, (count, arm.n)))
+    return q0, target, rng.integers(0, arm.n, count)
+
+
+@pytest.mark.parametrize("task", ["position", "pose"])
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
+def test_motions(bent, generator, task, size):
+    arm = bent if task == "position" else oracles.random_arm(generator("scaled seven"), types="C" * 7)
+    q0, target, locked = cases(generator(f"scaled {task}"), arm, task, 12)
+    own, other = (
+        simulate(Pseudoinverse(a, task), q0, resized(target, s), locked, time_limit=60.0)
+        for a, s in ((arm, 1.0), (scaled(arm, size), size))
+    )
+    assert (own.code == Outcome.CONVERGED).any()
+    np.testing.assert_array_equal(own.code, other.code)
+    np.testing.assert_array_equal(own.reason, other.reason)
+    if size in EXACT:
+        np.testing.assert_array_equal(own.q_final, other.q_final)
+        np.testing.assert_array_equal(own.time, other.time)
+        np.testing.assert_array_equal(own.path_length * size, other.path_length)
+        np.testing.assert_array_equal(own.x_final, resized(other.x_final, 1 / size))
+    rest = own.code <= Outcome.STUCK
+    np.testing.assert_allclose(own.x_final[rest], resized(other.x_final[rest], 1 / size), atol=1e-6)
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED, 1e-6, 1e6])
+def test_runs_that_converge_are_not_called_stuck(links, rng, size):
+    """The failed arm is a planar 2R whose target is in its ring: it converges but for sinks, which this target has none of."""
+    q0 = np.column_stack([rng.uniform(-np.pi, np.pi, 30), np.full(30, np.pi / 4), rng.uniform(-np.pi, np.pi, 30)])
+    for law in (Pseudoinverse(scaled(links, size), "planar"), Damped(scaled(links, size), 0.05, planar(links, size))):
+        runs = simulate(law, q0, [1.5 * size, 1.5 * size], locked=[1])
+        assert list(runs.outcome) == ["converged"] * 30
+
+
+def planar(arm, size):
+    """Damping is in the unit of the Jacobian: it scales with the characteristic length."""
+    return as_task(arm, "planar", length=size)
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
+def test_cycles_and_the_least_error(links, rng, size):
+    q0, x = rng.uniform(-2, 2, (6, 3)), rng.uniform(-4, 4, (6, 2))
+    own, other = (
+        simulate(Pseudoinverse(scaled(links, s), "planar", speed_limit=0.05 * s), q0, x * s, [0], cycles=True, radius=0.1 * s)
+        for s in (1.0, size)
+    )
+    np.testing.assert_array_equal(own.code, other.code)
+    # When it counts as standing still depends on the unit, and with it, by a cycle or two, on how much that was rounded.
+    np.testing.assert_allclose(own.time, other.time, atol=0 if size in EXACT else 2)
+    # An upper bound, which a search that creeps along a stretched arm may leave a little too high.
+    np.testing.assert_allclose(own.least_error(), other.least_error() / size, atol=0 if size in EXACT else 0.02)
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED, 1e-6, 1e6])
+def test_points_of_rest_are_the_published_ones(links, size):
+    """The table of the planar arm with unit links, target (1.5, 1.5), joint 2 locked at 100 and at 140 degrees."""
+    law = Pseudoinverse(scaled(links, size), "planar")
+    points = hf.stationary(law, [1.5 * size, 1.5 * size], locked=1, at=np.deg2rad(100.0))
+    assert sorted(points.kinds) == ["saddle", "saddle", "saddle", "solution", "solution", "source"]
+    source = points.q[[k == "source" for k in points.kinds]]
+    np.testing.assert_allclose(np.rad2deg(source), [[-42.4502, 100, -50]], atol=1e-3)
+    points = hf.stationary(law, [1.5 * size, 1.5 * size], locked=1, at=np.deg2rad(140.0))
+    sink = [k == "sink" for k in points.kinds]
+    np.testing.assert_allclose(np.rad2deg(points.q[sink]), [[-10.5639, 140, -70]], atol=1e-3)
+    np.testing.assert_allclose(points.eigenvalues[sink], [[-0.12823, -1.63856]], atol=1e-4)
+    assert points.error[sink] / size == pytest.approx(error_at(points.q[sink][0]), rel=1e-9)
+
+
+def error_at(q):
+    s = np.cumsum(q)
+    return np.hypot(np.cos(s).sum() - 1.5, np.sin(s).sum() - 1.5)
+
+
+@pytest.mark.parametrize("size", EXACT)
+@pytest.mark.parametrize("damping", [0.0, 0.3])
+def test_copies_have_the_same_points_of_rest(links, size, damping):
+    def points(s):
+        task = planar(links, s)
+        law = Damped(scaled(links, s), damping, task) if damping else Pseudoinverse(scaled(links, s), task)
+        return hf.stationary(law, [0.9 * s, 0.0], locked=2, at=2.0)
+
+    own, other = points(1.0), points(size)
+    assert len(own)
+    assert own.kinds == other.kinds
+    np.testing.assert_allclose(own.q, other.q, atol=1e-9)
+    np.testing.assert_allclose(own.error * size, other.error, rtol=1e-9, atol=1e-12 * size)
+
+
+@pytest.mark.parametrize("size", [*ROUNDED, 1e-6, 1e6])
+def test_joint_bounds_are_the_closed_form(links, size):
+    bounds = hf.joint_bounds(scaled(links, size), [1.5 * size, 1.5 * size], "planar", seed=3)
+    r = np.hypot(1.5, 1.5)
+    half, bend = np.arccos((r * r - 3) / (2 * r)), 2 * np.arccos((r - 1) / 2)
+    np.testing.assert_allclose(bounds[0], [(np.pi / 4 - half, np.pi / 4 + half)], atol=1e-8)
+    np.testing.assert_allclose(bounds[1:], [[(-bend, bend)]] * 2, atol=1e-8)
+
+
+@pytest.mark.parametrize("size", [*ROUNDED, 1e6])
+def test_workspace(links, size):
+    def measures(s):
+        law = Pseudoinverse(scaled(links, s), "planar")
+        return hf.workspace(law, [1.5 * s, 1.5 * s], np.array([[2.0, -1.4], [1.0, 1.0]]) * s, configurations=8, points=2)
+
+    own, other = measures(1.0), measures(size)
+    for mine, others in zip(own.measures.values(), other.measures.values(), strict=True):
+        np.testing.assert_allclose(mine, others, atol=1e-6)
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
+def test_inverse_kinematics(bent, rng, size):
+    poses = bent.forward_kinematics(rng.uniform(-np.pi, np.pi, (20, 4)))
+    found = solve_ik(scaled(bent, size), resized(poses, size), task="position")
+    assert found.success.all()
+    tip = oracles.forward(scaled(bent, size), found.q)[:, :3, 3]
+    # What is asked for is metres; a small arm is as much nearer.
+    assert (np.linalg.norm(tip - size * poses[:, :3, 3], axis=1) <= 1e-6 * min(2 * size, 1)).all()
