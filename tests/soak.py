@@ -8,10 +8,12 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_FUZZ       malformed messages, 100000, read, and once more over the network
     HOLDFAST_OUTAGE     seconds without network in mid-trial, in a browser, 30
     HOLDFAST_KILLS      of a program that writes records, 40
+    HOLDFAST_INPUTS     mutated input files of every kind, 40000
     HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
 The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
-a message changed anything, or the 99th percentile of the acknowledgements is above 50 ms.
+a message changed anything, an input file ended in anything but a value or a sentence, or the 99th percentile of the
+acknowledgements is above 50 ms.
 """
 
 from __future__ import annotations
@@ -28,6 +30,8 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "teleop" / "serve"))
 
 from load import Figures, load  # noqa: E402
+
+import fuzz_inputs  # noqa: E402
 
 MOST = 50.0  # ms
 FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server.py")
@@ -57,6 +61,7 @@ def main() -> int:
     fuzzed, fuzz_s = _tests(FUZZED, "malformed", "HOLDFAST_FUZZ", fuzz)
     kept, outage_s = _tests(OUTAGE, "network", "HOLDFAST_OUTAGE", outage)
     survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
+    inputs = fuzz_inputs.fuzz(int(option("INPUTS", "40000")), fuzz_inputs.SEED, os.cpu_count() or 1)
     compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
     begin, middle, end = figures.memory
@@ -71,13 +76,17 @@ def main() -> int:
         (f"{fuzz} malformed messages, twice", f"{'all refused, nothing changed' if fuzzed else 'FAILED'} ({fuzz_s:.0f} s)"),
         (f"{outage} s without network in mid-trial", f"{'nothing lost' if kept else 'FAILED'} ({outage_s:.0f} s)"),
         (f"{kills} times killed", f"{'nothing lost' if survived else 'FAILED'} ({kills_s:.0f} s)"),
+        (
+            f"{inputs.counts.total()} mutated input files",
+            f"{len(inputs.failed)} failed, the longest took {inputs.slowest:.1f} s",
+        ),
         ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
     for name, value in rows:
         print(f"  {name:<50} {value}")
     lost = figures.lost != 0 or figures.differing != 0
-    return int(lost or not (fuzzed and kept and survived and compiled) or figures.p99 > MOST)
+    return int(lost or bool(inputs.failed) or not (fuzzed and kept and survived and compiled) or figures.p99 > MOST)
 
 
 if __name__ == "__main__":
