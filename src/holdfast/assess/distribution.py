@@ -412,6 +412,7 @@ class Collector:
         last = len(self._counts) - 1
         if self._bound is not None:  # even bins need no search
             place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
+            place[values >= self._bound] = last  # where many values sit: the product may round to just below
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
         self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)

@@ -46,8 +46,8 @@ class Compiled:
 
     def __call__(self, inputs: Array, outputs: Array) -> None:
         """Evaluate columns of contiguous ``inputs (n_in, W)`` into ``outputs (n_out, W)``; W a multiple of the lanes."""
-        width = inputs.shape[1]
-        self._code.call(inputs.ctypes.data, outputs.ctypes.data, width, width)
+        width, code = inputs.shape[1], self._code  # it may be replaced meanwhile, and lives as long as somebody has it
+        code.call(inputs.ctypes.data, outputs.ctypes.data, width, width)
         if not self.level:
             self._count(width)
 

@@ -54,7 +54,8 @@ class Optimum:
         start_value: (N,) of the first configuration that inverse kinematics found: the non-optimised sample.
         start_q: (N, n) that configuration, or the nearest miss.
         status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (nothing better than a singular configuration), ``INFEASIBLE`` (every
-            configuration found runs the arm through itself) or ``BAD_INPUT``.
+            configuration found runs the arm through itself), ``UNDEFINED`` (a formula of the user's own has no value at any
+            configuration found) or ``BAD_INPUT``.
         position_error: (N,) m.
         rotation_error: (N,) rad.
         starts: (N,) starts from which a configuration of the pose was found.
@@ -255,12 +256,14 @@ class Ascent:
 
             def choose(owner: NDArray[np.int64], q: Array, value: Array, chosen: NDArray[np.int64]) -> None:
                 top = best_of_each(owner, value, 1)
-                top = top[value[top] > best[owner[top]]]
+                # A formula of the user's own may have no value at the first configuration: any other is better.
+                top = top[(value[top] > -np.inf) & ~(value[top] <= best[owner[top]])]
                 best_q[owner[top]], best[owner[top]] = q[top], value[top]
                 start = sign * start_value
-                gain = np.subtract(best, start, out=np.zeros(count), where=best != start)  # both may be infinite
-                scale = np.maximum(np.abs(best), np.abs(gain))
-                close = value >= best[owner] - 1e-3 * scale[owner]
+                # Either may be infinite, at a singular configuration or by a formula of the user's own.
+                gain = np.subtract(best, start, out=np.zeros(count), where=np.isfinite(best) & np.isfinite(start))
+                scale = np.where(np.isfinite(best), np.maximum(np.abs(best), np.abs(gain)), 0.0)
+                close = (value >= best[owner] - 1e-3 * scale[owner]) & (value > -np.inf)
                 agreeing[chosen] = np.bincount(owner, close, count)[chosen] / np.maximum(
                     np.bincount(owner, minlength=count)[chosen], 1
                 )
@@ -279,7 +282,9 @@ class Ascent:
                     status[again[best[again] == -np.inf]] = Status.INFEASIBLE
                     best[best == -np.inf] = np.nan
             kept = reached[status[reached] != Status.INFEASIBLE]
-            status[kept[self.objective.statuses(best_q[kept]) == Status.SINGULAR]] = Status.SINGULAR
+            found_there = self.objective.statuses(best_q[kept])
+            for code in (Status.SINGULAR, Status.UNDEFINED):
+                status[kept[found_there == code]] = code
         position_error, rotation_error = engine.errors(best_q, poses)
         return Optimum(
             best_q, sign * best, start_value, first.q, status, position_error, rotation_error, found, agreeing, blocked
