@@ -141,11 +141,11 @@ def test_compiled_pose_law_does_what_the_virtual_machine_does(seven, rng):
     here = hf.control.failure_tolerant(there.arm, "pose")
     q, v = samples(there, rng, 1000)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("HOLDFAST_BACKEND", "heyoka")
+        patch.setenv("HOLDFAST_BACKEND", "llvm")
         rates = here.velocity(q, v)
         patch.setenv("HOLDFAST_BACKEND", "casadi")
         peak = here.peak_velocity_error(q, v)
-    assert here._velocity_kernel.backend == "heyoka"
+    assert here._velocity_kernel.backend == "llvm"
     expected = there.velocity(q, v)
     off = np.abs(rates - expected).max(axis=1) / np.abs(expected).max(axis=1)
     # Sines differ in the last digit, and where PKE is flat a damping by the square root of that.
@@ -191,7 +191,7 @@ def test_what_is_guaranteed(planar, seven, rng, task):
 def test_one_call_gives_the_bits_of_the_batch(planar, rng):
     q, v = samples(planar, rng, 100)
     rates, damping, errors = planar.velocity(q, v), planar.damping(q, v), planar.velocity_errors(q, v)
-    assert planar._velocity_kernel.backend == "heyoka"
+    assert planar._velocity_kernel.backend == "llvm"
     for k in range(0, 100, 9):
         np.testing.assert_array_equal(planar.velocity(q[k], v[k]), rates[k])
         np.testing.assert_array_equal(planar.step(q[k], v[k]), rates[k])

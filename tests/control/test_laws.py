@@ -59,7 +59,7 @@ def cases(mixed5, generator):
     scale = np.array([1 / LENGTH, 1])
     j = oracles.task_jacobian(mixed5, q, ["vx", "wy"], "tool", LENGTH)
     patch = pytest.MonkeyPatch()
-    patch.setenv("HOLDFAST_BACKEND", "casadi")  # nothing to compile; with heyoka in test_failure_tolerant
+    patch.setenv("HOLDFAST_BACKEND", "casadi")  # nothing to compile; compiled in test_failure_tolerant
     yield laws_of(mixed5, task, rng), q, v, j, v * scale
     patch.undo()
 

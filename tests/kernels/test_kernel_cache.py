@@ -9,9 +9,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from holdfast.kernels import Kernel, cache, heyoka_backend
-
-pytest.importorskip("heyoka")
+from holdfast.kernels import Kernel, cache, llvm_backend
 
 
 @pytest.fixture
@@ -24,19 +22,19 @@ def folder(tmp_path, monkeypatch):
 def compilations(monkeypatch):
     """Names of the kernels compiled during the test."""
     names: list[str] = []
-    compile_program = heyoka_backend.compile_program
+    compile_program = llvm_backend.compile_program
 
-    def counting(program):
+    def counting(program, *level):
         names.append(program.name)
-        return compile_program(program)
+        return compile_program(program, *level)
 
-    monkeypatch.setattr(heyoka_backend, "compile_program", counting)
+    monkeypatch.setattr(llvm_backend, "compile_program", counting)
     return names
 
 
 def build(constant=3.0, name="cached"):
     x = ca.SX.sym("x", 2)
-    return Kernel(name, [x], [ca.sin(x) * constant + x[0] * x[1]], "heyoka")
+    return Kernel(name, [x], [ca.sin(x) * constant + x[0] * x[1]], "llvm")
 
 
 def files(folder):
@@ -50,10 +48,10 @@ def test_the_second_build_loads_and_computes_the_same_bits(folder, compilations,
     first = build()(X)
     assert len(files(folder)) == 1
 
-    def never(program):
+    def never(program, *level):
         raise AssertionError("compiled again")
 
-    monkeypatch.setattr(heyoka_backend, "compile_program", never)
+    monkeypatch.setattr(llvm_backend, "compile_program", never)
     np.testing.assert_array_equal(build(name="another name, the same computation")(X), first)
     assert compilations == ["cached"]
 
@@ -154,3 +152,62 @@ def test_keys_name_the_width_and_the_machine(monkeypatch):
     before = cache.key("a", 8)
     monkeypatch.setattr(cache, "_machine", lambda: "another processor")
     assert cache.key("a", 8) != before
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
+def test_a_pipe_or_a_link_in_place_of_a_file_is_not_read(folder, compilations, tmp_path):
+    first = build()(X)
+    (file,) = files(folder)
+    elsewhere = tmp_path / "elsewhere"
+    file.rename(elsewhere)
+    os.mkfifo(file)
+    np.testing.assert_array_equal(build()(X), first)  # nor waited for
+    file.unlink()
+    file.symlink_to(elsewhere)
+    np.testing.assert_array_equal(build()(X), first)
+    assert len(compilations) == 3
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="no owners here")
+def test_what_others_may_write_is_not_read(folder, compilations):
+    build()
+    (file,) = files(folder)
+    file.chmod(0o622)
+    build()
+    assert len(compilations) == 2
+    folder.chmod(0o777)
+    assert cache.folder() is None
+    build()
+    assert len(compilations) == 3
+
+
+def test_nothing_in_a_file_is_executed_but_a_kernel_of_this_machine(folder, compilations):
+    """A stored kernel is bytes behind a checksum; its name is bound to processor, versions and translation."""
+    build()
+    (file,) = files(folder)
+    assert file.read_bytes().startswith(b"holdfast kernel 1\n")
+    assert file.name == cache.key(build().program.digest, 1, llvm_backend.host().machine.lanes)
+
+
+def test_the_folder_has_a_bound(folder, monkeypatch):
+    """What was not used for longest goes; reading a kernel counts as using it."""
+    made = []
+    for k in range(3):
+        build(k + 1.5)
+        (new,) = (p for p in files(folder) if p not in made)
+        made.append(new)
+        os.utime(new, (k + 1, k + 1))
+    build(1.5)  # used again
+    monkeypatch.setattr(cache, "_LARGEST_FOLDER", int(3.5 * made[0].stat().st_size))
+    build(4.5)
+    kept = files(folder)
+    assert len(kept) == 3
+    assert made[0] in kept
+    assert made[1] not in kept
+
+
+def test_a_home_that_is_not_there(monkeypatch, compilations):
+    monkeypatch.delenv("HOLDFAST_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", "/proc/nowhere")
+    build()
+    assert cache.folder() is None

@@ -143,7 +143,7 @@ def test_a_residual_of_the_next_state_saves_a_step(loop, most, rng):
     s, p = ca.SX.sym("s", 2), ca.SX.sym("p", 2)
     after = ca.vertcat((s[0] + p[0] / s[0]) / 2, s[1] + p[1])
     ahead = Loop("ahead", s, [p], after, ca.fabs(after[0] ** 2 - p[0]) / p[0], loop._step.backend, ahead=True)
-    state, parameters = draw(rng, 9000 if loop._step.backend == "heyoka" else 900)
+    state, parameters = draw(rng, 9000 if loop._step.backend == "llvm" else 900)
     first, second = loop.run(state, parameters, TOLERANCE, most), ahead.run(state, parameters, TOLERANCE, most)
     needed = first.steps > 0  # the other one looks before it steps
     np.testing.assert_array_equal(second.steps[needed], first.steps[needed])

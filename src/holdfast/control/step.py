@@ -19,8 +19,8 @@ class Step:
     """
 
     def __init__(self, kernel: Kernel, n: int) -> None:
-        self._call, self._n = kernel.single(), n
-        self._in = np.zeros(kernel.program.n_in)
+        single = kernel.single()
+        self._run, self._in, self._n = single.run, single.inputs, n
         self._out = np.full(kernel.program.n_out, np.nan)
         # Memory views are filled in half the time that NumPy's slices take.
         self._q: Any = self._in.data[:n]
@@ -33,7 +33,7 @@ class Step:
             self._velocity[:] = velocity
         except (TypeError, ValueError):  # whole numbers, or lists
             self._in[: self._n], self._in[self._n :] = q, velocity
-        self._out = out = self._call(self._in)
+        self._out = out = self._run()
         return out[: self._n]
 
     @property

@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.scale import length_unit
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
-from holdfast.converge.backend import suitable
-from holdfast.kernels import Kernel, Loop
+from holdfast.kernels import Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
 
@@ -76,15 +75,18 @@ class RestEquations:
         self._slopes = ca.jacobian(self._equations, self._z)
 
     @cached_property
+    @recalled
     def _kernel(self) -> Kernel:
         inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
-        return Kernel("rest", inputs, outputs, suitable(inputs, outputs))
+        return Kernel("rest", inputs, outputs)
 
     @cached_property
+    @recalled
     def _pulls(self) -> Kernel:
         return Kernel("pull of rest", [self._z, *self.system.parameters], [self._pull])
 
     @cached_property
+    @recalled
     def _search(self) -> Loop:
         """Levenberg and Marquardt: a step is kept if it lowers the norm."""
         free, damping = ca.SX.sym("free", self.size), ca.SX.sym("damping")
@@ -96,8 +98,7 @@ class RestEquations:
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
         parameters = [*self.system.parameters, free]
-        backend = suitable([state, *parameters], [after])
-        return Loop("rest points", state, parameters, after, residual, backend)
+        return Loop("rest points", state, parameters, after, residual)
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
-from holdfast.converge.backend import suitable
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.motion import System
 
 Array = NDArray[np.float64]
@@ -67,6 +66,7 @@ class Linearisation:
         self.law, self._system = law, System(law)
 
     @cached_property
+    @recalled
     def _rates(self) -> Kernel:
         s = self._system
         e, _ = s.error(s.q)
@@ -74,12 +74,13 @@ class Linearisation:
         return Kernel("rest rates", [s.q, s.target, s.rotation], [ca.vertcat(self.law.rates(s.q, e), *sizes)])
 
     @cached_property
+    @recalled
     def _slopes(self) -> Kernel:
         s = self._system
         e, j = s.error(s.q)
         inputs = [s.q, s.target, s.rotation]
         outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(s.scaled_error(s.q)[0])]
-        return Kernel("linearisation", inputs, outputs, suitable(inputs, outputs))
+        return Kernel("linearisation", inputs, outputs)
 
     def rates(self, q: Array, pose: Array) -> tuple[Array, Array, Array]:
         """Commanded rates (N, n) of all joints at q (N, n), errors (N,), m and rad, and (N,) with lengths scaled."""

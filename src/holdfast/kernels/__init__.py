@@ -1,8 +1,10 @@
-"""Expression graph to batched function. The only package that knows heyoka and the CasADi virtual machine; knows no robots."""
+"""Expression graph to batched function. The only package that knows LLVM and the CasADi virtual machine; knows no robots."""
 
-from holdfast.kernels.kernel import BACKENDS, Kernel, default_backend
+from holdfast.kernels.compiled import settle
+from holdfast.kernels.kernel import BACKENDS, Kernel, Single, default_backend
 from holdfast.kernels.loop import Loop, LoopResult
 from holdfast.kernels.program import SX, Program
+from holdfast.kernels.recalled import recalled
 from holdfast.kernels.threads import in_pool, pool, set_threads, thread_count
 
 __all__ = [
@@ -12,9 +14,12 @@ __all__ = [
     "Loop",
     "LoopResult",
     "Program",
+    "Single",
     "default_backend",
     "in_pool",
     "pool",
+    "recalled",
     "set_threads",
+    "settle",
     "thread_count",
 ]

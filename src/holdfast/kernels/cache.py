@@ -1,85 +1,107 @@
-"""Compiled kernels on disk, so that the second start of a program does not compile again.
+"""Object code on disk, so that the second start of a program does not compile again.
 
-A kernel pickles with its machine code. The folder belongs to the user alone and is never exchanged: entries are
-bound to the expression, the versions and the processor, and carry a checksum; a damaged one is compiled anew.
-``HOLDFAST_CACHE`` names another folder, or switches the cache off when it is ``off``.
+A file is: a line that names the format, the SHA-256 of everything that follows, and the object code. Its name is the key: the
+program, the level, the processor, the text of the translation. The folder belongs to the user alone: a folder or file that
+somebody else owns or may write is not read, nor is anything that is no regular file. Above 1 GiB what was not used for
+longest goes. ``HOLDFAST_CACHE`` names another folder, or switches the cache off when it is ``off``.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
-import pickle
-import platform
-import sys
+import stat
 import tempfile
 from functools import lru_cache
-from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
-_TRANSLATION = ("heyoka_backend.py", "trigonometry.py")  # a kernel made by other code is another kernel
+from holdfast.kernels import llvm_backend
+
+_MAGIC = b"holdfast kernel 1\n"
+_LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
+_TRANSLATION = ("llvm_ir.py", "llvm_backend.py", "trigonometry.py")  # a kernel made by other code is another kernel
 
 
 def folder() -> Path | None:
-    """The cache folder, created private to the user, or None if the cache is off or the folder is not ours."""
+    """The cache folder, created private to the user, or None if the cache is off or the folder is not ours alone."""
     setting = os.environ.get("HOLDFAST_CACHE")
     if setting == "off":
         return None
-    base = Path(setting) if setting else Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "holdfast"
-    path = base / "kernels"
     try:
+        base = Path(setting) if setting else Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "holdfast"
+        path = base / "kernels"
         path.mkdir(parents=True, exist_ok=True, mode=0o700)
-        if hasattr(os, "getuid") and path.stat().st_uid != os.getuid():
-            return None
-    except OSError:
+        return path if _ours(path.stat()) else None
+    except (OSError, RuntimeError):  # no home at all
         return None
-    return path
+
+
+def _ours(found: os.stat_result) -> bool:
+    """True if nobody else may write it."""
+    return not hasattr(os, "getuid") or (found.st_uid == os.getuid() and not found.st_mode & 0o022)
 
 
 @lru_cache(maxsize=1)
 def _machine() -> str:
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-        cpu = next((x for x in lines if x.startswith("model name")), "") + next((x for x in lines if x.startswith("flags")), "")
-    except OSError:
-        cpu = platform.processor() + platform.machine()
+    here = llvm_backend.host()
     code = hashlib.sha256(b"".join(Path(__file__).with_name(name).read_bytes() for name in _TRANSLATION)).hexdigest()
-    return "|".join([code, version("heyoka"), sys.version, platform.platform(), cpu])
+    return "|".join([code, llvm_backend.version(), here.cpu, here.features, repr(here.machine)])
 
 
-def key(digest: str, lanes: int) -> str:
-    """File name of a kernel: expression, versions, processor and width."""
-    return hashlib.sha256(f"{digest}|{lanes}|{_machine()}".encode()).hexdigest()
+def key(digest: str, *what: object) -> str:
+    """File name of a program's code, or of anything else that depends on the machine and the translation."""
+    return hashlib.sha256("|".join([digest, *map(str, what), _machine()]).encode()).hexdigest()
 
 
-def load(name: str) -> Any | None:
-    """The stored kernel, or None if there is none or it is damaged."""
+def load(name: str) -> bytes | None:
+    """What was stored, or None if it is not there, damaged, or not ours alone."""
     path = folder()
     if path is None:
         return None
     try:
-        data = (path / name).read_bytes()
-        if hashlib.sha256(data[32:]).digest() != data[:32]:
-            return None
-        return pickle.loads(data[32:])
-    except (OSError, pickle.UnpicklingError, AttributeError, ImportError, EOFError):
+        # A pipe would wait for ever; a link may lead anywhere.
+        handle = os.open(path / name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0))
+    except OSError:
         return None
+    with os.fdopen(handle, "rb") as file:
+        try:
+            found = os.fstat(handle)
+            if not stat.S_ISREG(found.st_mode) or not _ours(found) or found.st_size > _LARGEST_FILE:
+                return None
+            data = file.read()
+        except OSError:
+            return None
+    head = len(_MAGIC) + 32
+    if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(data[head:]).digest() != data[len(_MAGIC) : head]:
+        return None
+    with contextlib.suppress(OSError):
+        os.utime(path / name)
+    return data[head:]
 
 
-def store(name: str, compiled: Any) -> None:
-    """Write atomically; a full disk or a read-only home only costs the next start some time."""
+def store(name: str, body: bytes) -> None:
+    """Write whole or not at all; a full disk or a read-only home only costs the next start some time."""
     path = folder()
     if path is None:
         return
-    body = pickle.dumps(compiled)
-    try:
-        handle, temporary = tempfile.mkstemp(dir=path, prefix=".new-")
+    with contextlib.suppress(OSError):
+        handle, temporary = tempfile.mkstemp(dir=path, prefix=".new-")  # mode 600
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(hashlib.sha256(body).digest() + body)
+                file.write(_MAGIC + hashlib.sha256(body).digest() + body)
             Path(temporary).replace(path / name)
         except OSError:
             Path(temporary).unlink()
-    except OSError:
-        return
+        _trim(path)
+
+
+def _trim(path: Path) -> None:
+    """Remove what was not used for longest until the folder is small enough."""
+    files = [(f.stat(follow_symlinks=False), f.path) for f in os.scandir(path)]
+    size = sum(found.st_size for found, _ in files)
+    for found, name in sorted(files, key=lambda f: f[0].st_mtime):
+        if size <= _LARGEST_FOLDER:
+            return
+        Path(name).unlink(missing_ok=True)
+        size -= found.st_size

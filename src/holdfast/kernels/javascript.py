@@ -66,7 +66,7 @@ _FORMS = {
     ca.OP_SQ: _Form("{0}*{0}", _PRODUCT, (_UNARY,)),
     ca.OP_TWICE: _Form("2*{0}", _PRODUCT, (_UNARY,)),
     ca.OP_INV: _Form("1/{0}", _PRODUCT, (_UNARY,)),
-    # As heyoka has them: a comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
+    # As compiled code has them: a comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
     ca.OP_LT: _Form("{0}<{1}", _LESS, (_SUM, _SUM), truth=True),
     ca.OP_LE: _Form("{0}<={1}", _LESS, (_SUM, _SUM), truth=True),
     ca.OP_EQ: _Form("{0}==={1}", _EQUAL, (_LESS, _LESS), truth=True),

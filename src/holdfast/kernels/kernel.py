@@ -5,40 +5,30 @@ from __future__ import annotations
 import math
 import os
 import threading
-import warnings
-from collections.abc import Callable, Sequence
-from functools import cache as cache_once
-from typing import Any, cast
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError, KernelError
-from holdfast.kernels import cache, casadi_backend, heyoka_backend
+from holdfast.kernels import casadi_backend, llvm_backend
+from holdfast.kernels.compiled import Compiled
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import in_pool, pool, thread_count
 
 Array = NDArray[np.float64]
 
 _SCRATCH_BYTES = 1 << 20  # inputs and outputs of one chunk stay in the second-level cache
-BACKENDS = ("heyoka", "casadi")
+BACKENDS = ("llvm", "casadi")
 
 
 def default_backend() -> str:
-    """``HOLDFAST_BACKEND`` if set, else heyoka where it is installed, else the CasADi virtual machine."""
-    name = os.environ.get("HOLDFAST_BACKEND")
-    if not name:
-        name = "heyoka" if heyoka_backend.available() else "casadi"
-        if name == "casadi":
-            _say_slow()
+    """``HOLDFAST_BACKEND`` if set, else ``llvm``."""
+    name = os.environ.get("HOLDFAST_BACKEND") or "llvm"
     if name not in BACKENDS:
         raise KernelError(f"backend '{name}' is not known; use one of {', '.join(BACKENDS)}")
     return name
-
-
-@cache_once
-def _say_slow() -> None:
-    warnings.warn("heyoka is not installed: kernels run on the CasADi virtual machine, about 50 times slower", stacklevel=3)
 
 
 class Kernel:
@@ -55,7 +45,7 @@ class Kernel:
         name: For messages.
         inputs: CasADi ``SX`` symbols.
         outputs: CasADi ``SX`` expressions of them.
-        backend: ``"heyoka"`` (LLVM, SIMD, threads) or ``"casadi"`` (virtual machine); None: the default.
+        backend: ``"llvm"`` (machine code, SIMD, threads) or ``"casadi"`` (virtual machine); None: the default.
 
     Attributes:
         lanes: Rows handled at once.
@@ -65,28 +55,31 @@ class Kernel:
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], backend: str | None = None) -> None:
-        self.program = Program(name, inputs, outputs)
-        self.name = name
-        self.backend = backend or default_backend()
+        self._take(Program(name, inputs, outputs), backend or default_backend())
+
+    @classmethod
+    def of(cls, program: Program) -> Kernel:
+        """The kernel of a program, on the default backend."""
+        kernel = cls.__new__(cls)
+        kernel._take(program, default_backend())
+        return kernel
+
+    def _take(self, program: Program, backend: str) -> None:
+        self.program, self.name, self.backend = program, program.name, backend
         if self.backend not in BACKENDS:
             raise KernelError(f"backend '{self.backend}' is not known; use one of {', '.join(BACKENDS)}")
-        self.lanes = heyoka_backend.simd_lanes() if self.backend == "heyoka" else 1
+        self.lanes = llvm_backend.host().machine.lanes if self.backend == "llvm" else 1
         rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
         self._chunk = max(self.lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
-        self._compiled = self._compile()
+        self._compiled = Compiled(self.program) if self.backend == "llvm" else None
         self._scratch = threading.local()
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
 
-    def _compile(self) -> Any:
-        if self.backend == "casadi":
-            return casadi_backend.compile_program(self.program)
-        name = cache.key(self.program.digest, self.lanes)
-        compiled = cache.load(name)
-        if compiled is None:
-            compiled = heyoka_backend.compile_program(self.program)
-            cache.store(name, compiled)
-        return compiled
+    @property
+    def made_of(self) -> str | None:
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
+        return self.program.recipe
 
     def __call__(self, *inputs: ArrayLike) -> Any:
         """Evaluate.
@@ -161,30 +154,24 @@ class Kernel:
         Args:
             inputs: (n_in, W) contiguous, W a multiple of ``lanes``.
             outputs: (n_out, W) contiguous, overwritten.
+
+        Raises:
+            KernelError: Arrays of another shape, type or layout.
         """
-        if self.backend == "heyoka":
-            heyoka_backend.call(self._compiled, inputs, outputs)
-        else:
-            casadi_backend.call(self._compiled, inputs, outputs)
+        if self._compiled is None:
+            casadi_backend.call(self.program.function, inputs, outputs)
+            return
+        for a, rows in ((inputs, self.program.n_in), (outputs, self.program.n_out)):
+            if a.dtype.char != "d" or not a.flags.c_contiguous or a.shape != (rows, inputs.shape[1]) or a.shape[1] % self.lanes:
+                raise KernelError(
+                    f"kernel '{self.name}': columns have shape {a.shape} and type {a.dtype}; they must be contiguous doubles "
+                    f"of shape ({rows}, W), W a multiple of {self.lanes}"
+                )
+        self._compiled(inputs, outputs)
 
-    def single(self) -> Callable[[Array], Array]:
-        """A function of one contiguous row, (n_in,) to a new (n_out,), as quick as it can be: for loops that control.
-
-        Without any checks, and not for several threads at once. It gives the bits of :meth:`rows`. heyoka's code for one
-        row does the same arithmetic as that for many, and is taken where it also does the same functions.
-        """
-        compiled, n_in = self._compiled, self.program.n_in
-        if self.backend == "heyoka" and heyoka_backend.same_for_one_row(self.program):
-            return cast(Callable[[Array], Array], compiled)  # positional arguments: names cost 0.5 us a call
-        inputs, outputs = np.zeros((n_in, self.lanes)), np.zeros((self.program.n_out, self.lanes))
-        lane, result = inputs[:, 0], outputs[:, 0]
-
-        def one(row: Array) -> Array:
-            lane[:] = row
-            self.evaluate_columns(inputs, outputs)
-            return result.copy()
-
-        return one
+    def single(self) -> Single:
+        """The kernel for one row at a time, as quick as it can be: for loops that control."""
+        return Single(self)
 
     def _buffers(self, width: int) -> tuple[Array, Array]:
         made: dict[int, tuple[Array, Array]] | None = getattr(self._scratch, "made", None)
@@ -215,6 +202,35 @@ class Kernel:
     def __repr__(self) -> str:
         p = self.program
         return f"Kernel({self.name!r}, {p.n_in} -> {p.n_out}, {p.size} operations, {self.backend})"
+
+
+class Single:
+    """A kernel for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the bits of :meth:`Kernel.rows`.
+
+    Without any checks, and not for several threads at once. Everything is compiled when it is made.
+
+    Attributes:
+        inputs: (n_in,) numbers of the next call, for those who fill them themselves and call :meth:`run`.
+    """
+
+    def __init__(self, kernel: Kernel) -> None:
+        program, compiled = kernel.program, kernel._compiled
+        self.inputs, self._outputs = np.zeros(program.n_in), np.zeros(program.n_out)
+        self._kernel, self._given = kernel, (self.inputs.ctypes.data, self._outputs.ctypes.data, 1, 1)
+        self._call = None if compiled is None else compiled.one.call
+
+    def run(self) -> Array:
+        """The results (n_out,) of ``inputs``; a new array."""
+        if self._call is None:
+            casadi_backend.call(self._kernel.program.function, self.inputs[:, None], self._outputs[:, None])
+        else:
+            self._call(*self._given)
+        return self._outputs.copy()
+
+    def __call__(self, row: Array) -> Array:
+        """The results (n_out,) of a row (n_in,); a new array."""
+        self.inputs[:] = row
+        return self.run()
 
 
 def _squeeze(shape: tuple[int, int]) -> tuple[int, ...]:

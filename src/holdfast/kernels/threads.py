@@ -40,6 +40,16 @@ def in_pool() -> bool:
     return threading.current_thread().name.startswith(_PREFIX)
 
 
+def _after_fork() -> None:
+    """A child process has none of its parent's threads: a pool of its own is made when it is needed."""
+    global _pool, _lock
+    _pool, _lock = None, threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_after_fork)
+
+
 def pool() -> ThreadPoolExecutor:
     """The shared pool, made at first use."""
     global _pool

@@ -1,9 +1,9 @@
-"""Sine and cosine together, without branches, as heyoka expressions.
+"""Sine and cosine together, without branches, as LLVM instructions.
 
-heyoka's own functions call SLEEF, which switches to another method for a whole SIMD group when one lane is very large,
-infinite or NaN: the neighbours of such a row then differ in the last digit. These do the same operations in every lane,
-and give sine and cosine for little more than the price of one (measured: the worst-case index of the 9-joint PA10 gains
-15 to 20 %).
+A library's functions switch to another method for very large angles, and a vector library's do so for a whole group of rows
+when one of them is large, infinite or NaN: its neighbours then differ in the last digit. These do the same operations in
+every lane, and give sine and cosine for little more than the price of one (measured: the worst-case index of the 9-joint
+PA10 gains 15 to 20 %).
 
 Source: reduction by pi split in three parts (W. J. Cody, W. Waite 1980), polynomials of fdlibm (``k_sin.c``, ``k_cos.c``)
 at half the angle, then the formulas of the double angle. Largest absolute error 4.5e-16 for ``|x| <= 1e15`` (measured).
@@ -11,7 +11,10 @@ at half the angle, then the formulas of the double angle. Largest absolute error
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from holdfast.kernels.llvm_ir import Arithmetic
 
 # pi in three parts; the first two have zeros at their end, so that products with whole numbers are exact.
 _PI = (2 * 1.57079632673412561417e00, 2 * 6.07710050630396597660e-11, 2 * 2.02226624879595063154e-21)
@@ -35,34 +38,31 @@ _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and taking it away rounds to a
 _LARGEST = 1e15
 
 
-def sincos(x: Any, guard: Any) -> tuple[Any, Any]:
-    """Sine and cosine of ``x``; NaN beyond 1e15, where an angle in double precision means nothing.
+def sincos(e: Arithmetic, x: str) -> tuple[str, str]:
+    """Sine and cosine of ``x``, rad; NaN beyond 1e15, where an angle in double precision means nothing.
 
     Args:
-        x: heyoka expression, rad.
-        guard: heyoka expression that is 0, or NaN if any input is; it also keeps heyoka from folding the rounding away.
+        e: Where the instructions go.
+        x: Name of the angle.
     """
-    import heyoka as hy
+    x = e.select(e.less(e.mul(x, x), e.number(_LARGEST**2)), x, e.number(float("nan")))
+    shift = e.number(_ROUND)
+    turns = e.sub(e.fma(x, e.number(0.31830988618379067154), shift), shift)  # nearest whole number of x / pi
+    reduced = x
+    for part in _PI:
+        reduced = e.fma(turns, e.number(-part), reduced)
+    half = e.mul(e.number(0.5), reduced)
+    square = e.mul(half, half)
+    sine = e.fma(half, e.mul(square, _polynomial(e, _SINE, square)), half)
+    cosine = e.fma(e.mul(square, square), _polynomial(e, _COSINE, square), e.fma(e.number(-0.5), square, e.number(1.0)))
+    pairs = e.sub(e.fma(turns, e.number(0.5), shift), shift)
+    odd = e.fma(pairs, e.number(-2.0), turns)  # -1, 0 or 1
+    sign = e.fma(e.mul(odd, odd), e.number(-2.0), e.number(1.0))
+    return e.mul(sign, e.mul(e.add(sine, sine), cosine)), e.mul(sign, e.mul(e.sub(cosine, sine), e.add(cosine, sine)))
 
-    number = hy.expression
-    x = hy.select(hy.lt(x * x, number(_LARGEST**2)), x, number(float("nan")))
-    shift = number(_ROUND) + guard
-    turns = (x * number(0.31830988618379067154) + shift) - shift  # nearest whole number of x / pi
-    reduced = ((x - turns * number(_PI[0])) - turns * number(_PI[1])) - turns * number(_PI[2])
-    half = number(0.5) * reduced
-    square = half * half
-    sine = half + half * (square * _polynomial(_SINE, square))
-    cosine = (number(1.0) - number(0.5) * square) + (square * square) * _polynomial(_COSINE, square)
-    pairs = (turns * number(0.5) + shift) - shift
-    odd = turns - (pairs + pairs)  # -1, 0 or 1
-    sign = number(1.0) - number(2.0) * (odd * odd)
-    return sign * ((sine + sine) * cosine), sign * ((cosine - sine) * (cosine + sine))
 
-
-def _polynomial(coefficients: tuple[float, ...], x: Any) -> Any:
-    import heyoka as hy
-
-    value = hy.expression(coefficients[0])
+def _polynomial(e: Arithmetic, coefficients: tuple[float, ...], x: str) -> str:
+    value = e.number(coefficients[0])
     for c in coefficients[1:]:
-        value = value * x + hy.expression(c)
+        value = e.fma(value, x, e.number(c))
     return value

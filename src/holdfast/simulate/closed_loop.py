@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations
 from holdfast.arm.targets import target_poses
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.simulate.compiled import Setting, motion_of
@@ -26,6 +27,7 @@ RADIUS = 0.1  # m
 TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
 
 
+@checked
 def simulate(
     law: Law,
     q0: ArrayLike,
@@ -151,6 +153,11 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
         rows = np.flatnonzero(locked >= 0)
         times[rows, locked[rows]] = 0.0
         return times, False
+    if isinstance(locked, Mapping):
+        raise InputError(
+            f"locked is {dict(locked)!r}; a joint locks where it is, so give joints, or (joint, time) pairs, and "
+            "its angle in q0"
+        )
     if isinstance(locked, (str, int)):
         raise InputError(f"locked is {locked!r}; give a list, for example [{locked!r}]")
     times = np.full((1, arm.n), np.inf)

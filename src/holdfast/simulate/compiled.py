@@ -15,7 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.errors import InputError
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.simulate.circling import circling
 from holdfast.simulate.cycles import SUBSTEPS, Cycles
@@ -74,12 +74,14 @@ class Motion:
         return Nearest(self._system)
 
     @cached_property
+    @recalled
     def _hand(self) -> Kernel:
         """What the task prescribes of the tool point."""
         place = kinematics.chain(self.law.arm, self._system.q).position
         return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ place])
 
     @cached_property
+    @recalled
     def _turn(self) -> Kernel:
         """The angle of the shortest turn that the task asks for, rad."""
         s, law = self._system, self.law
@@ -88,6 +90,7 @@ class Motion:
         return Kernel("turn", [s.q, s.target, s.rotation], [ca.norm_2(error[3:])])
 
     @cached_property
+    @recalled
     def _single(self) -> Kernel:
         steps = self._steps
         symbol = ca.SX.sym("state", steps.state.size)

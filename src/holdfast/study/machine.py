@@ -9,7 +9,7 @@ from typing import Any
 
 from holdfast.versions import versions
 
-_PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "heyoka", "zarr", "mujoco")
+_PACKAGES = ("holdfast", "numpy", "scipy", "casadi", "llvmlite", "zarr", "mujoco")
 
 
 @lru_cache(maxsize=1)

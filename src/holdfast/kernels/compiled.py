@@ -1,0 +1,136 @@
+"""The machine code of a program: quickly made code at once, better code when enough rows have come to pay for it.
+
+Both give the same bits, so that nobody needs to know which of them computed a row.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import queue
+import threading
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.kept import cached_property
+from holdfast.kernels import cache, llvm_backend, notice
+from holdfast.kernels.llvm_ir import Machine
+from holdfast.kernels.program import Program
+
+Array = NDArray[np.float64]
+
+AT_ONCE = 1500  # operations that level 1 compiles in less than a tenth of a second
+WIDE = 8000  # operations up to which level 1 handles two registers of rows; beyond, compiling them takes three times as long
+LONG = 40_000  # operations: nobody waits for level 1 of more
+WORTH = 500_000  # rows after which level 1 repays its compiling, whatever the size of the program
+
+
+class Compiled:
+    """A program as a function over columns.
+
+    Args:
+        program: What to compute.
+
+    Attributes:
+        level: Of the code in use.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self._program, self._rows = program, 0
+        best = self._stored(1)
+        self.level = 1 if best or program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1" else 0
+        self._code = best or self._make(self.level)
+
+    def __call__(self, inputs: Array, outputs: Array) -> None:
+        """Evaluate columns of contiguous ``inputs (n_in, W)`` into ``outputs (n_out, W)``; W a multiple of the lanes."""
+        width = inputs.shape[1]
+        self._code.call(inputs.ctypes.data, outputs.ctypes.data, width, width)
+        if not self.level:
+            self._count(width)
+
+    @cached_property
+    def one(self) -> llvm_backend.Code:
+        """The code for a single row: for loops that control. The same bits again."""
+        return self._stored(1, 1) or self._make(int(self._program.size <= LONG), 1)
+
+    # ---- levels ------------------------------------------------------------------------------------------------
+
+    def _count(self, rows: int) -> None:
+        self._rows += rows
+        if self._rows >= WORTH:
+            self._rows = -(1 << 62)  # asked once
+            _in_background(self._improve)
+
+    def _improve(self) -> None:
+        self._code, self.level = self._make(1), 1
+
+    def _lanes(self, level: int) -> int:
+        lanes = llvm_backend.host().machine.lanes
+        return lanes if level and self._program.size <= WIDE else min(lanes, 8)
+
+    def _key(self, level: int, lanes: int) -> str:
+        return cache.key(self._program.digest, level, lanes)
+
+    def _stored(self, level: int, lanes: int | None = None) -> llvm_backend.Code | None:
+        data = cache.load(self._key(level, lanes or self._lanes(level)))
+        return None if data is None else llvm_backend.Code(data)
+
+    def _make(self, level: int, lanes: int | None = None) -> llvm_backend.Code:
+        lanes = lanes or self._lanes(level)
+        program, machine = self._program, Machine(lanes, llvm_backend.host().machine.fused)
+        name = self._key(level, lanes)
+        data = cache.load(name)
+        if data is None:
+            with notice.long(f"compiling '{program.name}'", program.size * llvm_backend.COMPILING[level]):
+                data = llvm_backend.compile_program(program, level, machine)
+            cache.store(name, data)
+        return llvm_backend.Code(data)
+
+
+_jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+_worker: threading.Thread | None = None
+_busy = threading.Lock()  # held while a job runs
+
+
+def _in_background(job: Callable[[], None]) -> None:
+    global _worker
+    _jobs.put(job)
+    if _worker is None or not _worker.is_alive():
+        _worker = threading.Thread(target=_work, name="holdfast-compiler", daemon=True)
+        _worker.start()
+
+
+def _work() -> None:
+    while True:
+        job = _jobs.get()
+        with _busy:
+            job()
+
+
+def settle() -> None:
+    """Wait until nothing is being compiled in the background: for measurements."""
+    done = threading.Event()
+    if _worker is not None and _worker.is_alive():
+        _jobs.put(done.set)
+        done.wait()
+
+
+def _forget() -> None:
+    """In a child process: its compiler thread is gone, and what waited for it stays at level 0."""
+    global _worker, _jobs, _busy
+    _worker, _jobs, _busy = None, queue.SimpleQueue(), threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    # CasADi, which a job may use, has locks that a child process cannot open.
+    os.register_at_fork(before=lambda: _busy.acquire(), after_in_parent=lambda: _busy.release(), after_in_child=_forget)
+
+
+@atexit.register
+def _stop() -> None:
+    """LLVM must not be taken down while it compiles; what only waits is dropped."""
+    with contextlib.suppress(KeyboardInterrupt):
+        _busy.acquire()

@@ -1,0 +1,386 @@
+"""Program -> text of an LLVM function: straight-line vector code over the rows of a batch, for any machine.
+
+The same graph gives the same bits on every level of optimisation and for every number of lanes: products are contracted with
+sums here, by a rule of our own, and nothing is left to the compiler that could change a rounding. What differs between
+machines is only whether they have fused multiply-add, and the last digit of the functions of their C library.
+
+Sources: LLVM language reference for the instructions; the contraction is what C calls ``FP_CONTRACT`` (C17, 6.5).
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+
+from holdfast.errors import KernelError
+from holdfast.kernels.program import OP_NAMES, Program
+from holdfast.kernels.trigonometry import sincos
+
+NAME = "rows"  # of the function
+
+_FUNCTIONS = {  # of the C library, called lane by lane
+    ca.OP_EXP: "exp",
+    ca.OP_LOG: "log",
+    ca.OP_POW: "pow",
+    ca.OP_CONSTPOW: "pow",
+    ca.OP_ASIN: "asin",
+    ca.OP_ACOS: "acos",
+    ca.OP_ATAN: "atan",
+    ca.OP_ATAN2: "atan2",
+    ca.OP_SINH: "sinh",
+    ca.OP_COSH: "cosh",
+    ca.OP_TANH: "tanh",
+    ca.OP_ERF: "erf",
+    ca.OP_LOG1P: "log1p",
+    ca.OP_EXPM1: "expm1",
+}
+LIBRARY = sorted(set(_FUNCTIONS.values()))
+
+# A comparison with NaN is false, also "not equal"; a condition that is NaN counts as true.
+_COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What the text depends on.
+
+    Attributes:
+        lanes: Rows handled at once.
+        fused: Whether the machine has fused multiply-add.
+    """
+
+    lanes: int
+    fused: bool
+
+
+def emit(program: Program, machine: Machine) -> str:
+    """The function ``void rows(in, out, stride, n)`` as text.
+
+    Input k of row i is ``in[k * stride + i]``, output k ``out[k * stride + i]``; n is a multiple of the lanes.
+
+    Raises:
+        KernelError: The program uses an operation that has no translation; the message names it.
+    """
+    return _Emitter(program, machine).text()
+
+
+class Arithmetic:
+    """Values of ``lanes`` doubles by their names in the text; a method adds an instruction and returns its name."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.machine = machine
+        self.lines: list[str] = []
+        self.type = f"<{machine.lanes} x double>"
+        self.mask = f"<{machine.lanes} x i1>"
+        self.declared: set[str] = set()  # functions that are not defined here
+
+    def _new(self, text: str) -> str:
+        name = f"%v{len(self.lines)}"
+        self.lines.append(f"{name} = {text}")
+        return name
+
+    def number(self, value: float) -> str:
+        """A constant, bit for bit."""
+        return f"splat (double 0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X})"
+
+    def binary(self, operation: str, a: str, b: str) -> str:
+        """``fadd``, ``fsub``, ``fmul`` or ``fdiv``."""
+        return self._new(f"{operation} {self.type} {a}, {b}")
+
+    def add(self, a: str, b: str) -> str:
+        """Sum."""
+        return self.binary("fadd", a, b)
+
+    def sub(self, a: str, b: str) -> str:
+        """Difference."""
+        return self.binary("fsub", a, b)
+
+    def mul(self, a: str, b: str) -> str:
+        """Product."""
+        return self.binary("fmul", a, b)
+
+    def negative(self, a: str) -> str:
+        """Negative."""
+        return self._new(f"fneg {self.type} {a}")
+
+    def fma(self, a: str, b: str, c: str) -> str:
+        """Product of a and b plus c, rounded once where the machine can."""
+        if not self.machine.fused:
+            return self.add(self.mul(a, b), c)
+        return self.intrinsic("fma", a, b, c)
+
+    def intrinsic(self, name: str, *arguments: str) -> str:
+        """An LLVM intrinsic that every machine rounds alike: ``fma``, ``sqrt``, ``fabs``."""
+        name = f"@llvm.{name}.v{self.machine.lanes}f64"
+        self.declared.add(f"declare {self.type} {name}({', '.join([self.type] * len(arguments))})")
+        return self._new(f"call {self.type} {name}({', '.join(f'{self.type} {a}' for a in arguments)})")
+
+    def less(self, a: str, b: str) -> str:
+        """The mask of a < b."""
+        return self.compare("olt", a, b)
+
+    def compare(self, how: str, a: str, b: str) -> str:
+        """A mask."""
+        return self._new(f"fcmp {how} {self.type} {a}, {b}")
+
+    def select(self, mask: str, a: str, b: str) -> str:
+        """``mask ? a : b``."""
+        return self._new(f"select {self.mask} {mask}, {self.type} {a}, {self.type} {b}")
+
+
+class _Emitter(Arithmetic):
+    """One program on its way."""
+
+    def __init__(self, program: Program, machine: Machine) -> None:
+        super().__init__(machine)
+        self.program = program
+        self._angles: dict[str, tuple[str, str]] = {}
+        self._masks: dict[str, str] = {}  # value 0 or 1, or any -> its mask
+        self._nots: dict[str, str] = {}  # mask -> the mask it negates
+        self._choices: dict[str, tuple[str, str]] = {}  # "condition ? a : 0" -> mask, a
+        self._products: dict[str, tuple[str, str]] = {}  # products that wait for the sum they go into
+        self._library: set[str] = set()
+
+    # ---- frame -------------------------------------------------------------------------------------------------
+
+    def text(self) -> str:
+        guard = self._guard()
+        self._body(guard)
+        lanes = self.machine.lanes
+        functions = [line for name in sorted(self._library) for line in _by_lanes(name, lanes)]
+        head, body = "\n".join([*sorted(self.declared), *functions]), "\n".join(self.lines)
+        return f"""{head}
+define void @{NAME}(ptr noalias %in, ptr noalias %out, i64 %stride, i64 %n) nounwind {{
+entry:
+%some = icmp ugt i64 %n, 0
+br i1 %some, label %loop, label %end
+loop:
+%i = phi i64 [0, %entry], [%after, %loop]
+{body}
+%after = add i64 %i, {lanes}
+%more = icmp ult i64 %after, %n
+br i1 %more, label %loop, label %end
+end:
+ret void
+}}
+"""
+
+    def _place(self, base: str, k: int) -> str:
+        row = self._new(f"mul i64 %stride, {k}")
+        at = self._new(f"add i64 {row}, %i")
+        return self._new(f"getelementptr double, ptr {base}, i64 {at}")
+
+    def _load(self, k: int) -> str:
+        return self._new(f"load {self.type}, ptr {self._place('%in', k)}, align 8")
+
+    def _store(self, k: int, value: str) -> None:
+        self.lines.append(f"store {self.type} {value}, ptr {self._place('%out', k)}, align 8")
+
+    def _guard(self) -> str:
+        """Zero, or NaN in rows with an input that is not finite, also one that the expression ignores."""
+        total = zero = self.number(0.0)
+        for k in range(self.program.n_in):
+            total = self.add(self.mul(self._load(k), zero), total)
+        return total
+
+    # ---- instructions ------------------------------------------------------------------------------------------
+
+    def _body(self, guard: str) -> None:
+        work: dict[int, str] = {}
+        alone = _used_once_in_a_sum(self.program)
+        divisors = self.program.shared_divisors()
+        reciprocals: dict[int, str] = {}
+        for k, row in enumerate(self.program.instructions):
+            op = row.op
+            if op == ca.OP_CONST:
+                work[row.output] = self.number(row.constant)
+                continue
+            if op == ca.OP_INPUT:
+                work[row.output] = self._load(row.inputs[0])
+                continue
+            a, *others = (work[i] for i in row.inputs)
+            if op == ca.OP_OUTPUT:
+                self._store(row.output, self.add(a, guard))
+                continue
+            b = others[0] if others else a
+            if k in divisors:
+                # CasADi writes x (1/y) as x / y. One division serves all.
+                made = divisors[k]
+                if made not in reciprocals:
+                    reciprocals[made] = self.binary("fdiv", self.number(1.0), b)
+                shared = reciprocals[made]
+                result = shared if op == ca.OP_INV else self._product(k in alone, a, shared)
+            elif op == ca.OP_ADD:
+                result = self._choice(a, b) or self._sum(a, b)
+            elif op == ca.OP_SUB:
+                result = self._difference(a, b)
+            elif op in (ca.OP_MUL, ca.OP_SQ):
+                result = self._product(k in alone, a, b)
+            else:
+                result = self._other(k, op, a, b)
+            work[row.output] = result
+
+    def _product(self, waits: bool, a: str, b: str) -> str:
+        if not waits or not self.machine.fused:
+            return self.mul(a, b)
+        name = f"%p{len(self._products)}"
+        self._products[name] = a, b
+        return name
+
+    def _known(self, a: str) -> str:
+        """The value of a product that waited for a sum which takes another one."""
+        return self.mul(*self._products[a]) if a in self._products else a
+
+    def _sum(self, a: str, b: str) -> str:
+        if a in self._products:
+            return self.fma(*self._products[a], self._known(b))
+        if b in self._products:
+            return self.fma(*self._products[b], a)
+        return self.add(a, b)
+
+    def _difference(self, a: str, b: str) -> str:
+        if b in self._products:
+            x, y = self._products[b]
+            return self.fma(self.negative(x), y, self._known(a))
+        if a in self._products:
+            return self.fma(*self._products[a], self.negative(b))
+        return self.sub(a, b)
+
+    def _choice(self, a: str, b: str) -> str | None:
+        """CasADi writes ``c ? x : y`` as ``(c ? x : 0) + (!c ? y : 0)``; one select instead of four operations."""
+        if a not in self._choices or b not in self._choices:
+            return None
+        (c, x), (d, y) = self._choices[a], self._choices[b]
+        if self._nots.get(d) == c:
+            return self.select(c, x, y)
+        if self._nots.get(c) == d:
+            return self.select(d, y, x)
+        return None
+
+    def _other(self, k: int, op: int, a: str, b: str) -> str:
+        if op in _COMPARISONS:
+            return self._truth(self.compare(_COMPARISONS[op], a, b))
+        if op in _FUNCTIONS:
+            return self._call(_FUNCTIONS[op], [a, b] if _FUNCTIONS[op] in ("pow", "atan2") else [a])
+        if op in (ca.OP_SIN, ca.OP_COS, ca.OP_TAN):
+            if a not in self._angles:
+                self._angles[a] = sincos(self, a)
+            sine, cosine = self._angles[a]
+            return {ca.OP_SIN: sine, ca.OP_COS: cosine}.get(op) or self.binary("fdiv", sine, cosine)
+        one = _TABLE.get(op)
+        if one is None:
+            raise KernelError(
+                f"kernel '{self.program.name}': instruction {k} is CasADi operation {OP_NAMES[op]}, which the llvm "
+                "backend does not have; write the expression with operations listed in docs/extending"
+            )
+        return one(self, a, b)
+
+    def _call(self, name: str, arguments: list[str]) -> str:
+        self._library.add(name)
+        given = ", ".join(f"{self.type} {a}" for a in arguments)
+        return self._new(f"call {self.type} @{name}_lanes({given})")
+
+    # ---- conditions --------------------------------------------------------------------------------------------
+
+    def _truth(self, mask: str) -> str:
+        """1 where a mask is true, else 0."""
+        value = self.select(mask, self.number(1.0), self.number(0.0))
+        self._masks[value] = mask
+        return value
+
+    def condition(self, a: str) -> str:
+        """The mask of a value: true where it is not 0, and where it is NaN."""
+        if a not in self._masks:
+            self._masks[a] = self.compare("une", a, self.number(0.0))
+        return self._masks[a]
+
+    def logic(self, operation: str, a: str, b: str) -> str:
+        """``and`` or ``or`` of two conditions, as 0 or 1."""
+        return self._truth(self._new(f"{operation} {self.mask} {self.condition(a)}, {self.condition(b)}"))
+
+    def no(self, a: str) -> str:
+        """1 where a is 0, else 0."""
+        if a in self._masks:
+            mask = self._new(f"xor {self.mask} {self._masks[a]}, splat (i1 true)")
+            self._nots[mask] = self._masks[a]
+        else:
+            mask = self.compare("oeq", a, self.number(0.0))
+            self._nots[mask] = self.condition(a)
+        return self._truth(mask)
+
+    def or_zero(self, c: str, a: str) -> str:
+        """``c ? a : 0``."""
+        mask = self.condition(c)
+        value = self.select(mask, a, self.number(0.0))
+        self._choices[value] = mask, a
+        return value
+
+
+# What takes one instruction or few. CasADi differentiates |x| into sign(x).
+_TABLE: dict[int, Callable[[_Emitter, str, str], str]] = {
+    ca.OP_ASSIGN: lambda e, a, b: a,
+    ca.OP_DIV: lambda e, a, b: e.binary("fdiv", a, b),
+    ca.OP_NEG: lambda e, a, b: e.negative(a),
+    ca.OP_SQRT: lambda e, a, b: e.intrinsic("sqrt", a),
+    ca.OP_FABS: lambda e, a, b: e.intrinsic("fabs", a),
+    ca.OP_TWICE: lambda e, a, b: e.add(a, a),
+    ca.OP_INV: lambda e, a, b: e.binary("fdiv", e.number(1.0), a),
+    ca.OP_NOT: lambda e, a, b: e.no(a),
+    ca.OP_AND: lambda e, a, b: e.logic("and", a, b),
+    ca.OP_OR: lambda e, a, b: e.logic("or", a, b),
+    ca.OP_IF_ELSE_ZERO: lambda e, a, b: e.or_zero(a, b),
+    ca.OP_SIGN: lambda e, a, b: e.select(
+        e.compare("ogt", a, e.number(0.0)),
+        e.number(1.0),
+        e.select(e.less(a, e.number(0.0)), e.number(-1.0), e.number(0.0)),
+    ),
+    ca.OP_FMIN: lambda e, a, b: e.select(e.compare("ole", a, b), a, b),
+    ca.OP_FMAX: lambda e, a, b: e.select(e.compare("oge", a, b), a, b),
+    ca.OP_HYPOT: lambda e, a, b: e.intrinsic("sqrt", e.fma(a, a, e.mul(b, b))),
+}
+
+OPERATIONS = frozenset(
+    {ca.OP_CONST, ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_SQ, ca.OP_SIN, ca.OP_COS, ca.OP_TAN}
+    | _FUNCTIONS.keys()
+    | _COMPARISONS.keys()
+    | _TABLE.keys()
+)
+
+
+def _by_lanes(name: str, lanes: int) -> list[str]:
+    """A function of the C library for each lane: no lane can change what another one gets."""
+    two = name in ("pow", "atan2")
+    t = f"<{lanes} x double>"
+    lines = [f"declare double @{name}(double{', double' if two else ''})"]
+    lines.append(f"define private {t} @{name}_lanes({t} %a{f', {t} %b' if two else ''}) nounwind noinline {{")
+    last = "poison"
+    for k in range(lanes):
+        lines.append(f"%a{k} = extractelement {t} %a, i32 {k}")
+        given = f"double %a{k}"
+        if two:
+            lines.append(f"%b{k} = extractelement {t} %b, i32 {k}")
+            given += f", double %b{k}"
+        lines.append(f"%y{k} = call double @{name}({given})")
+        lines.append(f"%r{k} = insertelement {t} {last}, double %y{k}, i32 {k}")
+        last = f"%r{k}"
+    return [*lines, f"ret {t} {last}", "}"]
+
+
+def _used_once_in_a_sum(program: Program) -> set[int]:
+    """Instructions whose result goes into one sum or difference and nowhere else."""
+    made: dict[int, int] = {}
+    uses: dict[int, int] = {}
+    sums: set[int] = set()
+    for k, row in enumerate(program.instructions):
+        if row.op not in (ca.OP_INPUT, ca.OP_CONST):
+            for slot in row.inputs:
+                source = made[slot]
+                uses[source] = uses.get(source, 0) + 1
+                if row.op in (ca.OP_ADD, ca.OP_SUB):
+                    sums.add(source)
+        if row.op != ca.OP_OUTPUT:
+            made[row.output] = k
+    return {k for k in sums if uses[k] == 1}
