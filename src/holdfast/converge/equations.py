@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 TOLERANCE = 1e-11  # norm of the equations
-_STEPS = 80
+_STEPS, _NEAR = 40, 0.02  # after as many, only what is as near as that goes on for as many again
 _FIRST, _EASIER, _HARDER, _HOPELESS = 1e-2, 0.2, 5.0, 1e6
 
 
@@ -145,9 +145,11 @@ class RestEquations:
         """Unknowns (N, size) where the equations hold, from starts; only those that are ``free`` (size,) change."""
         rows = len(z)
         row = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask, free])
-        found = self._search.run(
-            np.column_stack([z, np.full(rows, _FIRST)]), np.broadcast_to(row, (rows, row.size)), TOLERANCE, _STEPS
-        )
-        out = found.state[:, : self.size]
+        parameters = np.broadcast_to(row, (rows, row.size))
+        found = self._search.run(np.column_stack([z, np.full(rows, _FIRST)]), parameters, TOLERANCE, _STEPS)
+        # Of the starts that arrive nine in ten need 25 steps; most of those that need more than 40 never do.
+        out, near = found.state, np.flatnonzero(~found.done & (found.residual < _NEAR))
+        out[near] = self._search.run(out[near], parameters[near], TOLERANCE, _STEPS).state
+        out = out[:, : self.size]
         values, _ = self.values(out, pose, mask)
         return out, np.linalg.norm(values, axis=1) <= 10 * TOLERANCE

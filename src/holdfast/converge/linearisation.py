@@ -104,8 +104,10 @@ class Linearisation:
         slopes, j, scaled = self._slopes(q, pose[:3, 3], pose[:3, :3])
         # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
         # of the rotation vector is 0/0 there.
-        for row in np.flatnonzero(scaled < REACHED):
-            slopes[row] = self.law.velocity(q[row], -j[row].T).T
+        n, there = self.law.arm.n, np.flatnonzero(scaled < REACHED)
+        changes = -j[there].transpose(0, 2, 1).reshape(-1, self.law.task.m)  # of the error with each joint in turn
+        rates = self.law.velocity(np.repeat(q[there], n, axis=0), changes)
+        slopes[there] = rates.reshape(-1, n, n).transpose(0, 2, 1)
         return np.asarray(slopes[:, healthy][:, :, healthy])
 
     def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:
