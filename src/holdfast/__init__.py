@@ -1,49 +1,56 @@
 """holdfast: what happens to the task when a joint of a redundant arm fails, and what can be done about it beforehand."""
 
-from holdfast import arms, control, indices, paths
-from holdfast.arm import DH, Arm, Joint, Link
-from holdfast.arm.task import Task
-from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
-from holdfast.clearance import Capsules, Clearance
-from holdfast.control import Trajectory, follow
-from holdfast.converge import (
-    ConvergenceMap,
-    LawChoice,
-    Recovery,
-    TargetMeasures,
-    TolerantWorkspace,
-    Workspace,
-    basins,
-    best_law,
-    convergence_map,
-    joint_bounds,
-    reachable_when_locked,
-    recover,
-    stationary,
-    target_measures,
-    tolerant_workspace,
-    workspace,
-)
-from holdfast.design import ConvergenceDesigns, Designs, DesignSpace, design, design_for_convergence
-from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
-from holdfast.indices import susceptibility
-from holdfast.kernels import set_threads
-from holdfast.simulate import (
-    BrakedDrop,
-    FreeSwing,
-    LawComparison,
-    PhysicalRun,
-    PointToPoint,
-    Runs,
-    Servos,
-    compare_laws,
-    free_swing,
-    point_to_point,
-    simulate,
-    simulate_physics,
-)
-from holdfast.solve import Optimum, Reach, optimise, self_motion, solve_ik
-from holdfast.status import Status
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from holdfast.on_demand import offer
+
+if TYPE_CHECKING:
+    from holdfast import arms, control, indices, paths
+    from holdfast.arm import DH, Arm, Joint, Link
+    from holdfast.arm.task import Task
+    from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
+    from holdfast.clearance import Capsules, Clearance
+    from holdfast.control import Trajectory, follow
+    from holdfast.converge import (
+        ConvergenceMap,
+        LawChoice,
+        Recovery,
+        TargetMeasures,
+        TolerantWorkspace,
+        Workspace,
+        basins,
+        best_law,
+        convergence_map,
+        joint_bounds,
+        reachable_when_locked,
+        recover,
+        stationary,
+        target_measures,
+        tolerant_workspace,
+        workspace,
+    )
+    from holdfast.design import ConvergenceDesigns, Designs, DesignSpace, design, design_for_convergence
+    from holdfast.errors import ArmError, HoldfastError, InputError, KernelError, StoreError, TaskError
+    from holdfast.indices import susceptibility
+    from holdfast.kernels import set_threads
+    from holdfast.simulate import (
+        BrakedDrop,
+        FreeSwing,
+        LawComparison,
+        PhysicalRun,
+        PointToPoint,
+        Runs,
+        Servos,
+        compare_laws,
+        free_swing,
+        point_to_point,
+        simulate,
+        simulate_physics,
+    )
+    from holdfast.solve import Optimum, Reach, optimise, self_motion, solve_ik
+    from holdfast.status import Status
 
 __version__ = "0.1.0"
 
@@ -116,3 +123,24 @@ __all__ = [
     "tolerant_workspace",
     "workspace",
 ]
+
+offer(
+    __name__,
+    {
+        "arm": "DH Arm Joint Link",
+        "arm.task": "Task",
+        "assess": "Assessment Comparison Region assess compare load",
+        "clearance": "Capsules Clearance",
+        "control": "Trajectory follow",
+        "converge": "ConvergenceMap LawChoice Recovery TargetMeasures TolerantWorkspace Workspace basins best_law "
+        "convergence_map joint_bounds reachable_when_locked recover stationary target_measures tolerant_workspace workspace",
+        "design": "ConvergenceDesigns Designs DesignSpace design design_for_convergence",
+        "errors": "ArmError HoldfastError InputError KernelError StoreError TaskError",
+        "indices": "susceptibility",
+        "kernels": "set_threads",
+        "simulate": "BrakedDrop FreeSwing LawComparison PhysicalRun PointToPoint Runs "
+        "Servos compare_laws free_swing point_to_point simulate simulate_physics",
+        "solve": "Optimum Reach optimise self_motion solve_ik",
+        "status": "Status",
+    },
+)

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from holdfast.cli import main
+from holdfast.cli.app import main
 from holdfast.kernels import set_threads
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.cli import main
+from holdfast.cli.app import main
 
 
 def test_each_target_is_a_workspace_of_its_own(three, tmp_path):

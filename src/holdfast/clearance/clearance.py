@@ -20,11 +20,12 @@ from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
 from holdfast.kernels import SX, Kernel
 from holdfast.linalg import Vector, dot, smallest
+from holdfast.sobol import sobol
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
 
-_SAMPLES_LOG2 = 9  # 512 configurations
+_SAMPLES = 512  # configurations
 _ALWAYS = 0.95  # pairs that overlap in this share of them touch by construction
 
 
@@ -108,7 +109,7 @@ class Clearance:
         open_pairs = [pair for pair in different if pair not in reasons]
         for pair, share in zip(open_pairs, self._overlaps(open_pairs), strict=True):
             if share >= _ALWAYS:
-                reasons[pair] = f"overlap in {100 * share:.1f} % of {2**_SAMPLES_LOG2} configurations within the limits"
+                reasons[pair] = f"overlap in {100 * share:.1f} % of {_SAMPLES} configurations within the limits"
             else:
                 self.pairs.append(pair)
         self.ignored = [IgnoredPair(pair, self._name(pair), reasons[pair]) for pair in different if pair in reasons]
@@ -117,10 +118,8 @@ class Clearance:
         """Share of configurations in which each pair overlaps."""
         if not pairs:
             return np.zeros(0)
-        from scipy.stats import qmc
-
         low, high = finite_limits(self.arm)
-        q = low + (high - low) * qmc.Sobol(self.arm.n, scramble=False).random_base2(_SAMPLES_LOG2)
+        q = low + (high - low) * sobol(_SAMPLES, self.arm.n)
         x = kinematics.joint_symbols(self.arm)
         # Used once: the virtual machine needs no compilation.
         values = Kernel("overlaps", [x], [ca.vertcat(*self._distances(self._segments(x), pairs))], backend="casadi").rows(q)

@@ -1,5 +1,29 @@
 """The command line: a thin face over the library."""
 
-from holdfast.cli.app import main
+from __future__ import annotations
+
+import sys
+from contextlib import suppress
+
+from holdfast.cli.interrupt import STOPPED, Interrupt
 
 __all__ = ["main"]
+
+
+def main() -> None:
+    """Run the program; Ctrl-C ends it within a second, with exit code 130 and one line on stderr."""
+    interrupt = Interrupt()
+    try:
+        from holdfast.cli.app import main as run
+
+        run()
+    except SystemExit as end:
+        if end.code != STOPPED:
+            raise
+    except BaseException:  # a foreign module that is interrupted while it is imported may raise what it likes
+        if not interrupt.asked:
+            raise
+        print("holdfast: stopped", file=sys.stderr, flush=True)
+    with suppress(OSError):
+        sys.stdout.flush()
+    interrupt.end()

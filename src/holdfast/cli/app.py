@@ -3,44 +3,58 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from typing import Annotated
 
 import typer
 from typer.exceptions import TyperException
 
-from holdfast.cli import (
-    arm_commands,
-    assess_commands,
-    compare_commands,
-    configure_commands,
-    design_commands,
-    export_commands,
-    follow_commands,
-    index_commands,
-    recover_commands,
-    self_motion_commands,
-    simulate_commands,
-    stationary_commands,
-    studio_commands,
-    study_commands,
-    susceptibility_commands,
-    swing_commands,
-    teleop_commands,
-    trade_off_commands,
-    workspace_commands,
-)
+from holdfast.cli.interrupt import STOPPED
 from holdfast.errors import HoldfastError
 
-app = typer.Typer(
-    name="holdfast",
-    help="Fault tolerance of redundant robot arms: what happens to the task when a joint fails.\n\n"
-    "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
-    "Joints are given by name, or by number from 1.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
+COMMANDS = {  # the module of each, in the order of the help
+    "arms": "arm_commands",
+    "describe": "arm_commands",
+    "index": "index_commands",
+    "susceptibility": "susceptibility_commands",
+    "configure": "configure_commands",
+    "assess": "assess_commands",
+    "report": "assess_commands",
+    "design": "design_commands",
+    "follow": "follow_commands",
+    "swing": "swing_commands",
+    "simulate": "simulate_commands",
+    "recover": "recover_commands",
+    "compare": "compare_commands",
+    "self-motion": "self_motion_commands",
+    "tolerant-workspace": "self_motion_commands",
+    "workspace": "workspace_commands",
+    "stationary": "stationary_commands",
+    "basins": "stationary_commands",
+    "trade-off": "trade_off_commands",
+    "studio": "studio_commands",
+    "study": "study_commands",
+    "teleop": "teleop_commands",
+    "export": "export_commands",
+}
+
+
+def program(command: str | None = None) -> typer.Typer:
+    """The program with all commands, or with those of the module that has ``command``: others would only cost time."""
+    app = typer.Typer(
+        name="holdfast",
+        help="Fault tolerance of redundant robot arms: what happens to the task when a joint fails.\n\n"
+        "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
+        "Joints are given by name, or by number from 1.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(_root)
+    for module in [COMMANDS[command]] if command in COMMANDS else dict.fromkeys(COMMANDS.values()):
+        import_module(f"holdfast.cli.{module}").add(app)
+    return app
 
 
 def _version(value: bool) -> None:
@@ -51,7 +65,6 @@ def _version(value: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _root(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
@@ -60,31 +73,10 @@ def _root(
     del version
 
 
-arm_commands.add(app)
-index_commands.add(app)
-susceptibility_commands.add(app)
-configure_commands.add(app)
-assess_commands.add(app)
-design_commands.add(app)
-follow_commands.add(app)
-swing_commands.add(app)
-simulate_commands.add(app)
-recover_commands.add(app)
-compare_commands.add(app)
-self_motion_commands.add(app)
-workspace_commands.add(app)
-stationary_commands.add(app)
-trade_off_commands.add(app)
-studio_commands.add(app)
-study_commands.add(app)
-teleop_commands.add(app)
-export_commands.add(app)
-
-
 def main() -> None:
     """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
     try:
-        code = app(standalone_mode=False)
+        code = program(*sys.argv[1:2])(standalone_mode=False)
     except HoldfastError as error:
         _fail(str(error))
     except TyperException as error:  # an unknown command or option, a missing argument
@@ -95,15 +87,19 @@ def main() -> None:
             sys.exit(2)
         _fail(message + hint)
     except (KeyboardInterrupt, typer.Abort):
-        typer.echo("holdfast: stopped", err=True)
-        sys.exit(130)
+        _stopped()
     except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
         sys.exit(0)
     except OSError as error:
         _fail(f"cannot write the output: {error.strerror or error}")
-    if code == 130:
-        typer.echo("holdfast: stopped", err=True)
+    if code == STOPPED:  # typer's answer to Ctrl-C
+        _stopped()
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _stopped() -> None:
+    typer.echo("holdfast: stopped", err=True)
+    sys.exit(STOPPED)
 
 
 def _fail(message: str) -> None:

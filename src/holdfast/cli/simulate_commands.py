@@ -164,7 +164,7 @@ def _print(runs: Runs, files: list[Path]) -> None:
     from rich.table import Table
 
     from holdfast.simulate import Reason
-    from holdfast.simulate.run_report import ENDS
+    from holdfast.simulate.runs import ENDS
 
     out, arm = console(), runs.law.arm
     unit = "cycles" if runs.cycles else "s"

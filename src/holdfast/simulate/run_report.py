@@ -17,7 +17,7 @@ from holdfast.report.motion import Panel, drawn_motion, motion_figure
 from holdfast.report.page import Block, Code, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
 from holdfast.report.words import number
-from holdfast.simulate.runs import Path, Reason, Runs
+from holdfast.simulate.runs import ENDS, Path, Reason, Runs
 from holdfast.versions import versions
 
 Array = NDArray[np.float64]
@@ -25,12 +25,6 @@ Array = NDArray[np.float64]
 SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn so far only
 _SAMPLES, _FRAMES = 1001, 201
 _STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
-ENDS = {
-    "converged": "arrives",
-    "stuck": "comes to rest elsewhere",
-    "moving": "never comes to rest",
-    "undecided": "is undecided",
-}
 
 
 class RunReport:

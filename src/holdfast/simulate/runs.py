@@ -28,6 +28,14 @@ class Outcome(IntEnum):
     UNDECIDED = 3
 
 
+ENDS = {  # an outcome in a sentence about the hand
+    "converged": "arrives",
+    "stuck": "comes to rest elsewhere",
+    "moving": "never comes to rest",
+    "undecided": "is undecided",
+}
+
+
 class Reason(IntEnum):
     """Why a run is undecided; ``NONE`` where it is decided."""
 

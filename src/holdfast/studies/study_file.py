@@ -31,7 +31,6 @@ from holdfast.study import Cell
 from holdfast.study.folder import MOST_CHUNKS, MOST_ROWS, too_many
 from holdfast.written import ArmSpec
 from holdfast.yaml_file import Number, Strict, content, parse, sentence
-from holdfast.yaml_file import Number, Strict, content, sentence
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm

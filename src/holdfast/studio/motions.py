@@ -82,7 +82,7 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
     """
     from holdfast.arm.poses import pose_of
     from holdfast.simulate import simulate
-    from holdfast.simulate.run_report import ENDS
+    from holdfast.simulate.runs import ENDS
 
     if state.target is None:
         raise InputError("there is no target; choose one first")

@@ -11,6 +11,7 @@ from holdfast.arm import statics
 from holdfast.arm.check import require_masses
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
+from holdfast.sobol import sobol
 
 Array = NDArray[np.float64]
 WeightSpec = ArrayLike | Literal["effort", "worst-case"] | None
@@ -93,8 +94,6 @@ def largest_static_torque(arm: Arm) -> Array:
         ArmError: A link of which nothing is known.
         InputError: A sliding joint without limits.
     """
-    from scipy.stats import qmc
-
     require_masses(arm)
     low, high = np.where(np.isfinite(arm.lower), arm.lower, -np.pi), np.where(np.isfinite(arm.upper), arm.upper, np.pi)
     for k in np.flatnonzero(arm.prismatic):
@@ -103,7 +102,7 @@ def largest_static_torque(arm: Arm) -> Array:
                 f"joint '{arm.joint_names[k]}' of '{arm.name}' slides without limits, so no static torque is the largest; "
                 "give it a lower and an upper limit"
             )
-    spread = qmc.Sobol(arm.n, scramble=False).random(_SAMPLES)
+    spread = sobol(_SAMPLES, arm.n)
     q = low + spread * (high - low)
     tau = arm.gravity_torque(q)
     signed = np.concatenate([tau, -tau], axis=1)

@@ -1,0 +1,80 @@
+"""Packages that import on demand: every name is what the package says, whatever was imported before."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import json
+import pkgutil
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import holdfast
+
+PACKAGES = ["holdfast", "holdfast.assess", "holdfast.converge", "holdfast.report", "holdfast.simulate"]
+MODULES = {"arms", "control", "indices", "paths", "susceptibility"}  # the public names that are modules
+EXTRAS = ("teleop", "studio", "study.cluster", "simulate.mujoco", "arm.mjcf")  # need, or may need, what is not installed
+
+CHECK = """
+import inspect, json, sys
+from importlib import import_module
+orders, packages, modules = json.loads(sys.argv[1])
+for name in orders:
+    import_module(name)
+for package in packages:
+    made = sys.modules[package] if package in sys.modules else import_module(package)
+    for name in made.__all__:
+        value = getattr(made, name)
+        if inspect.ismodule(value) != (name in modules):
+            print(package, name, value)
+"""
+
+
+def declared(package):
+    """Names and the modules they come from, as type checkers see them."""
+    tree = ast.parse(Path(import_module(package).__file__).read_text())
+    blocks = [node for node in tree.body if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"]
+    lines = [line for block in blocks for line in block.body]
+    return {a.name: line.module for line in lines for a in line.names}
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_what_is_imported_is_what_type_checkers_see(package):
+    module = import_module(package)
+    expected = declared(package)
+    assert set(expected) == set(module.__all__) - {"__version__"}
+    for name, home in expected.items():
+        source = import_module(home)
+        value = getattr(module, name)
+        if home == "holdfast" or name == "susceptibility":
+            assert value is import_module(f"{home}.{name}")
+        else:
+            assert value is getattr(source, name)
+            assert not inspect.ismodule(value)
+
+
+@pytest.mark.parametrize("run", range(5))
+def test_a_function_is_no_module_in_any_order_of_imports(run, rng):
+    names = [m.name for m in pkgutil.walk_packages(holdfast.__path__, "holdfast.") if "__main__" not in m.name]
+    names = [n for n in names if not n.removeprefix("holdfast.").startswith(EXTRAS)]
+    chosen = [str(n) for n in rng.permutation(names)[: len(names) if run == 0 else 12]]
+    orders = [chosen, [str(p) for p in rng.permutation(PACKAGES)], sorted(MODULES)]
+    done = subprocess.run([sys.executable, "-c", CHECK, json.dumps(orders)], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("", ""), chosen
+
+
+def test_what_there_is_not():
+    with pytest.raises(AttributeError, match="module 'holdfast' has no attribute 'asess'"):
+        _ = holdfast.asess
+    with pytest.raises(ImportError, match="cannot import name 'asess' from 'holdfast'"):
+        exec("from holdfast import asess")
+
+
+def test_modules_of_the_package_are_there_without_an_import():
+    code = "import holdfast as hf; print(hf.converge.orbit.__name__, hf.errors.ArmError is hf.ArmError, 'assess' in dir(hf))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "orbit True True\n"
