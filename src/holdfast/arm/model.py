@@ -15,10 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.checked import real_numbers
 from holdfast.errors import ArmError, InputError
+from holdfast.kernels import Kernel, recalled
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH
-    from holdfast.kernels import SX, Kernel
+    from holdfast.kernels import SX
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
@@ -392,42 +393,47 @@ class Arm:
 
     def _compiled(self, name: str, expression: Callable[[Arm, SX], SX]) -> Kernel:
         from holdfast.arm import kinematics
-        from holdfast.kernels import Kernel
 
         q = kinematics.joint_symbols(self)
         return Kernel(name, [q], [expression(self, q)])
 
     @cached_property
+    @recalled
     def _pose_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("pose", kinematics.tool_pose)
 
     @cached_property
+    @recalled
     def _jacobian_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("jacobian", kinematics.jacobian)
 
     @cached_property
+    @recalled
     def _jacobian_derivative_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("jacobian derivative", kinematics.jacobian_derivative)
 
     @cached_property
+    @recalled
     def _gravity_torque_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
         return self._compiled("gravity torque", lambda arm, q: statics.gravity_torques(arm, statics.composite(arm, q)))
 
     @cached_property
+    @recalled
     def _inertia_diagonal_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
         return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
 
     @cached_property
+    @recalled
     def _dynamics_kernel(self) -> Kernel:
         from holdfast.arm import dynamics
 

@@ -26,7 +26,7 @@ from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
 from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]
 
@@ -106,11 +106,13 @@ class Law(ABC):
     # ---- numbers -----------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _velocity_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         return Kernel(self.name, [q, v], list(self.outputs(q, v).values()))
 
     @cached_property
+    @recalled
     def _deviation_kernel(self) -> Kernel:
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
         return Kernel(

@@ -18,7 +18,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.control import damping_search, deviation
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -159,6 +159,7 @@ def trade_off(
     return TradeOff(arm, chosen, e, peak / none[:, None], healthy, peak)
 
 
+@recalled
 def _kernel(arm: Arm, task: Task) -> Kernel:
     """Peak and healthy error of a configuration, a scaled direction and the allowed error."""
     q, u, e = kinematics.joint_symbols(arm), ca.SX.sym("u", task.m), ca.SX.sym("allowed")

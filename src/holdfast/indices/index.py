@@ -18,7 +18,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status
 
@@ -235,6 +235,7 @@ class Index(Objective):
     # ---- shared machinery --------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])

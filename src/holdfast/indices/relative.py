@@ -20,7 +20,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index, WorstCase
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
 from holdfast.status import Status
 
@@ -193,10 +193,12 @@ class RelativeManipulability(Index):
     # ---- kernels -----------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _worst_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=True)
 
     @cached_property
+    @recalled
     def _which_kernel(self) -> Kernel:
         """The worst value, and which failure it is of: the first of those with exactly this value."""
         q, _, qr = self._symbols
@@ -209,18 +211,22 @@ class RelativeManipulability(Index):
         return Kernel(f"worst {self.name}", [q], [self._mark(qr, [least, which], marked=True)])
 
     @cached_property
+    @recalled
     def _values_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=False)
 
     @cached_property
+    @recalled
     def _plain_values_kernel(self) -> Kernel:
         return self._build_values(marked=False, worst_only=False)
 
     @cached_property
+    @recalled
     def _gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=True)
 
     @cached_property
+    @recalled
     def _plain_gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=False)
 

@@ -53,7 +53,9 @@ def simulate(
       arm of about 1 m: lengths count in units of the arm's own, its links end to end rounded to a power of two, so that an arm
       and its copy in another size end alike);
     * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
-      its greatest value in the last tenth is at least 0.99 of that in the tenth before;
+      its greatest value in the last tenth is at least 0.99 of that in the tenth before; or if after 100,000 steps, before the
+      limit, it circles faster than that, and comes back to where it was, modulo whole turns, so nearly that until the limit it
+      would drift by less than a hundredth of the motion's extent;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
       nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with the hand
       half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
