@@ -68,6 +68,15 @@ def study(folder: Path) -> None:
         trial(records, codes[1], rng, end=None)
 
 
+def older(folder: Path) -> None:
+    """Records as they were before there were digests."""
+    with closing(sqlite3.connect(folder / "records.sqlite", isolation_level=None)) as db:
+        for table in ("digests", "under_way", "sessions"):
+            db.execute(f"DROP TABLE {table}")
+        db.execute("DELETE FROM about WHERE key IN ('files', 'without digests')")
+        db.execute("UPDATE about SET value = '1' WHERE key = 'format'")
+
+
 def copied(source: Path, target: Path) -> None:
     """A fresh copy of a folder."""
     shutil.rmtree(target, ignore_errors=True)

@@ -8,10 +8,13 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_FUZZ       malformed messages, 100000, read, and once more over the network
     HOLDFAST_OUTAGE     seconds without network in mid-trial, in a browser, 30
     HOLDFAST_KILLS      of a program that writes records, 40
+    HOLDFAST_FLIPS      single bits changed in a folder of records, 10000
+    HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
     HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
 The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
-a message changed anything, or the 99th percentile of the acknowledgements is above 50 ms.
+a message changed anything, a changed bit of data went unseen, or the 99th percentile of the acknowledgements is above 50 ms,
+100 ms among silent sockets.
 """
 
 from __future__ import annotations
@@ -28,11 +31,14 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "teleop" / "serve"))
 
 from load import Figures, load  # noqa: E402
+from silent import attacked  # noqa: E402
 
-MOST = 50.0  # ms
+MOST, MOST_ATTACKED = 50.0, 100.0  # ms
+LOG = 1_000_000  # bytes
 FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server.py")
 OUTAGE = ("browser/test_session.py",)
 KILLED = ("teleop/test_records.py",)
+FLIPPED = ("cli/test_teleop_verify_command.py",)
 COMPILED = ("arm", "test_kinematics.py")
 
 
@@ -54,9 +60,12 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         stations, rate, seconds = option("STATIONS", "8"), option("RATE", "60"), option("SECONDS", "600")
         figures: Figures = load(Path(folder), int(stations), float(rate), float(seconds))
+    attack = attacked(int(option("SILENT", "1500")), 8, 60.0, 30.0)
     fuzzed, fuzz_s = _tests(FUZZED, "malformed", "HOLDFAST_FUZZ", fuzz)
     kept, outage_s = _tests(OUTAGE, "network", "HOLDFAST_OUTAGE", outage)
     survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
+    flips = option("FLIPS", "10000")
+    seen, flips_s = _tests(FLIPPED, "changed_bit", "HOLDFAST_FLIPS", flips)
     compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
     begin, middle, end = figures.memory
@@ -71,13 +80,16 @@ def main() -> int:
         (f"{fuzz} malformed messages, twice", f"{'all refused, nothing changed' if fuzzed else 'FAILED'} ({fuzz_s:.0f} s)"),
         (f"{outage} s without network in mid-trial", f"{'nothing lost' if kept else 'FAILED'} ({outage_s:.0f} s)"),
         (f"{kills} times killed", f"{'nothing lost' if survived else 'FAILED'} ({kills_s:.0f} s)"),
+        (f"{flips} bits changed", f"{'all of data seen' if seen else 'FAILED'} ({flips_s:.0f} s)"),
+        (f"{attack.sockets} silent sockets: p99, ms; lost; log", f"{attack.p99:.1f}; {attack.lost}; {attack.log} B"),
         ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
     for name, value in rows:
         print(f"  {name:<50} {value}")
-    lost = figures.lost != 0 or figures.differing != 0
-    return int(lost or not (fuzzed and kept and survived and compiled) or figures.p99 > MOST)
+    lost = figures.lost != 0 or figures.differing != 0 or attack.lost != 0
+    slow = figures.p99 > MOST or attack.p99 > MOST_ATTACKED or attack.log > LOG
+    return int(lost or slow or not (fuzzed and kept and survived and seen and compiled))
 
 
 if __name__ == "__main__":

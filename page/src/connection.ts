@@ -14,6 +14,8 @@ export interface Listener {
   /** The connection is there, or is not. */
   online(yes: boolean): void;
   paused(yes: boolean): void;
+  /** The server cannot store anything any more, or can again. */
+  unstored(yes: boolean): void;
   /** Something more is on the server's disk. */
   acknowledged(): void;
   /** The session cannot go on here; null: somebody else went on with it. */
@@ -107,6 +109,9 @@ export class Connection {
         return this.refused(message.seq, message.reason, message.last);
       case "pause":
         return this.listener.paused(message.paused);
+      case "unstored":
+        this.listener.unstored(true);
+        return this.abandon();
       case "bye":
         return this.joining ? this.turnedAway(message.reason) : this.end(message.reason);
     }
@@ -121,6 +126,7 @@ export class Connection {
       this.outbox.clear(welcome.seq);
     }
     this.report(true);
+    this.listener.unstored(false);
     if (this.joining && !this.outbox.waiting.length) {
       this.joining.resolve(welcome);
       this.joining = null;

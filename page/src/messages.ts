@@ -4,13 +4,14 @@ export const FORMAT = 1;
 export const MOST_CYCLES = 256; // in one message
 export const MOST_BYTES = 131072; // of one message
 
-/** The first message of a connection: a new session, or one that goes on. */
+/** The first message of a connection: a new session, or one that goes on. A new session may bring its key, ``fresh``: said again where the answer was lost, it goes on with what was begun then. */
 export interface Hello {
   type: "hello";
   format: number;
   session: string | null;
   code: string | null;
   kind: "person" | "simulated";
+  fresh: string | null;
 }
 
 /** A form was filled in. */
@@ -70,10 +71,10 @@ export interface TrainingTask {
   joint: number;
 }
 
-/** A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``task`` and ``scenario`` count from 0. */
+/** A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``law`` is a code of the arm's, see /arm.js. */
 export interface PlannedTrial {
   task: number;
-  scenario: number;
+  law: number;
   q0: number[];
   target: number[];
   joint: number;
@@ -125,6 +126,11 @@ export interface Pause {
   paused: boolean;
 }
 
+/** The records cannot be written: the disk is full, or the folder was deleted. Nothing more is acknowledged till welcome. */
+export interface Unstored {
+  type: "unstored";
+}
+
 /** The server closes the connection for good, and why; the page does not come back by itself. */
 export interface Bye {
   type: "bye";
@@ -133,4 +139,4 @@ export interface Bye {
 
 export type FromPage = Hello | AnswersMessage | Begin | Cycles | EndMessage | Rate | EventMessage;
 
-export type FromServer = Welcome | Ack | Refused | Pause | Bye;
+export type FromServer = Welcome | Ack | Refused | Pause | Unstored | Bye;

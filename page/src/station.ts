@@ -46,6 +46,8 @@ export class Station {
   progress: Progress = { training: [], trials: 0, answered: new Set(), unrated: false, over: false };
   subject = "";
   private session: string | null = null;
+  /** Of a new session: the same however often hello is said, so that a lost answer makes no second subject. */
+  private fresh = key();
   private readonly outbox: Outbox;
   private readonly connection: Connection;
   /** When the connection was lost, ms. */
@@ -68,13 +70,14 @@ export class Station {
     this.stick = new Stick(study.stick.limit, study.stick.dead_zone);
     this.rules = { radius: study.radius, cycleLimit: study.cycle_limit };
     this.robot = robotSeed === null ? null : new Random(robotSeed);
-    this.frame = new Frame(this.texts, study.name);
+    this.frame = new Frame(this.texts);
     const kept = storage.kept;
     this.session = handed ?? kept?.session ?? null;
     this.outbox = new Outbox(kept !== null && kept.session === this.session ? kept.outbox : []);
     this.connection = new Connection(addresses.session, this.outbox, {
       online: (yes) => this.online(yes),
       paused: (yes) => this.frame.pause(yes),
+      unstored: (yes) => this.frame.unstored(yes),
       acknowledged: () => this.acknowledged(),
       over: (reason) => this.stop(reason),
     });
@@ -92,13 +95,15 @@ export class Station {
   forget(): void {
     this.storage.kept = null;
     this.session = null;
+    this.fresh = key();
     this.outbox.clear(0);
   }
 
   /** Take part: with the session of an earlier visit, or as a new subject. Rejected where the server refuses. */
   async join(code: string | null): Promise<void> {
     const kind = this.robot === null ? "person" : "simulated";
-    const hello: Hello = { type: "hello", format: FORMAT, session: this.session, code, kind };
+    const fresh = this.session === null ? this.fresh : null;
+    const hello: Hello = { type: "hello", format: FORMAT, session: this.session, code, kind, fresh };
     const welcome = await this.connection.join(hello);
     this.take(welcome);
     this.keep();
@@ -171,4 +176,9 @@ export class Station {
     if (this.finished !== null && !outbox.length) return;
     this.storage.kept = { session: this.session, subject: this.subject, outbox };
   }
+}
+
+/** 24 random bytes, as the server takes them. */
+function key(): string {
+  return Array.from(crypto.getRandomValues(new Uint8Array(24)), (byte) => byte.toString(16).padStart(2, "0")).join("");
 }

@@ -41,7 +41,6 @@ export interface Form {
 
 export interface Study {
   format: 1;
-  name: string;
   joints: number;
   axes: number;
   /** Control cycles per second. */
@@ -53,8 +52,8 @@ export interface Study {
   cycle_limit: number | null;
   rating: string[];
   training: Criterion;
-  law_of: number[];
-  training_scenario: number;
+  /** Code of the law of the training. */
+  training_law: number;
   /** Radius of the workspace's boundary, m; null where none is drawn. */
   reach: number | null;
   centre: number[];

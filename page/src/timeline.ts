@@ -158,7 +158,7 @@ class Session {
   private practiceTask(): TrialSpec {
     const { plan, texts, study } = this.station;
     const { q0, target, joint } = plan.training[plan.training.length - 1 - (this.practised % plan.training.length)];
-    const law = study.law_of[study.training_scenario];
+    const law = study.training_law;
     return {
       title: texts.get("practice_progress"),
       task: { law, q0, target, joint },
@@ -178,7 +178,7 @@ class Session {
       wanted: study.training.in_a_row,
       at_least: study.training.at_least,
     });
-    const law = study.law_of[study.training_scenario];
+    const law = study.training_law;
     return {
       title,
       task: { law, q0, target, joint },
@@ -199,13 +199,13 @@ class Session {
   }
 
   private trialTask(): TrialSpec {
-    const { plan, progress, texts, study } = this.station;
+    const { plan, progress, texts } = this.station;
     const position = progress.trials;
-    const { scenario, q0, target, joint } = plan.trials[position];
+    const { law, q0, target, joint } = plan.trials[position];
     const title = texts.get("trial_progress", { number: position + 1, count: plan.trials.length });
     return {
       title,
-      task: { law: study.law_of[scenario], q0, target, joint },
+      task: { law, q0, target, joint },
       record: { kind: "trial", position },
       hints: false,
       note: "",

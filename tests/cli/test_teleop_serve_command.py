@@ -38,20 +38,31 @@ def test_a_new_folder_begins_an_experiment(cli, served, tmp_path):
 
 
 def test_other_computers_need_the_token(cli, served, tmp_path):
-    call = ["teleop", "serve", "--data", tmp_path / "study", "--host", "0.0.0.0", "--token", "abcdefghijkl"]
+    call = ["teleop", "serve", "--data", tmp_path / "study", "--host", "0.0.0.0", "--token", "k3vR-9fQzT1m"]
     code, text, _ = cli(*call)
     assert code == 0
-    assert "/?token=abcdefghijkl\n" in text
+    assert "/?token=k3vR-9fQzT1m\n" in text
     assert "caddy reverse-proxy" in text
     assert served[0][0].guard.loopback is False
+
+
+def test_the_token_need_not_stand_in_the_list_of_processes(cli, served, tmp_path, monkeypatch):
+    (tmp_path / "token").write_text("k3vR-9fQzT1m\n# of the laboratory\n")
+    assert cli("teleop", "serve", "--data", tmp_path / "study", "--token-file", tmp_path / "token")[0] == 0
+    monkeypatch.setenv("HOLDFAST_TOKEN", "x7Pq-2LmWb8c")
+    assert cli("teleop", "serve", "--data", tmp_path / "study")[0] == 0
+    assert [options.guard.token for options, _, _ in served] == ["k3vR-9fQzT1m", "x7Pq-2LmWb8c"]
 
 
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (["--host", "0.0.0.0"], "add --token"),
-        (["--host", "192.168.1.4"], "add --token"),
+        (["--host", "0.0.0.0"], "add --token-file"),
+        (["--host", "192.168.1.4"], "add --token-file"),
         (["--token", "short"], "12 to 128"),
+        (["--token", "aaaaaaaaaaaa"], "easily guessed"),
+        (["--token-file", "none"], "'none' cannot be read"),
+        (["--token-file", "none", "--token", "k3vR-9fQzT1m"], "give one of them"),
         (["--protocol", "none.yaml"], "none.yaml"),
         (["--port", "70000"], "port"),
         ([], "--data"),

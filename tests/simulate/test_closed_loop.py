@@ -584,3 +584,8 @@ def test_pose_tasks_want_poses(panda):
     assert runs.target.shape == (3,)
     with pytest.raises(hf.InputError, match="no run 1"):
         runs.path(1)
+
+
+def test_an_angle_given_with_a_lock_is_refused_and_not_ignored(two):
+    with pytest.raises(hf.InputError, match=r"locked is {'joint2': 0.5}; a joint locks where it is, so .* its angle in q0"):
+        hf.simulate(hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), [0.1, 0.2, 0.3], [1, 1], {"joint2": 0.5})

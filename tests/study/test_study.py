@@ -341,6 +341,16 @@ def test_a_damaged_study_file_is_a_sentence(change, tmp_path):
         Study.open(study.path)
 
 
+@pytest.mark.parametrize("key", ["labels", "rows", "chunk", "name", "digest"])
+def test_a_cell_that_lacks_something_is_named(key, tmp_path):
+    study = make(tmp_path / "s")
+    data = json.loads((study.path / "study.json").read_text())
+    del data["cells"][1][key]
+    (study.path / "study.json").write_text(json.dumps(data))
+    with pytest.raises(StoreError, match=r"its cell 2 is missing or wrong"):
+        Study.open(study.path)
+
+
 def test_two_runs_in_one_folder_are_refused(tmp_path):
     study = make(tmp_path / "s")
     with held(study.path, "study.lock"):

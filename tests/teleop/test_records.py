@@ -1,5 +1,6 @@
 """Records: what is written is read, what is acknowledged survives, and what is not right is refused and changes nothing."""
 
+import json
 import os
 import signal
 import sqlite3
@@ -385,3 +386,18 @@ def test_a_folder_that_is_deleted_or_replaced_takes_nothing_more(records, protoc
         records.set_note(code, "lost")
     with Records.open(records.folder.with_name("moved")) as moved:
         assert moved.subject(code).note == ""
+
+
+def test_events_are_exported_as_json_and_text_is_no_formula(records, tmp_path):
+    import pandas as pd
+
+    code = records.add_subject(answers={"job": '=HYPERLINK("http://127.0.0.1")', "age": 30, "hand": "-"}).code
+    records.set_note(code, "@SUM(1)")
+    data = {"count": 3, "why": "it's \u00fc", "ok": True}
+    records.event("dropped-frames", code, data=data)
+    export(records, tmp_path / "csv")
+    events = pd.read_csv(tmp_path / "csv" / "events.csv")
+    assert json.loads(events["data"][0]) == data
+    (subject,) = pd.read_csv(tmp_path / "csv" / "subjects.csv").to_dict("records")
+    assert (subject["answer job"], subject["note"]) == ('\'=HYPERLINK("http://127.0.0.1")', "'@SUM(1)")
+    assert (subject["answer hand"], subject["answer age"]) == ("'-", 30)

@@ -156,19 +156,10 @@ def test_a_changed_protocol_is_found(study, tmp_path):
     assert verify(tmp_path / "copy").damaged == ["the file protocol.yaml is not as it was when the experiment began"]
 
 
-def older(folder):
-    """Records as they were before there were digests."""
-    with closing(sqlite3.connect(folder / "records.sqlite", isolation_level=None)) as db:
-        for table in ("digests", "under_way", "sessions"):
-            db.execute(f"DROP TABLE {table}")
-        db.execute("DELETE FROM about WHERE key IN ('files', 'without digests')")
-        db.execute("UPDATE about SET value = '1' WHERE key = 'format'")
-
-
 def test_an_older_folder_is_read_and_goes_on_with_digests(study, tmp_path):
     folder = tmp_path / "copy"
     flips.copied(study, folder)
-    older(folder)
+    flips.older(folder)
     before = (folder / "records.sqlite").read_bytes()
     assert verify(folder).without == [1, 2, 3, 4, 5, 6]
     with Records.open(folder) as records:

@@ -54,7 +54,7 @@ class Page {
   private readonly steering = (code: string): boolean => performance.now() - (this.cycles.get(code)?.at ?? -Infinity) < STILL;
 
   private show(): void {
-    this.top.show(this.state.paused);
+    this.top.show(this.state.paused, this.state.fault);
     this.table.show(this.state.subjects, this.steering, this.chosen);
     this.showPanel();
   }
@@ -74,9 +74,9 @@ async function main(): Promise<void> {
     loadStudy(server.address("/study.json")),
     loadArm(server.address("/arm.js")),
   ]);
-  document.title = `${texts.title}: ${study.name}`;
+  document.title = `${texts.title}: ${about.name}`;
   const failure = h("p", { class: "said", role: "alert", "data-testid": "failure", "data-bad": "true" });
-  const top = new Top(server, about, study.name, (said) => (failure.textContent = said));
+  const top = new Top(server, about, about.name, (said) => (failure.textContent = said));
   const panel = new Panel(server, new LiveView(study, arm, about));
   const table = new Table((code) => page.choose(code));
   const page = new Page(top, table, panel, about);

@@ -25,11 +25,15 @@ export interface Subject {
 export interface State {
   /** All sessions are. */
   paused: boolean;
+  /** Why nothing can be stored; null if it can. */
+  fault: string | null;
   subjects: Subject[];
 }
 
 /** What does not change while the server runs. */
 export interface About {
+  /** Of the protocol. */
+  name: string;
   folder: string;
   /** Address of a station. */
   station: string;

@@ -9,6 +9,7 @@ export const texts = {
   station: "Stations open",
   pauseAll: "Pause all",
   resumeAll: "Let all go on",
+  fault: "Nothing can be stored: all sessions have stopped, and go on by themselves when it can be stored again.",
   allPaused: "All sessions are paused. A trial under way goes on to its end; no other begins.",
   report: "Report",
   reportHelp: "The analysis of what is recorded so far, in a new tab. It takes some seconds.",

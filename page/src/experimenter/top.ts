@@ -15,6 +15,7 @@ export class Top {
   private readonly line = h("span", { class: "line", role: "status", "data-testid": "connection", "data-online": "none" });
   private readonly pause: HTMLButtonElement;
   private readonly banner = h("p", { class: "banner", role: "status", "data-testid": "all-paused", hidden: true }, texts.allPaused);
+  private readonly fault = h("p", { class: "banner fault", role: "alert", "data-testid": "fault", hidden: true });
 
   constructor(server: Server, about: About, name: string, say: (text: string) => void) {
     this.pause = button(
@@ -47,6 +48,7 @@ export class Top {
         h("code", { "data-testid": "station-url" }, about.station),
       ),
       this.banner,
+      this.fault,
     );
   }
 
@@ -56,7 +58,9 @@ export class Top {
     this.line.title = yes ? "" : texts.offlineHelp;
   }
 
-  show(paused: boolean): void {
+  show(paused: boolean, fault: string | null): void {
+    this.fault.hidden = fault === null;
+    this.fault.textContent = fault === null ? "" : `${texts.fault} ${fault}`;
     this.paused = paused;
     this.pause.textContent = paused ? texts.resumeAll : texts.pauseAll;
     this.pause.setAttribute("aria-pressed", String(paused));

@@ -16,16 +16,14 @@ export class Frame {
   });
   private readonly cover = h("div", { class: "cover", role: "alertdialog", "aria-live": "assertive", hidden: true });
   private paused = false;
+  private lost = false;
   private busy = false;
   private over = false;
 
-  constructor(
-    private readonly texts: Texts,
-    name: string,
-  ) {
+  constructor(private readonly texts: Texts) {
     document.documentElement.lang = texts.get("language");
     document.title = texts.get("title");
-    const top = h("header", {}, h("span", { class: "name" }, name), this.where, this.who, this.line);
+    const top = h("header", {}, h("span", { class: "name" }, texts.get("title")), this.where, this.who, this.line);
     document.getElementById("app")?.replaceChildren(top, this.stage, this.cover);
   }
 
@@ -53,6 +51,17 @@ export class Frame {
     this.update();
   }
 
+  /** The server cannot store anything any more: everything stops at once. */
+  unstored(yes: boolean): void {
+    if (yes === this.lost) return;
+    this.lost = yes;
+    this.update();
+  }
+
+  get isUnstored(): boolean {
+    return this.lost;
+  }
+
   /** A trial is under way, or is being rated: no pause now. */
   set occupied(yes: boolean) {
     this.busy = yes;
@@ -71,7 +80,8 @@ export class Frame {
 
   private update(): void {
     if (this.over) return;
-    if (this.isPaused) this.show("paused", this.texts.get("paused_title"), this.texts.get("paused_text"));
+    if (this.lost) this.show("unstored", this.texts.get("unstored_title"), this.texts.get("unstored_text"));
+    else if (this.isPaused) this.show("paused", this.texts.get("paused_title"), this.texts.get("paused_text"));
     else this.hide();
   }
 

@@ -135,7 +135,7 @@ class Trial {
   private begun(): void {
     const { station, spec } = this;
     if (this.phase === "broken") return this.wait();
-    if (this.phase !== "waiting" || station.frame.isPaused || station.device?.lost() || document.hidden) return;
+    if (this.phase !== "waiting" || station.frame.isPaused || station.frame.isUnstored || station.device?.lost() || document.hidden) return;
     if (spec.record !== null) station.send({ type: "begin", ...spec.record });
     this.frames = new Frames();
     this.enter("running", station.texts.get("trial_running"));
@@ -145,6 +145,7 @@ class Trial {
   private cycle(time: number): void {
     const { station, run, spec } = this;
     if (station.device?.lost()) return this.breakOff("pad-lost");
+    if (station.frame.isUnstored) return this.breakOff("unstored");
     station.device?.see?.({ cycle: run.cycles, x: run.x, target: spec.task.target });
     station.device?.read(this.deflection);
     const end = run.step(this.deflection, this.aborting || station.device?.tired === true);
@@ -174,7 +175,7 @@ class Trial {
   }
 
   /** It does not count: the person could not see, or not steer. */
-  private breakOff(why: "hidden" | "pad-lost"): void {
+  private breakOff(why: "hidden" | "pad-lost" | "unstored"): void {
     if (this.phase !== "running") return;
     const { station } = this;
     this.report(station.clock.stop());

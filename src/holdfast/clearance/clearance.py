@@ -15,6 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations, finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
+from holdfast.checked import checked
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
@@ -70,6 +71,7 @@ class Clearance:
         ArmError: A capsule on a link that the arm does not have.
     """
 
+    @checked
     def __init__(self, arm: Arm, capsules: Capsules | None = None) -> None:
         self.arm = arm
         self.capsules = Capsules.along(arm) if capsules is None else capsules

@@ -393,13 +393,15 @@ def _measure(value: float, unit: str) -> str:
 def _write(result: _Result, path: Path) -> None:
     import csv
 
+    from holdfast.spreadsheet import cell
+
     optimum = result.optimum
     names = [f"{joint.name}_{joint.unit}" for joint in result.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
     try:
         with writing(path) as file:
             table = csv.writer(file)
-            table.writerow(columns + names)
+            table.writerow(map(cell, columns + names))
             for k in range(len(result.targets)):
                 errors = optimum.position_error[k], optimum.rotation_error[k]
                 facts = [result.values_before[k], optimum.value[k], optimum.starts[k], optimum.agreeing[k], *errors]

@@ -11,7 +11,7 @@ from holdfast.errors import HoldfastError, InputError
 
 _TLS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
   caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
-(start this command with --host 127.0.0.1 --token then; the proxy must hand on the Host header, as Caddy does)"""
+(start this command with --host 127.0.0.1 and a token then; the proxy must hand on the Host header, as Caddy does)"""
 
 
 def serve(
@@ -28,11 +28,20 @@ def serve(
     ] = None,
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="0 for any that is free.")] = 8000,
     host: Annotated[
-        str, typer.Option("--host", help="Address to listen at; others than this computer's need --token.")
+        str, typer.Option("--host", help="Address to listen at; others than this computer's need a token.")
     ] = "127.0.0.1",
     token: Annotated[
         str | None,
-        typer.Option("--token", help="Stations must show it: 12 letters, digits, - or _, or more.", show_default=False),
+        typer.Option(
+            "--token",
+            help="Stations must show it: 12 random letters, digits, - or _, or more. Whoever lists processes sees it here: "
+            "better in the environment, or in a file.",
+            envvar="HOLDFAST_TOKEN",
+            show_default=False,
+        ),
+    ] = None,
+    token_file: Annotated[
+        Path | None, typer.Option("--token-file", help="File whose first line is the token.", show_default=False)
     ] = None,
     texts: Annotated[
         Path | None, typer.Option("--texts", help="Translation of the page's texts (YAML).", show_default=False)
@@ -50,11 +59,15 @@ def serve(
         if error.name not in ("starlette", "uvicorn", "websockets"):
             raise
         raise HoldfastError(f"the server needs {error.name}; pip install 'holdfast[teleop]'") from None
+    token = _token(token, token_file)
     if token is not None:
         check_token(token)
     loopback = app.is_loopback(host)
     if not loopback and token is None:
-        raise InputError(f"--host {host} lets other computers in; add --token with a secret of 12 letters and digits or more")
+        raise InputError(
+            f"--host {host} lets other computers in; add --token-file, or HOLDFAST_TOKEN, with a random secret of 12 "
+            "letters and digits or more"
+        )
     app.prepare(data, protocol)
     options = app.Options(data, Guard(token=token, loopback=loopback and token is None), texts, tlx)
 
@@ -68,6 +81,22 @@ def serve(
         typer.echo(f"records:      {data}; Ctrl-C ends the server, and what was acknowledged is on the disk")
 
     app.serve(options, host, port, ready)
+
+
+def _token(given: str | None, file: Path | None) -> str | None:
+    """The token, from where it is."""
+    if file is None:
+        return given
+    if given is not None:
+        raise InputError("there is a token in --token or HOLDFAST_TOKEN, and a --token-file; give one of them")
+    try:
+        with file.open("rb") as stream:
+            first = stream.readline(1000)
+        return first.decode("ascii").strip()
+    except OSError as error:
+        raise InputError(f"--token-file: '{file}' cannot be read: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"--token-file: the first line of '{file}' is not text; write the token there") from error
 
 
 def texts(

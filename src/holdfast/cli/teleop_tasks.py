@@ -110,6 +110,7 @@ def _folder(
     seed: int,
 ) -> list[Path]:
     from holdfast.report.figures import save_png
+    from holdfast.spreadsheet import csv_text
     from holdfast.teleop.bank_figure import bank_figure
     from holdfast.teleop.tables import bank_table
 
@@ -117,7 +118,7 @@ def _folder(
     file = out / "bank.csv"
     try:
         out.mkdir(parents=True, exist_ok=True)
-        replaced(file, bank_table(bank, arm, cells).to_csv(index=False))
+        replaced(file, csv_text(bank_table(bank, arm, cells)))
     except OSError as error:
         raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
     protocol = _protocol(spec, arm, rows, bank, every, seed)

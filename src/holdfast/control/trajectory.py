@@ -15,6 +15,7 @@ from holdfast.control.slow_motion import SlowMotion, slow_enough
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility import Susceptibility
+from holdfast.spreadsheet import cell
 from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
@@ -185,7 +186,7 @@ class Trajectory:
             else:
                 with writing(target) as file:
                     writer = csv.writer(file)
-                    writer.writerow(table)
+                    writer.writerow(map(cell, table))
                     writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
         except ImportError as error:
             raise StoreError(f"'{target}': Parquet needs pyarrow; install holdfast[parquet], or give a name in .csv") from error

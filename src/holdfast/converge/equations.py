@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.scale import length_unit
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
-from holdfast.kernels import Kernel, Loop, recalled
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
 
@@ -51,10 +51,15 @@ class RestEquations:
     """
 
     def __init__(self, law: Law, single: bool) -> None:
-        self.law, self.system = law, System(law)
-        n, m = law.arm.n, law.task.m
-        self.size = n + m + 2
+        self.law, self.system, self._locks_one = law, System(law), single
+        self.size = law.arm.n + law.task.m + 2
         self._z = ca.SX.sym("z", self.size)
+        self.made_of = law, single
+
+    @cached_property
+    def _expressions(self) -> tuple[SX, SX]:
+        """The equations, and what is left of ``A J' u`` on the locked joints."""
+        law, n, m = self.law, self.law.arm.n, self.law.task.m
         q, u, c, s = self._z[:n], self._z[n : n + m], self._z[n + m], self._z[n + m + 1]
         mask, form = self.system.mask, metric(law)
         error, _ = self.system.scaled_error(q)
@@ -68,22 +73,25 @@ class RestEquations:
             j = scale @ law.jacobian(q)
             still = a @ j.T @ u
             # The column itself does not vanish where J loses rank, as J A J' u does.
-            along = j @ (1 - mask) if single and not damping else j @ still + damping * (scale @ scale @ u)
+            along = j @ (1 - mask) if self._locks_one and not damping else j @ still + damping * (scale @ scale @ u)
         # As many equations as unknowns, but for the locked joints.
-        self._equations = ca.vertcat(mask * still, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * along)
-        self._pull = ca.sum1((1 - mask) * still)
-        self._slopes = ca.jacobian(self._equations, self._z)
+        equations = ca.vertcat(mask * still, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * along)
+        return equations, ca.sum1((1 - mask) * still)
+
+    @cached_property
+    def _slopes(self) -> SX:
+        return ca.jacobian(self._expressions[0], self._z)
 
     @cached_property
     @recalled
     def _kernel(self) -> Kernel:
-        inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
+        inputs, outputs = [self._z, *self.system.parameters], [self._expressions[0], self._slopes]
         return Kernel("rest", inputs, outputs)
 
     @cached_property
     @recalled
     def _pulls(self) -> Kernel:
-        return Kernel("pull of rest", [self._z, *self.system.parameters], [self._pull])
+        return Kernel("pull of rest", [self._z, *self.system.parameters], [self._expressions[1]])
 
     @cached_property
     @recalled
@@ -91,10 +99,10 @@ class RestEquations:
         """Levenberg and Marquardt: a step is kept if it lowers the norm."""
         free, damping = ca.SX.sym("free", self.size), ca.SX.sym("damping")
         state = ca.vertcat(self._z, damping)
-        slopes = self._slopes @ ca.diag(free)
-        trial = self._z + free * damped_least_norm(slopes, -self._equations, damping)
-        size = ca.sumsqr(self._equations)
-        better = ca.sumsqr(ca.substitute(self._equations, self._z, trial)) < size
+        slopes, equations = self._slopes @ ca.diag(free), self._expressions[0]
+        trial = self._z + free * damped_least_norm(slopes, -equations, damping)
+        size = ca.sumsqr(equations)
+        better = ca.sumsqr(ca.substitute(equations, self._z, trial)) < size
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
         parameters = [*self.system.parameters, free]

@@ -309,6 +309,8 @@ def design_space(arm: Arm, vary: Vary) -> DesignSpace:
     if isinstance(vary, Mapping):
         return DesignSpace(arm, tuple(_bounded(name, bounds) for name, bounds in vary.items()))
     listed = [vary] if isinstance(vary, str) else list(vary)
+    if not all(isinstance(x, (str, Parameter)) for x in listed):
+        raise InputError(f"vary is {vary!r}; give names with bounds, parameters, or texts such as 'a3=0.2..0.6'")
     return DesignSpace(arm, tuple(x if isinstance(x, Parameter) else parse_vary(x, arm) for x in listed))
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked_class
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
@@ -23,6 +24,7 @@ Array = NDArray[np.float64]
 Formula = Callable[[SX], SX]
 
 
+@checked_class
 class CustomIndex(Index):
     """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
 

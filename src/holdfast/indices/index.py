@@ -15,6 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
@@ -77,6 +78,7 @@ class Index(Objective):
     bound: float | None = None
     bound_note = ""
 
+    @checked
     def __init__(
         self,
         name: str,

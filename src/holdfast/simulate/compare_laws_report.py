@@ -20,6 +20,7 @@ from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Sect
 from holdfast.report.words import counted, fixed, number, percent
 from holdfast.simulate.compare_laws import ANY, HEALTHY, LawComparison
 from holdfast.simulate.runs import Outcome
+from holdfast.spreadsheet import cell
 from holdfast.versions import versions
 from holdfast.whole_file import writing
 
@@ -405,9 +406,9 @@ def save(c: LawComparison, folder: Path) -> list[Path]:
         for name, rows in tables.items():
             file = folder / f"{name}.csv"
             with writing(file) as stream:
-                writer = csv.DictWriter(stream, list(rows[0]))
-                writer.writeheader()
-                writer.writerows(rows)
+                writer = csv.writer(stream)
+                writer.writerow(map(cell, rows[0]))
+                writer.writerows([cell(row[name]) for name in rows[0]] for row in rows)
             written.append(file)
     except OSError as error:
         raise StoreError(f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder") from error

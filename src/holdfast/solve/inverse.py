@@ -413,8 +413,8 @@ def solve_ik(
     targets = check_poses(poses)
     if restarts < 1:
         raise InputError(f"restarts is {restarts}; it must be 1 or more")
-    if not tolerance > 0:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     engine = solver(arm, as_task(arm, task))
     first = None
     if start is not None:

@@ -349,8 +349,8 @@ def optimise(
     for name, value in (("starts", starts), ("restarts", restarts)):
         if value is not None and value < 1:
             raise InputError(f"{name} is {value}; it must be 1 or more")
-    if not tolerance > 0:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
@@ -387,7 +387,7 @@ def objective_ascent(
     if own is not None and task is not None and not own.same_rows(task):
         raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
     chosen = own or task or as_task(objective.arm, "pose")
-    made = objective.ascents
+    made: dict[object, Ascent] = objective.ascents
     key = (chosen.rows.tobytes(), chosen.frame, clearance, margin)
     if key not in made:
         made[key] = Ascent(objective, chosen, clearance, margin)

@@ -192,6 +192,15 @@ class Machine:
         free[list(failed)] = 0.0
         return engine.near(q, pose, free, TOLERANCE)
 
+    def apart(self, q: Array, pose: Array) -> float:
+        """How far the hand at q (n,) is from a pose (4, 4), by the rows of the task; m and rad."""
+        from scipy.spatial.transform import Rotation
+
+        hand = self.hand(q)
+        turn = hand[:3, :3].T if self.task.frame == "tool" else np.eye(3)
+        angular = Rotation.from_matrix(pose[:3, :3] @ hand[:3, :3].T).as_rotvec()
+        return float(np.linalg.norm(self.task.rows @ np.r_[turn @ (pose[:3, 3] - hand[:3, 3]), turn @ angular]))
+
     def slide(self, q: Array, along: Array, failed: Sequence[int]) -> tuple[Array, Array]:
         """One step along the self-motion of q (n,) in the direction nearest to ``along`` (n,), whose norm is its length.
 

@@ -24,9 +24,14 @@ _WARM = 300  # cycles of each law before the module is ready: engines compile wh
 
 
 def law_of(protocol: Protocol) -> list[int]:
-    """For each scenario, the number of its law in the module: laws with their options, each once, as they come."""
+    """For each scenario, the number of its law in the module: laws with their options, each once, shuffled.
+
+    So the numbers say nothing to who reads what page and server say to each other; the protocol's seed shuffles them.
+    """
     known: dict[str, int] = {}
-    return [known.setdefault(json.dumps([s.law, dict(s.options)], sort_keys=True), len(known)) for s in protocol.scenarios]
+    found = [known.setdefault(json.dumps([s.law, dict(s.options)], sort_keys=True), len(known)) for s in protocol.scenarios]
+    codes = np.random.default_rng([protocol.seed, 2]).permutation(len(known)).tolist()
+    return [codes[k] for k in found]
 
 
 def arm_module(protocol: Protocol) -> str:

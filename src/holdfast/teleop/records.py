@@ -473,6 +473,11 @@ class Records:
         finally:
             self._db.execute("ROLLBACK")
 
+    @property
+    def changes(self) -> int:
+        """How many rows were changed since the file was opened."""
+        return self._db.total_changes
+
     def copy_to(self, target: sqlite3.Connection) -> None:
         """Copy the file as it is at one moment, while others may go on writing."""
         self._db.backup(target)

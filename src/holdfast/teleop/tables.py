@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, StoreError
+from holdfast.spreadsheet import csv_text
 from holdfast.teleop.drive import Computer, Rules
 from holdfast.teleop.entries import Entry, Kind, Subject, Who
 from holdfast.teleop.measures import MEASURES, RECORDED, measures
@@ -261,10 +263,11 @@ def export(records: Records, folder: str | Path, parquet: bool = False) -> list[
             raise HoldfastError("Parquet needs pyarrow; install 'holdfast[parquet]', or export CSV") from None
     subjects = [
         {"subject": s.code, "kind": s.kind.value, "number": s.number, "row": s.row, "state": s.state.value, "since": s.since}
+        | {"note": s.note}
         | {f"answer {key}": value for key, value in s.answers.items()}
         for s in records.subjects()
     ]
-    events = [{**e, "data": str(e["data"]) if e["data"] else ""} for e in records.events()]
+    events = [{**e, "data": json.dumps(e["data"], ensure_ascii=False) if e["data"] else ""} for e in records.events()]
     tables = {
         "trials": trial_table(records, (Kind.TRAINING, Kind.TRIAL)),
         "cycles": cycle_table(records),
@@ -280,10 +283,10 @@ def export(records: Records, folder: str | Path, parquet: bool = False) -> list[
             if parquet:
                 table.to_parquet(file, index=False)
             else:
-                table.to_csv(file, index=False)
+                file.write_text(csv_text(table), encoding="utf-8", newline="\n")
             written.append(file)
         file = path / "dictionary.csv"
-        dictionary(records.protocol).to_csv(file, index=False)
+        file.write_text(csv_text(dictionary(records.protocol)), encoding="utf-8", newline="\n")
         written += [file, records.protocol.write(path / "protocol.yaml")]
     except OSError as error:
         raise StoreError(f"cannot write to '{path}': {error.strerror or error}; choose another folder") from error

@@ -13,6 +13,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -138,8 +139,24 @@ async def _run(url: str, pid: int, protocol: Protocol, stations: int, rate: floa
     return results, (*memory, _memory(pid)), (cpu[1] - cpu[0]) / max(0.1, seconds / 2 - 2.0)
 
 
-def load(folder: Path, stations: int, rate: float, seconds: float) -> Figures:
-    """Begin an experiment in a new folder, serve it, and let stations work."""
+def load(
+    folder: Path,
+    stations: int,
+    rate: float,
+    seconds: float,
+    beside: Callable[[int], None] = lambda port: None,
+    log: Path | None = None,
+) -> Figures:
+    """Begin an experiment in a new folder, serve it, and let stations work.
+
+    Args:
+        folder: Where.
+        stations: How many.
+        rate: Messages per second of each.
+        seconds: How long.
+        beside: Is told the server's port when they begin.
+        log: File for what the server says; None for where this program says it.
+    """
     trial = max(60, int(rate * seconds / 90))  # of the 100 training tasks
     training = Training(at_least=100, in_a_row=100, limit=55, most=100)
     protocol = replace(read(), training=training, scenarios=read().scenarios[:1])
@@ -149,11 +166,16 @@ def load(folder: Path, stations: int, rate: float, seconds: float) -> Figures:
     (static / "index.html").write_text("<!doctype html><title>x</title>")
     (folder / "en.yaml").write_text(TEXTS)
     call = [sys.executable, str(PROGRAM), str(folder / "study"), str(static), str(folder / "en.yaml")]
-    with subprocess.Popen(call, stdout=subprocess.PIPE, text=True) as server:
+    with (
+        Path(os.devnull if log is None else log).open("wb") as said,
+        subprocess.Popen(call, stdout=subprocess.PIPE, stderr=None if log is None else said, text=True) as server,
+    ):
         try:
             assert server.stdout is not None
-            url = f"ws://127.0.0.1:{int(server.stdout.readline())}/session"
+            port = int(server.stdout.readline())
+            url = f"ws://127.0.0.1:{port}/session"
             _ = protocol.plants  # compiled before the clock starts
+            beside(port)
             results, memory, busy = asyncio.run(_run(url, server.pid, protocol, stations, rate, seconds, trial))
         finally:
             server.terminate()

@@ -7,6 +7,7 @@ import json
 import numpy as np
 from websockets.sync.client import ClientConnection, connect
 
+from holdfast.teleop.printed_arm import law_of
 from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.serve import messages
 
@@ -67,7 +68,7 @@ class Client:
         """A trial with random commands; the configurations from start to end."""
         plan = self.welcome.plan
         todo = (plan.training if kind == "training" else plan.trials)[position]
-        scenario = 0 if kind == "training" else todo.scenario
+        scenario = 0 if kind == "training" else law_of(self.protocol).index(todo.law)
         healthy = np.ones(len(todo.q0))
         if todo.joint >= 0:
             healthy[todo.joint] = 0.0

@@ -12,7 +12,7 @@ from websockets.sync.client import connect
 
 import holdfast as hf
 from holdfast.teleop.serve.app import Options, make_app, prepare
-from holdfast.teleop.serve.guard import Bucket, Guard, check_token
+from holdfast.teleop.serve.guard import Bucket, Guard, Wrong, check_token
 
 TOKEN = "token-of-the-study"
 
@@ -164,10 +164,42 @@ def test_odd_requests(served):
 
 
 def test_tokens_that_can_be_guessed_are_refused():
-    check_token("0123456789ab")
+    for token in ("4d1e07a9c2b8", "9f8b2c61d04e7a35c1f0e8d27b96a413", "k3vR-9fQzT1m"):
+        check_token(token)
+    weak = "aaaaaaaaaaaa abcdefghijkl 0123456789ab 9876543210-zyx x1-yx1-yx1-y password1234 holdfast-token"
+    for token in weak.split():
+        with pytest.raises(hf.InputError, match="easily guessed"):
+            check_token(token)
     for token in ("", "short", "with space here", "a/b/c/d/e/f/g/h", "x" * 129, "äöüäöüäöüäöüäöü"):
         with pytest.raises(hf.InputError, match="token"):
             check_token(token)
+
+
+def test_guessing_gets_slow(start, tmp_path):
+    """After two hundred wrong tokens an address is not even listened to for a while, whatever it shows."""
+    asker = Asker(start(tmp_path / "study", TOKEN).port)
+    assert asker.get(f"/?token={TOKEN}").status_code == 200
+    assert [asker.get(f"/?token=wrong-{k}").status_code for k in range(200)] == [403] * 200
+    asked = [asker.get(f"/?token={TOKEN if k % 2 else 'wrong'}").status_code for k in range(4)]
+    assert 429 in asked
+    assert asker.get("/experimenter?key=wrong").status_code in (403, 429)
+
+
+def test_wrong_tokens_are_counted_by_address():
+    now = [0.0]
+    wrong = Wrong(lambda: now[0])
+    for _ in range(201):
+        assert not wrong.must_wait("a")
+        wrong.count("a")
+    assert wrong.must_wait("a")
+    assert not wrong.must_wait("b")
+    now[0] = 1.1
+    assert not wrong.must_wait("a")
+    wrong.count("a")
+    assert wrong.must_wait("a")
+    for k in range(3000):
+        wrong.count(str(k))
+    assert len(wrong._seen) <= 1024
 
 
 def test_keys_are_made_anew():

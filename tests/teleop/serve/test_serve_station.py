@@ -8,9 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import flips
 import holdfast as hf
 from holdfast.teleop import session
 from holdfast.teleop.entries import Kind, State
+from holdfast.teleop.printed_arm import law_of
 from holdfast.teleop.records import Records
 from holdfast.teleop.serve import messages, station
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused
@@ -64,6 +66,8 @@ class Model:
             case "rate":
                 last = self.trials[-1] if self.trials else None
                 if last is None or last["end"] in (None, "broken-off") or last["rating"] is not None or m.rating > 3:
+                    return False
+                if last["kind"] == "training":
                     return False
                 last["rating"] = m.rating
             case "answers":
@@ -204,9 +208,10 @@ def test_the_plan_is_the_session_of_the_protocol(records, protocol):
     entered = enter(records, hello(code="P07"))
     subject = records.subject("P07")
     plan = Station(records, "P07").welcome(entered.key, False).plan
-    assert [[t.task, t.scenario] for t in plan.trials] == protocol.session(subject.row, subject.number).tolist()
-    for t in plan.trials:
-        assert t.joint == (protocol.tasks.joint[t.task] if protocol.scenarios[t.scenario].failed else -1)
+    order, laws = protocol.session(subject.row, subject.number).tolist(), law_of(protocol)
+    assert [[t.task, t.law] for t in plan.trials] == [[task, laws[scenario]] for task, scenario in order]
+    for t, (_, scenario) in zip(plan.trials, order, strict=True):
+        assert t.joint == (protocol.tasks.joint[t.task] if protocol.scenarios[scenario].failed else -1)
         np.testing.assert_array_equal(t.q0, protocol.tasks.q0[t.task])
     assert [t.joint for t in plan.training] == [-1, -1, -1]
 
@@ -255,7 +260,7 @@ def test_dropped_and_deleted_subjects_are_told(records):
 
 
 def test_folders_from_before_there_were_pages_open(records):
-    records._db.execute("DROP TABLE sessions")
+    flips.older(records.folder)
     with Records.open(records.folder) as again:
         assert isinstance(enter(again, hello()), Entered)
 

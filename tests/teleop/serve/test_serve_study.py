@@ -1,5 +1,6 @@
 """What the page is told of an experiment, and its texts."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -8,8 +9,11 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
+from holdfast.control.laws import BY_NAME
+from holdfast.teleop.printed_arm import arm_module, law_of
 from holdfast.teleop.protocol import read
 from holdfast.teleop.serve import texts
+from holdfast.teleop.serve.messages import PlannedTrial
 from holdfast.teleop.serve.study import study, views, workspace
 
 
@@ -18,8 +22,7 @@ def test_study_of_the_paper(built):
     told = study(whole, texts.read(None, built[1]), tlx=True)
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["stick"] == {"limit": 0.05, "dead_zone": 0.005}
-    assert told["law_of"] == [0, 1, 0, 1]
-    assert told["training_scenario"] == 0
+    assert told["training_law"] == law_of(whole)[0]
     assert told["training"] == {"at_least": 10, "in_a_row": 5, "limit": 55.0, "most": 100}
     assert told["views"] == [{"label": "x, y", "rows": [[1, 0, 0], [0, 1, 0]]}]
     assert (told["reach"], told["centre"]) == (pytest.approx(3.0), [0.0, 0.0, 0.0])
@@ -83,3 +86,14 @@ def test_translations_have_the_same_keys(built, tmp_path):
         assert "\n" not in str(raised.value)
     with pytest.raises(hf.InputError, match=r"none\.yaml.*cannot be read"):
         texts.read(tmp_path / "none.yaml", built[1])
+
+
+def test_the_page_is_blind(built):
+    """No law is named in anything that a station gets, and the order of the laws' codes is the protocol's seed's."""
+    whole = dataclasses.replace(read(), name="does the failure-tolerant inverse help?")
+    order = whole.session(0, 0)
+    laws = law_of(whole)
+    plan = [PlannedTrial(task=t, law=laws[s], q0=[0.0], target=[0.0], joint=-1).model_dump() for t, s in order.tolist()]
+    words = json.dumps(study(whole, texts.read()) | {"texts": ""}) + arm_module(whole) + json.dumps(plan)
+    for name in (*BY_NAME, "pseudo", "tolerant", "inverse", "scenario", "law_of", whole.name):
+        assert name not in words.lower()

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from holdfast.errors import StoreError
+from holdfast.spreadsheet import csv_text
 from holdfast.teleop.analysis.observed import CAUSES
 from holdfast.teleop.measures import MEASURES
 
@@ -122,8 +123,7 @@ def write_tables(analysis: Analysis, folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, table in {**analysis.tables, "data_dictionary": dictionary(analysis)}.items():
-            text = table.to_csv(index=False, na_rep="NA", lineterminator="\n")
-            (folder / f"{name}.csv").write_text(text, encoding="utf-8", newline="\n")
+            (folder / f"{name}.csv").write_text(csv_text(table, "NA"), encoding="utf-8", newline="\n")
     except OSError as error:
         raise StoreError(f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder") from error
 

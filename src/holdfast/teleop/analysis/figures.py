@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from textwrap import fill
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -133,11 +134,11 @@ def measures_figure(values: Sequence[Sequence[Array]], computer: Sequence[Array]
     with style():
         columns = 5
         lines = -(-len(values) // columns)
-        tall = 2.05 * lines + 0.75
+        tall = 2.2 * lines + 0.9
         # Many panels: placed by hand, the automatic layout would take most of the time.
         figure = Figure(figsize=(WIDTH, tall))
         figure.set_layout_engine("none")
-        place = {"left": 0.05, "right": 0.995, "top": 1 - 0.3 / tall, "bottom": 0.8 / tall, "wspace": 0.3, "hspace": 0.33}
+        place = {"left": 0.05, "right": 0.995, "top": 1 - 0.4 / tall, "bottom": 0.8 / tall, "wspace": 0.34, "hspace": 0.46}
         every = figure.subplots(lines, columns, squeeze=False, gridspec_kw=place).ravel()
         for k, axes in enumerate(every):
             if k >= len(values):
@@ -146,7 +147,8 @@ def measures_figure(values: Sequence[Sequence[Array]], computer: Sequence[Array]
             factor = 1.0 if k == 0 else shown(k - 1)[1]
             its = None if computer is None or k >= len(computer) else factor * computer[k]
             _distributions(axes, [factor * v for v in values[k]], its, scenarios)
-            axes.set_title("CPM" if k == 0 else shown(k - 1)[0], fontsize=8, pad=4)
+            # In two lines where need be: panels are narrow, and titles of neighbours must not touch.
+            axes.set_title(fill("CPM" if k == 0 else shown(k - 1)[0], 22), fontsize=8, pad=4)
         for axes in every[max(0, len(values) - columns) : len(values)]:
             axes.set_xlabel("scenario")
         figure.legend(handles=_key(computer is not None), loc="lower center", ncols=5, columnspacing=2.0)

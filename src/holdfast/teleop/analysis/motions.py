@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -61,7 +62,7 @@ class Motion:
 
     Attributes:
         path: (K, 2) tool points, m.
-        title: One line.
+        title: A few words.
         target: (2,) m.
         radius: Of the target circle, m.
         whole: What the healthy arm reaches; None if that is not drawn.
@@ -81,10 +82,10 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
     with style():
         columns = min(4, len(motions))
         lines = -(-len(motions) // columns)
-        tall = 0.25 + lines * (WIDTH / columns + 0.15)
+        tall = 0.45 + lines * (WIDTH / columns + 0.3)
         figure = Figure(figsize=(WIDTH, tall))
         figure.set_layout_engine("none")
-        place = {"left": 0.055, "right": 0.995, "top": 1 - 0.25 / tall, "bottom": 0.5 / tall, "wspace": 0.06, "hspace": 0.12}
+        place = {"left": 0.055, "right": 0.995, "top": 1 - 0.4 / tall, "bottom": 0.5 / tall, "wspace": 0.06, "hspace": 0.22}
         every = figure.subplots(lines, columns, squeeze=False, sharex=True, sharey=True, gridspec_kw=place).ravel()
         for axes, m in zip(every, motions, strict=False):
             if m.whole is not None:
@@ -106,7 +107,7 @@ def motions_figure(motions: Sequence[Motion]) -> Figure:
                     (float(m.target[0]), float(m.target[1])), m.radius, fill=False, edgecolor=ORANGE, linewidth=1.6, zorder=4
                 )
             )
-            axes.set_title(plain(m.title, 48), fontsize=8.6, pad=4)
+            axes.set_title(fill(plain(m.title, 48), 26, break_on_hyphens=False), fontsize=8.6, pad=4)
             axes.set_aspect("equal")
             axes.grid(visible=False)
             axes.tick_params(labelsize=8)

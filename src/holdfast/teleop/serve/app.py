@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import socket
-from collections.abc import AsyncIterator, Callable
-from contextlib import ExitStack, asynccontextmanager, suppress
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import ExitStack, asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.protocol import read as read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.records_file import FILE
-from holdfast.teleop.serve import experimenter
+from holdfast.teleop.serve import bounded, experimenter
 from holdfast.teleop.serve.connection import session
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import LOOPBACK, Guard, Guarded
@@ -32,6 +33,9 @@ from holdfast.teleop.serve.texts import ENGLISH
 from holdfast.teleop.serve.texts import read as read_texts
 
 STATIC = Path(__file__).with_name("static")
+_LOCK = "serve.lock"
+_BACKLOG = 1024  # connections that the system keeps until they are taken ...
+_AT_ONCE = 8  # ... so many at a time, so that stations are answered meanwhile
 _PAGE = "index.html"
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -110,6 +114,7 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
+        bounded.sparing_loop(asyncio.get_running_loop())
         control = Control(options.folder, asyncio.get_running_loop())
         app.state.control = control
         await control.begin()
@@ -150,7 +155,8 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
         config = uvicorn.Config(
             app,
             loop="asyncio",
-            http="h11",
+            http=bounded.protocol(bounded.files() // 2),
+            backlog=_AT_ONCE,
             ws="websockets-sansio",
             ws_max_size=MOST_BYTES,
             ws_ping_timeout=60.0,
@@ -160,8 +166,33 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
             server_header=False,
             timeout_graceful_shutdown=5,
         )
-        with suppress(KeyboardInterrupt):
-            uvicorn.Server(config).run(sockets=[listener])
+        logging.getLogger("uvicorn.error").addFilter(bounded.Sparing())
+        with _alone(options.folder), suppress(KeyboardInterrupt):
+            _Server(config).run(sockets=[listener])
+
+
+class _Server(uvicorn.Server):
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        for listener in sockets or ():
+            listener.listen(_BACKLOG)  # asyncio has set it to what is taken at once
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """No other server has the folder meanwhile: each would know nothing of the other's pages and pauses."""
+    from holdfast.study.folder import held
+
+    with ExitStack() as held_:
+        try:
+            held_.enter_context(held(folder, _LOCK))
+        except StoreError as error:
+            if not isinstance(error.__cause__, BlockingIOError):
+                raise
+            raise StoreError(
+                f"'{folder}' is served by another program already; stop that one, or give another folder"
+            ) from error
+        yield
 
 
 def _listening(host: str, port: int) -> socket.socket:
@@ -171,7 +202,7 @@ def _listening(host: str, port: int) -> socket.socket:
             listener = opened.enter_context(socket.socket(family, kind))
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             listener.bind(address)
-            listener.listen(128)
+            listener.listen(_BACKLOG)
         except OSError as error:
             raise StoreError(
                 f"cannot listen at {host}, port {port}: {error.strerror or error}; choose another port or host"

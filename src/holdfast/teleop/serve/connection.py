@@ -9,14 +9,15 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from holdfast.errors import HoldfastError, InputError
+from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import Bucket
-from holdfast.teleop.serve.messages import Ack, Bye, Hello, Message, Pause, Refused
+from holdfast.teleop.serve.messages import Ack, Bye, Hello, Message, Pause, Refused, Unstored
 
 _UNANSWERED = 512  # messages of one page that wait for the disk
-_GREETING = 30.0  # s for the first message
+_GREETING = 10.0  # s for the first message
+_BYTES, _AT_ONCE = 256 * 1024.0, 4 * 2.0**20  # that a page may send in a second for ever, and at once after a pause
 
 
 class Connection:
@@ -32,7 +33,7 @@ class Connection:
 
     def __init__(self, socket: WebSocket, control: Control) -> None:
         self._socket, self._control = socket, control
-        self._bucket = Bucket()
+        self._bucket, self._bytes = Bucket(), Bucket(_BYTES, _AT_ONCE)
         self._room = asyncio.Semaphore(_UNANSWERED)
         self._out: deque[tuple[Message | None, bool]] = deque()
         self._news = asyncio.Event()
@@ -60,8 +61,7 @@ class Connection:
     def answered(self, reply: Message | Exception) -> None:
         """The reply to a message, in the order of the messages; an exception: it could not be written."""
         if isinstance(reply, Exception):
-            self._barred = True
-            self._put(None, counts=True)
+            self.unstored(counts=True)
         else:
             self._put(reply, counts=True)
             self._barred = self._barred or isinstance(reply, Bye)
@@ -69,6 +69,18 @@ class Connection:
     def pause(self, paused: bool) -> None:
         """Tell the page to wait, or to go on."""
         self._put(Pause(paused=paused))
+
+    def unstored(self, counts: bool = False) -> None:
+        """Say that the records cannot be written, and close; the page comes back by itself."""
+        if not self._barred:
+            self._barred = True
+            self._put(Unstored(), counts)
+        self._put(None, counts)
+
+    def turn_away(self) -> None:
+        """Close, without a word: there are too many that say nothing."""
+        self._barred = True
+        self._put(None)
 
     def bye(self, reason: str) -> None:
         """Say why, and close; nothing that comes after this is taken."""
@@ -82,7 +94,8 @@ class Connection:
         self._news.set()
 
     async def _read(self) -> None:
-        await asyncio.wait_for(self._greet(), _GREETING)
+        with self._control.greeted(self):
+            await asyncio.wait_for(self._greet(), _GREETING)
         while True:
             text = await self._text()
             await self._room.acquire()
@@ -95,7 +108,7 @@ class Connection:
             except InputError as error:
                 self._refuse(str(error))
             else:
-                self._control.take(self, message)
+                self._control.take(self, message, len(text))
         await asyncio.Event().wait()  # the sender ends the connection
 
     async def _greet(self) -> None:
@@ -108,6 +121,9 @@ class Connection:
                 reply: Message = await self._control.enter(self, hello)
             except InputError as error:
                 reply = Refused(seq=None, reason=str(error), last=0)
+            except StoreError:
+                self.unstored()
+                break
             self._put(reply)
             self._barred = self._barred or isinstance(reply, Bye)
 
@@ -127,7 +143,9 @@ class Connection:
         if message["type"] == "websocket.disconnect":
             raise WebSocketDisconnect(message.get("code", 1006))
         text: str | bytes | None = message.get("text")
-        return message["bytes"] if text is None else text
+        text = message["bytes"] if text is None else text
+        await asyncio.sleep(self._bytes.wait(len(text)))
+        return text
 
     async def _send(self) -> None:
         while True:
@@ -141,7 +159,7 @@ class Connection:
                     message, _ = self._out.popleft()
                     answered += 1
                 if message is None:
-                    await self._socket.close(1011, "the records cannot be written")
+                    await self._socket.close(1011)
                     return
                 await self._socket.send_text(message.model_dump_json())
                 for _ in range(answered):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +25,8 @@ if TYPE_CHECKING:
     from holdfast.teleop.serve.connection import Connection
 
 DIFFERS = "replay differs"
+_PAUSED, _GOES_ON, _EXPERIMENTER = "paused", "goes on", {"by": "experimenter"}
+_GREETING, _PAGES = 64, 256  # pages at once that have not said hello, and that have
 
 
 class Control:
@@ -45,11 +49,12 @@ class Control:
 
     def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop) -> None:
         self.folder = folder
-        self.writer = Keeper(folder, loop, writes=True)
+        self.writer = Keeper(folder, loop, writes=True, on_fault=self._fault)
         self.reader = Keeper(folder, loop, writes=False)
         self.live = Live()
         self.protocol = self.writer.protocol
         self._pages: dict[str, Connection] = {}
+        self._greeting: dict[Connection, None] = {}  # oldest first
         self._all_paused = False
         self._paused: set[str] = set()
         self._failed = [s.failed for s in self.protocol.scenarios]
@@ -59,6 +64,7 @@ class Control:
         """Compile all that a session needs, so that no station waits for it; then replay what was not before a kill."""
         await asyncio.to_thread(training_tasks, self.protocol, 0)
         await self.reader.do(lambda records: records.protocol.plants)
+        self._all_paused, self._paused = await self.reader.do(_pauses)
         self.reader.put(_differing, self._flag)
 
     def close(self) -> None:
@@ -69,8 +75,30 @@ class Control:
 
     # ---- pages -----------------------------------------------------------------------------------------------------
 
+    @contextmanager
+    def greeted(self, page: Connection) -> Iterator[None]:
+        """A page is to say hello inside; where too many are, the oldest is turned away."""
+        self._greeting[page] = None
+        if len(self._greeting) > _GREETING:
+            oldest = next(iter(self._greeting))
+            del self._greeting[oldest]
+            oldest.turn_away()
+        try:
+            yield
+        finally:
+            self._greeting.pop(page, None)
+
     async def enter(self, page: Connection, hello: Hello) -> Welcome | Refused | Bye:
-        """A page says hello; if it is let in it holds the session, and who held it before is told."""
+        """A page says hello; if it is let in it holds the session, and who held it before is told.
+
+        Raises:
+            StoreError: The records cannot be written.
+        """
+        if len(self._pages) >= _PAGES:
+            raise InputError(f"{_PAGES} pages take part already, the most there may be; try again later")
+        if (fault := self.writer.fault) is not None:
+            # Whether it is over shows when something is written.
+            await self.writer.do(lambda records: records.event("written again", data={"after": fault}))
         entered = await self.writer.do(lambda records: enter(records, hello))
         if not isinstance(entered, Entered):
             return entered
@@ -87,8 +115,8 @@ class Control:
         self.changed()
         return welcome
 
-    def take(self, page: Connection, message: Sequenced) -> None:
-        """A message of a page that holds a session; the page is given the reply."""
+    def take(self, page: Connection, message: Sequenced, size: int = 0) -> None:
+        """A message, of so many bytes, of a page that holds a session; the page is given the reply."""
         code = page.code
         assert code is not None
 
@@ -97,7 +125,7 @@ class Control:
             if isinstance(result, Taken):
                 self._after(code, message, result)
 
-        self.writer.put(lambda records: Station(records, code).take(message), taken)
+        self.writer.put(lambda records: Station(records, code).take(message, size), taken)
 
     def leave(self, page: Connection) -> None:
         """A connection is over."""
@@ -105,6 +133,13 @@ class Control:
             del self._pages[page.code]
             self.live.forget(page.code)
             self.changed()
+
+    def _fault(self, fault: str | None) -> None:
+        """The records cannot be written, or can again: nobody goes on as if nothing had happened."""
+        if fault is not None:
+            for page in list(self._pages.values()):
+                page.unstored()
+        self.changed()
 
     def _after(self, code: str, message: Sequenced, taken: Taken) -> None:
         if taken.reply.type != "ack":
@@ -175,8 +210,8 @@ class Control:
             if self._all_paused and not paused:
                 raise InputError(f"all sessions are paused; {subject} goes on when all do")
             (self._paused.add if paused else self._paused.discard)(subject)
-        kind = "paused" if paused else "goes on"
-        await self.writer.do(lambda records: records.event(kind, subject, None, None, {"by": "experimenter"}))
+        kind = _PAUSED if paused else _GOES_ON
+        await self.writer.do(lambda records: records.event(kind, subject, None, None, _EXPERIMENTER))
         for code, page in self._pages.items():
             if subject in (None, code):
                 page.pause(self.is_paused(code))
@@ -224,7 +259,7 @@ class Control:
 
     async def state(self) -> dict[str, Any]:
         """Whether all sessions are paused, and where every one stands, as JSON takes it."""
-        return {"paused": self._all_paused, "subjects": await self.subjects()}
+        return {"paused": self._all_paused, "fault": self.writer.fault, "subjects": await self.subjects()}
 
     async def subjects(self) -> list[dict[str, Any]]:
         """Where every subject's session stands, as JSON takes it."""
@@ -248,6 +283,22 @@ class Control:
             }
             for s in subjects
         ]
+
+
+def _pauses(records: Records) -> tuple[bool, set[str]]:
+    """Whether all sessions were paused when a server ended, and which."""
+    every, some = False, set[str]()
+    for event in records.events():
+        if event["kind"] not in (_PAUSED, _GOES_ON) or event["data"] != _EXPERIMENTER:
+            continue
+        paused, subject = event["kind"] == _PAUSED, event["subject"]
+        if subject is not None:
+            (some.add if paused else some.discard)(subject)
+        else:
+            every = paused
+            if not paused:
+                some.clear()
+    return every, some
 
 
 def _flagged(records: Records) -> dict[str, int]:

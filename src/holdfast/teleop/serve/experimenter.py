@@ -101,6 +101,7 @@ class _Served:
         """Everything that the page shows but the moving arm."""
         control = _control(request)
         constant = {
+            "name": control.protocol.name,
             "folder": str(control.folder.resolve()),
             "station": self._station(request),
             "scenarios": [s.label for s in control.protocol.scenarios],

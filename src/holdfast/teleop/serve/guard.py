@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
+from itertools import pairwise
 from urllib.parse import parse_qs
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -20,6 +21,9 @@ from holdfast.errors import InputError
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 _HOST = re.compile(r"(?:[A-Za-z0-9.-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(?::\d{1,5})?")
 _TOKEN = re.compile("[A-Za-z0-9_-]{12,128}")
+_GUESSED = ("password", "passwort", "qwerty", "letmein", "holdfast", "secret", "token", "study", "admin")
+_WRONG, _AGAIN = 200.0, 1.0  # wrong tokens and keys of one address at once, and a second after that
+_ADDRESSES = 1024
 _STATION = ("/", "/study.json", "/arm.js", "/session")
 _EXPERIMENTER = ("/experimenter", "/live")
 
@@ -72,6 +76,10 @@ class Guard:
         """The key is in the query. No cookie has it: a subject may sit at the browser that the experimenter used."""
         return _same(_query(scope, "key"), self.key)
 
+    def shows(self, scope: Scope) -> bool:
+        """Whether there is a token or a key in the query, right or wrong. Who guesses cannot know the cookie's name."""
+        return (self.token is not None and bool(_query(scope, "token"))) or bool(_query(scope, "key"))
+
     def cookie(self, scope: Scope) -> str | None:
         """What the answer leaves in the browser, so that the page's own requests are let in."""
         if self.token is None or scope["path"] != "/":
@@ -83,12 +91,44 @@ def check_token(token: str) -> None:
     """Refuse a token that can be guessed, or that does not fit into a URL.
 
     Raises:
-        InputError: It is shorter than 12 characters, or has others than letters, digits, - and _.
+        InputError: It is shorter than 12 characters, has others than letters, digits, - and _, or is easily guessed: few
+            different characters, a sequence, the same part again and again, hardly more than a common word.
     """
+    example = "for example the output of 'openssl rand -hex 16'"
     if not _TOKEN.fullmatch(token):
-        raise InputError(
-            "the token must have 12 to 128 letters, digits, - and _; for example the output of 'openssl rand -hex 16'"
-        )
+        raise InputError(f"the token must have 12 to 128 letters, digits, - and _; {example}")
+    low = token.lower()
+    steps = sum(abs(ord(a) - ord(b)) <= 1 for a, b in pairwise(low))
+    bare = low
+    for word in _GUESSED:
+        bare = bare.replace(word, "")
+    if len(set(low)) < 6 or steps > len(low) / 2 or low in (low + low)[1:-1] or len(set(bare)) < 6:
+        raise InputError(f"the token is easily guessed; take a random one, {example}")
+
+
+class Wrong:
+    """Wrong tokens and keys, by address: whoever shows many has to wait.
+
+    Args:
+        clock: Seconds.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._seen: dict[str, Bucket] = {}
+
+    def count(self, address: str) -> None:
+        """One more from an address."""
+        bucket = self._seen.pop(address, None) or Bucket(_AGAIN, _WRONG, self._clock)
+        self._seen[address] = bucket
+        bucket.wait()
+        if len(self._seen) > _ADDRESSES:
+            del self._seen[next(iter(self._seen))]
+
+    def must_wait(self, address: str) -> bool:
+        """Whether what an address shows is not even looked at."""
+        bucket = self._seen.get(address)
+        return bucket is not None and bucket.wait(0) > 0
 
 
 class Guarded:
@@ -96,13 +136,19 @@ class Guarded:
 
     def __init__(self, app: ASGIApp, guard: Guard) -> None:
         self._app, self._guard = app, guard
+        self._wrong = Wrong()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """As ASGI has it."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
-        fault = self._guard.fault(scope)
+        client = scope.get("client")
+        address, shows = ("" if client is None else client[0]), self._guard.shows(scope)
+        waits = shows and self._wrong.must_wait(address)
+        fault = "too many wrong tokens or keys came from this address; wait" if waits else self._guard.fault(scope)
+        if fault is not None and shows and not waits:
+            self._wrong.count(address)
         if fault is not None and scope["type"] == "websocket":
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": fault})
@@ -124,7 +170,7 @@ class Guarded:
         if fault is None:
             await self._app(scope, receive, with_headers)
         else:
-            await PlainTextResponse(f"Refused: {fault}.\n", status_code=403)(scope, receive, with_headers)
+            await PlainTextResponse(f"Refused: {fault}.\n", status_code=429 if waits else 403)(scope, receive, with_headers)
 
 
 def _headers(host: str, known: bool) -> dict[str, str]:
@@ -140,10 +186,10 @@ def _headers(host: str, known: bool) -> dict[str, str]:
 
 
 class Bucket:
-    """How many messages may pass: so many a second for ever, and so many at once after a pause.
+    """How many messages, or bytes, may pass: so many a second for ever, and so many at once after a pause.
 
     Args:
-        rate: Messages per second.
+        rate: Per second.
         burst: At once.
         clock: Seconds.
     """
@@ -152,10 +198,10 @@ class Bucket:
         self._rate, self._burst, self._clock = rate, burst, clock
         self._left, self._at = burst, clock()
 
-    def wait(self) -> float:
-        """Take one; the seconds that it must wait."""
+    def wait(self, count: float = 1) -> float:
+        """Take one, or more; the seconds that it must wait."""
         at = self._clock()
-        self._left = min(self._burst, self._left + (at - self._at) * self._rate) - 1
+        self._left = min(self._burst, self._left + (at - self._at) * self._rate) - count
         self._at = at
         return max(0.0, -self._left / self._rate)
 

@@ -40,13 +40,17 @@ class Message(BaseModel):
 
 
 class Hello(Message):
-    """The first message of a connection: a new session, or one that goes on."""
+    """The first message of a connection: a new session, or one that goes on.
+
+    A new session may bring its key, ``fresh``: said again where the answer was lost, it goes on with what was begun then.
+    """
 
     type: Literal["hello"]
     format: Count
     session: Key | None
     code: Code | None
     kind: Literal["person", "simulated"]
+    fresh: Key | None = None
 
 
 class AnswersMessage(Message):
@@ -123,10 +127,10 @@ class TrainingTask(Message):
 
 
 class PlannedTrial(Message):
-    """A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``task`` and ``scenario`` count from 0."""
+    """A trial; ``joint`` is the one that is locked in it, from 0, -1 for none; ``law`` is a code of the arm's, see /arm.js."""
 
     task: int
-    scenario: int
+    law: int
     q0: list[float]
     target: list[float]
     joint: int
@@ -184,6 +188,12 @@ class Pause(Message):
     paused: bool
 
 
+class Unstored(Message):
+    """The records cannot be written: the disk is full, or the folder was deleted. Nothing more is acknowledged till welcome."""
+
+    type: Literal["unstored"] = "unstored"
+
+
 class Bye(Message):
     """The server closes the connection for good, and why; the page does not come back by itself."""
 
@@ -193,10 +203,10 @@ class Bye(Message):
 
 Sequenced = AnswersMessage | Begin | Cycles | EndMessage | Rate | EventMessage
 FromPage = Annotated[Hello | Sequenced, Field(discriminator="type")]
-FromServer = Annotated[Welcome | Ack | Refused | Pause | Bye, Field(discriminator="type")]
+FromServer = Annotated[Welcome | Ack | Refused | Pause | Unstored | Bye, Field(discriminator="type")]
 
 _FROM_PAGE: TypeAdapter[Hello | Sequenced] = TypeAdapter(FromPage)
-_FROM_SERVER: TypeAdapter[Welcome | Ack | Refused | Pause | Bye] = TypeAdapter(FromServer)
+_FROM_SERVER: TypeAdapter[Welcome | Ack | Refused | Pause | Unstored | Bye] = TypeAdapter(FromServer)
 
 
 def read(text: str | bytes) -> Hello | Sequenced:
@@ -213,7 +223,7 @@ def read(text: str | bytes) -> Hello | Sequenced:
         raise InputError(f"the message is malformed: {error}") from None
 
 
-def read_reply(text: str | bytes) -> Welcome | Ack | Refused | Pause | Bye:
+def read_reply(text: str | bytes) -> Welcome | Ack | Refused | Pause | Unstored | Bye:
     """A message of the server: for clients in Python, such as tests.
 
     Raises:

@@ -13,6 +13,7 @@ import numpy as np
 
 from holdfast.errors import InputError
 from holdfast.teleop.entries import Entry, Kind, State, Who
+from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.records_file import now
 from holdfast.teleop.serve import messages
@@ -23,6 +24,8 @@ from holdfast.teleop.trials import End
 _ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
 _ROUNDING = 1e-9  # of the stick's limit
 _MOST_ANSWERS = 1000
+_LONGEST = 8 * 3600  # s
+_FRAME, _DIGITS = 80, 25  # bytes of a message about one cycle, and of each of its numbers
 
 
 @dataclass(frozen=True)
@@ -61,8 +64,11 @@ def enter(records: Records, hello: Hello) -> Entered | Refused | Bye:
     if hello.format != messages.FORMAT:
         reason = f"the page speaks format {hello.format} and the server {messages.FORMAT}; reload the page"
         return Refused(seq=None, reason=reason, last=0)
-    if hello.session is not None:
-        code = records.key_holder(hello.session)
+    key = hello.session
+    if key is None and hello.fresh is not None and records.key_holder(hello.fresh) is not None:
+        key = hello.fresh  # the answer to the first hello was lost
+    if key is not None:
+        code = records.key_holder(key)
         if code is None:
             return Bye(reason="this session is not known here: it was deleted, or given to another page")
         subject = records.subject(code)
@@ -70,7 +76,7 @@ def enter(records: Records, hello: Hello) -> Entered | Refused | Bye:
             return Bye(reason=f"the session of {code} was ended by the experimenter")
         if subject.kind != hello.kind:
             return Bye(reason=f"the session of {code} is that of a {subject.kind} subject, and this page's is {hello.kind}")
-        return Entered(code, hello.session)
+        return Entered(code, key)
     try:
         with records.together():
             return _new(records, hello)
@@ -86,7 +92,7 @@ def _new(records: Records, hello: Hello) -> Entered:
         raise InputError(
             f"the session of {known.code} has begun already; give another code, or let the experimenter hand it to this page"
         )
-    return Entered(known.code, records.give_key(known.code))
+    return Entered(known.code, records.give_key(known.code, hello.fresh))
 
 
 class Station:
@@ -122,8 +128,8 @@ class Station:
             over=over,
         )
 
-    def take(self, message: Sequenced) -> Taken:
-        """Apply a message; all of it is in the records, with its number, or nothing."""
+    def take(self, message: Sequenced, size: int = 0) -> Taken:
+        """Apply a message of so many bytes; all of it is in the records, with its number, or nothing."""
         records = self.records
         try:
             subject = records.subject(self.code)
@@ -132,6 +138,10 @@ class Station:
         if subject.state == State.DROPPED:
             return Taken(Bye(reason=f"the session of {self.code} was ended by the experimenter"))
         last, seq = records.last_seq(self.code), message.seq
+        most = quota(records.protocol)
+        if records.received(self.code) + size > most:
+            reason = f"the session has sent {most // 2**20} MiB, the most that one may; tell the experimenter"
+            return Taken(Refused(seq=seq, reason=reason, last=last))
         if seq <= last:
             return Taken(Refused(seq=seq, reason=f"message {seq} is on record already", last=last))
         if seq > last + 1:
@@ -140,7 +150,7 @@ class Station:
         try:
             with records.together():
                 finished = self._apply(message, entry)
-                records.set_last_seq(self.code, seq)
+                records.set_last_seq(self.code, seq, size)
         except InputError as error:
             return Taken(Refused(seq=seq, reason=str(error), last=last))
         return Taken(Ack(seq=seq), entry, finished)
@@ -208,6 +218,8 @@ class Station:
     def _(self, message: messages.Rate, entry: Entry | None) -> int | None:
         if entry is None or not _finished(entry):
             raise InputError("there is no finished trial to rate")
+        if entry.kind == Kind.TRAINING:
+            raise InputError("the last trial is one of the training, which has no rating")
         if entry.rating is not None:
             raise InputError("the trial has its rating already")
         self.records.rate(entry.id, message.rating, message.answers)
@@ -231,9 +243,18 @@ def _under_way(entry: Entry | None) -> Entry:
     return entry
 
 
+def quota(protocol: Protocol) -> int:
+    """How many bytes of messages a session may send: those of eight hours of steering, and 16 MiB at least."""
+    numbers = protocol.arm.n + protocol.rows.m + 1
+    return max(16 * 2**20, int(_LONGEST * protocol.rate * (_FRAME + _DIGITS * numbers)))
+
+
 def _plan(records: Records, row: int, number: int) -> messages.Plan:
+    from holdfast.teleop.printed_arm import law_of  # it knows how /arm.js counts them
+
     protocol = records.protocol
     training = training_tasks(protocol, number)
+    laws = law_of(protocol)
     failed = protocol.scenarios[training_scenario(protocol)].failed
     order = protocol.session(row, number)
     tasks = protocol.tasks
@@ -247,7 +268,7 @@ def _plan(records: Records, row: int, number: int) -> messages.Plan:
         trials=[
             messages.PlannedTrial(
                 task=task,
-                scenario=scenario,
+                law=laws[scenario],
                 q0=tasks.q0[task].tolist(),
                 target=tasks.target[task].tolist(),
                 joint=int(tasks.joint[task]) if protocol.scenarios[scenario].failed else -1,

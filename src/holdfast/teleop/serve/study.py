@@ -20,7 +20,7 @@ _PARALLEL = 1e-9
 
 
 def study(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
-    """The experiment as JSON takes it; nothing in it is secret.
+    """The experiment as JSON takes it; nothing in it tells the subject what is compared, not even the protocol's name.
 
     Args:
         protocol: Of the experiment.
@@ -33,7 +33,6 @@ def study(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]
     training = protocol.training
     return {
         "format": FORMAT,
-        "name": protocol.name,
         "joints": protocol.arm.n,
         "axes": protocol.rows.m,
         "rate": protocol.rate,
@@ -47,8 +46,7 @@ def study(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]
             "limit": training.limit,
             "most": training.most,
         },
-        "law_of": law_of(protocol),
-        "training_scenario": training_scenario(protocol),
+        "training_law": law_of(protocol)[training_scenario(protocol)],
         "reach": reach,
         "centre": centre,
         "views": views(protocol),

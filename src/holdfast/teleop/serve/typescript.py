@@ -21,7 +21,7 @@ _FROM_PAGE = (
     messages.EventMessage,
 )
 _PARTS = (messages.TrainingTask, messages.PlannedTrial, messages.Plan, messages.Done)
-_FROM_SERVER = (messages.Welcome, messages.Ack, messages.Refused, messages.Pause, messages.Bye)
+_FROM_SERVER = (messages.Welcome, messages.Ack, messages.Refused, messages.Pause, messages.Unstored, messages.Bye)
 _HEAD = """// Generated from src/holdfast/teleop/serve/messages.py by "python -m holdfast.teleop.serve.typescript"; do not edit.
 """
 

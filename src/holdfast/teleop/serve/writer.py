@@ -39,13 +39,25 @@ class Keeper:
         folder: Of the experiment.
         loop: The event loop.
         writes: Jobs change the records, and are committed together; else they only read, one by one.
+        on_fault: Is told, in the event loop, when the records cannot be written any more, and why; None when they can again.
+
+    Attributes:
+        protocol: Of the experiment.
+        fault: Why the records cannot be written; None if they can.
 
     Raises:
         StoreError: The folder cannot be opened.
     """
 
-    def __init__(self, folder: Path, loop: asyncio.AbstractEventLoop, writes: bool) -> None:
-        self._folder, self._loop, self._writes = folder, loop, writes
+    def __init__(
+        self,
+        folder: Path,
+        loop: asyncio.AbstractEventLoop,
+        writes: bool,
+        on_fault: Callable[[str | None], None] = lambda fault: None,
+    ) -> None:
+        self._folder, self._loop, self._writes, self._on_fault = folder, loop, writes, on_fault
+        self.fault: str | None = None
         self._jobs: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
         self._thread = threading.Thread(target=self._live, name="holdfast-writer" if writes else "holdfast-reader", daemon=True)
         self._opened: Future[Records] = Future()
@@ -84,6 +96,8 @@ class Keeper:
     def _live(self) -> None:
         try:
             records = Records.open(self._folder)
+            if self._writes:
+                records.prepare()
         except Exception as error:
             self._opened.set_exception(error)
             return
@@ -115,12 +129,25 @@ class Keeper:
         return job is not None
 
     def _all(self, records: Records, jobs: list[Job]) -> list[Any]:
+        before = records.changes
         try:
             with records.together() if self._writes else nullcontext():
-                return [_result(job, records) for job, _ in jobs]
-        except sqlite3.Error as error:  # a full disk, a lock that somebody else does not let go of: none of it happened
-            _log.error("the records cannot be written: %s", error)
+                results = [_result(job, records) for job, _ in jobs]
+        # A full disk, a folder that was deleted, a lock that somebody else does not let go of: none of it happened.
+        except (sqlite3.Error, StoreError) as error:
+            self._turn(str(error))
             return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)
+        if self.fault is not None and records.changes > before:
+            self._turn(None)
+        return results
+
+    def _turn(self, fault: str | None) -> None:
+        """Say it once, not for each message."""
+        if (fault is None) != (self.fault is None):
+            _log.error("the records can be written again" if fault is None else f"the records cannot be written: {fault}")
+            if not self._loop.is_closed():
+                self._loop.call_soon_threadsafe(self._on_fault, fault)
+        self.fault = fault
 
 
 def _whole(job: Callable[[Records], T]) -> Callable[[Records], T]:
@@ -138,7 +165,7 @@ def _result(job: Callable[[Records], Any], records: Records) -> Any:
         return job(records)
     except HoldfastError as error:
         return error
-    except sqlite3.OperationalError:  # a full disk takes the whole transaction with it
+    except (sqlite3.OperationalError, sqlite3.InternalError):  # a full disk takes the whole transaction with it
         raise
     except Exception as error:
         _log.exception("a job of the records failed")

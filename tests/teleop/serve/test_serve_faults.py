@@ -1,0 +1,135 @@
+"""What goes wrong around a server: a folder that goes away, an answer that is lost, a restart, a page that sends too much."""
+
+import json
+import urllib.request
+
+import numpy as np
+import pytest
+from serve_program import KEY
+from station_client import Client
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+import holdfast as hf
+from holdfast.teleop.records import Records
+from holdfast.teleop.serve import messages
+from holdfast.teleop.serve.app import Options, serve
+from holdfast.teleop.serve.messages import Ack, Refused, Unstored, Welcome
+from holdfast.teleop.serve.station import Entered, Station, enter, quota
+from holdfast.teleop.verify import verify
+
+
+def list_of(served):
+    return json.load(urllib.request.urlopen(f"{served.http}/experimenter/subjects.json?key={KEY}", timeout=30))
+
+
+def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, protocol, rng):
+    served = start(tmp_path / "study")
+    client, idle = Client(served.url, protocol), Client(served.url, protocol)
+    code = client.connect().subject
+    idle.connect()
+    client.trial("training", 0, rng, cycles=3)
+    client.settle()
+    (tmp_path / "study").rename(tmp_path / "gone")
+    path = client.trial("training", 1, rng, cycles=3)
+    assert isinstance(client.receive(), Unstored)
+    assert isinstance(idle.receive(), Unstored)  # told although it said nothing
+    for each in (client, idle):
+        with pytest.raises(ConnectionClosed):
+            each.receive()
+    assert "not there any more" in list_of(served)["fault"]
+    with connect(served.url, proxy=None) as new:  # nobody begins a session either
+        new.send(json.dumps({"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"}))
+        assert isinstance(messages.read_reply(new.recv(30)), Unstored)
+    (tmp_path / "gone").rename(tmp_path / "study")
+    client.connect()
+    client.settle()
+    client.socket.close()
+    assert list_of(served)["fault"] is None
+    with Records.open(tmp_path / "study") as records:
+        entries = records.entries(code)
+        assert len(entries) == 2
+        np.testing.assert_array_equal(records.trials(entries).configurations(1), path)
+        assert len(records.events("written again")) == 1
+    assert verify(tmp_path / "study").damaged == []
+
+
+def test_one_server_for_a_folder(server, built):
+    with pytest.raises(hf.StoreError, match="is served by another program already"):
+        serve(Options(server.folder, static=built[0], english=built[1]), port=0)
+
+
+def test_a_lost_answer_makes_no_second_subject(server):
+    hello = {"type": "hello", "format": 1, "session": None, "code": None, "kind": "simulated", "fresh": "0123456789abcdef" * 3}
+    found = []
+    for _ in range(2):
+        with connect(server.url, proxy=None) as socket:
+            socket.send(json.dumps(hello))
+            found.append(messages.read_reply(socket.recv(30)))
+    first, second = found
+    assert isinstance(first, Welcome)
+    assert (first.subject, first.session) == (second.subject, hello["fresh"])
+    with connect(server.url, proxy=None) as socket:
+        socket.send(json.dumps(hello | {"fresh": "fedcba9876543210" * 3}))
+        assert messages.read_reply(socket.recv(30)).subject != first.subject
+
+
+def test_pauses_survive_a_restart(start, tmp_path, protocol):
+    def pause(served, subject, paused):
+        body = json.dumps({"subject": subject, "paused": paused}).encode()
+        asked = urllib.request.Request(
+            f"{served.http}/experimenter/pause?key={KEY}", body, {"Content-Type": "application/json"}
+        )
+        urllib.request.urlopen(asked, timeout=30).close()
+
+    def again(served, *keys):
+        served.process.kill()
+        served.process.wait()
+        other = start(tmp_path / "study")
+        told = []
+        for key in keys:
+            client = Client(other.url, protocol)
+            client.key = key
+            told.append(client.connect().paused)
+            client.socket.close()
+        return other, told
+
+    served = start(tmp_path / "study")
+    clients = [Client(served.url, protocol) for _ in range(2)]
+    codes = [c.connect().subject for c in clients]
+    keys = [c.key for c in clients]
+    pause(served, codes[1], True)
+    served, told = again(served, *keys)
+    assert told == [False, True]
+    pause(served, None, True)
+    served, told = again(served, *keys)
+    assert told == [True, True]
+    assert list_of(served)["paused"] is True
+    pause(served, None, False)
+    assert again(served, *keys)[1] == [False, False]
+
+
+def test_a_session_may_send_only_so_much(records, protocol):
+    entered = enter(records, messages.Hello(type="hello", format=1, session=None, code=None, kind="person"))
+    assert isinstance(entered, Entered)
+    station, most = Station(records, entered.code), quota(protocol)
+    assert 16 * 2**20 <= most < 2**30
+
+    def say(seq, size):
+        return station.take(messages.EventMessage(type="event", seq=seq, kind="x", data={}), size).reply
+
+    assert isinstance(say(1, most // 2), Ack)
+    assert isinstance(say(2, most // 2), Ack)
+    reply = say(3, 2)
+    assert isinstance(reply, Refused)
+    assert (reply.last, "MiB" in reply.reason) == (2, True)
+
+
+def test_a_rating_of_the_training_is_refused(server, protocol, rng):
+    client = Client(server.url, protocol)
+    client.connect()
+    client.trial("training", 0, rng, cycles=2)
+    client.settle()
+    client.socket.send(json.dumps({"type": "rate", "seq": client.seq + 1, "rating": 1, "answers": {}}))
+    assert "one of the training" in client.receive().reason
+    client.socket.close()
