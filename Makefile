@@ -2,6 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 WORKERS ?= 2
 MINUTES ?= 60
 
@@ -11,35 +12,44 @@ MINUTES ?= 60
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
 
+# Node comes from a wheel; npm and what it installs look for it on the PATH.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"
 
+# The locks name every package that is needed, with the digests of its files.
 $(VENV)/run.stamp: pyproject.toml requirements.lock | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --constraint requirements.lock --editable .
+	$(PIP) --no-deps --require-hashes --requirement requirements.lock
+	$(PIP) --no-deps --no-build-isolation --editable .
 	@touch $@
 
-$(VENV)/test.stamp: $(VENV)/run.stamp
-	$(BIN)/python -m pip install --quiet --constraint requirements.lock --group test
+$(VENV)/test.stamp: requirements-test.lock $(VENV)/run.stamp
+	$(PIP) --no-deps --require-hashes --requirement requirements-test.lock
 	@touch $@
 
-$(VENV)/docs.stamp: $(VENV)/run.stamp
-	$(BIN)/python -m pip install --quiet --constraint requirements.lock --group docs
+$(VENV)/docs.stamp: requirements-docs.lock $(VENV)/run.stamp
+	$(PIP) --no-deps --require-hashes --requirement requirements-docs.lock
+	@touch $@
+
+# Where the system has no Chromium and Playwright's cannot be had, the tests say so at their end.
+$(VENV)/browser.stamp: $(VENV)/test.stamp
+	@command -v chromium google-chrome > /dev/null || $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
 	@touch $@
 
 demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its region and write demo/report.html.
 	rm -rf demo
 	$(BIN)/holdfast assess pa10-9dof --poses 2000 --seed 1 --out demo
 
-page/node_modules/.package-lock.json: page/package.json page/package-lock.json
+page/node_modules/.package-lock.json: page/package.json page/package-lock.json | $(VENV)/test.stamp
 	cd page && npm ci --no-audit --no-fund --silent
 	@touch $@
 
-page: page/node_modules/.package-lock.json  ## Build the experiment's page into the package; needs Node 20.
+page: page/node_modules/.package-lock.json  ## Build the experiment's page into the package.
 	cd page && npm run build
 
-test: lint types page/node_modules/.package-lock.json  ## Set up, then run lint, types and tests; needs Node 20 and Chromium.
-	$(BIN)/python -m pytest -n $(WORKERS) --durations=40
+test: lint types page/node_modules/.package-lock.json $(VENV)/browser.stamp  ## Set up, then run lint, types and all tests.
+	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile --durations=40
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
@@ -53,8 +63,8 @@ docs: $(VENV)/docs.stamp  ## Build the documentation into docs/_build/html; a wa
 
 bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own environment, large downloads).
 	$(PYTHON) -m venv $(VENV)-bench
-	$(VENV)-bench/bin/python -m pip install --quiet --upgrade pip
-	$(VENV)-bench/bin/python -m pip install --quiet --constraint requirements.lock --editable .
+	$(VENV)-bench/bin/python -m pip install --quiet --no-deps --require-hashes --requirement requirements.lock
+	$(VENV)-bench/bin/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
 
@@ -62,11 +72,18 @@ soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed m
 	$(BIN)/python tests/soak.py
 	$(BIN)/python -m tests.studio.soak --minutes $(MINUTES)
 
-lock:  ## Write requirements.lock anew from pyproject.toml.
+# One resolution for every Python from 3.11 on and every system; the locks of tests and documentation hold what run does not.
+LOCK = $(VENV)-lock/bin/uv pip compile pyproject.toml --quiet --universal --python-version 3.11 --fork-strategy fewest \
+	--generate-hashes --no-annotate --no-header
+MORE = $(LOCK) --constraint $(VENV)-lock/all $$(sed -nE 's/^([a-z0-9.-]+)==.*/--no-emit-package \1/p' requirements.lock)
+
+lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock
-	$(VENV)-lock/bin/python -m pip install --quiet --upgrade "pip>=25.1"
-	$(VENV)-lock/bin/python -m pip install --quiet --editable . --group test --group docs
-	$(VENV)-lock/bin/python -m pip freeze --exclude-editable > requirements.lock
+	$(VENV)-lock/bin/python -m pip install --quiet uv
+	$(LOCK) --group build --group test --group docs --output-file $(VENV)-lock/all
+	$(LOCK) --constraint $(VENV)-lock/all --group build --output-file requirements.lock
+	$(MORE) --group test --output-file requirements-test.lock
+	$(MORE) --group docs --output-file requirements-docs.lock
 	rm -rf $(VENV)-lock
 
 clean:  ## Remove what the commands made.

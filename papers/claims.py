@@ -22,6 +22,7 @@ class Verdict(StrEnum):
     HOLDS = "holds"
     PARTLY = "holds in part"
     FALSE = "false as written"
+    AS_READ = "false as we read it"
     OPEN = "cannot be told"
 
 
@@ -81,6 +82,7 @@ where a number depends on our reading, the row says so.
 | holds | we get the same, or the same to the digits that are printed |
 | holds in part | true with a condition that the text does not name, or of some cases only |
 | false as written | there is a counterexample; the row has it |
+| false as we read it | there is a counterexample under our reading of values that are not stated or hard to read |
 | cannot be told | the text does not give what it takes to check it |
 """
 

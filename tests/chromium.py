@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sys
 from collections.abc import Callable, Iterator
@@ -24,20 +25,32 @@ _FLAT = ["--disable-gpu"]
 _SCENES = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]  # drawn by the processor
 
 
+NONE = "pages are looked at in Chromium, and there is none here"
+
+
+def required(sentence: str) -> None:
+    """Tests of pages fail without a browser where ``HOLDFAST_REQUIRE_BROWSER`` is 1, as in CI, and are skipped elsewhere."""
+    import pytest
+
+    (pytest.fail if os.environ.get("HOLDFAST_REQUIRE_BROWSER") == "1" else pytest.skip)(sentence)
+
+
 @contextmanager
 def opened(missing: Callable[[str], object] = sys.exit, scenes: bool = False) -> Iterator[Browser]:
-    """A headless Chromium.
+    """A headless Chromium: the system's, else the one that Playwright has downloaded.
 
     Args:
         missing: Is told in one sentence that there is none, and does not return.
         scenes: It draws three-dimensional scenes.
     """
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import Error, sync_playwright
 
     path = shutil.which("chromium") or shutil.which("google-chrome")
-    if path is None:
-        missing("pages are looked at in Chromium, and there is no 'chromium' here: apt-get install chromium")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=_FLAGS + (_SCENES if scenes else _FLAT))
+        try:
+            browser = playwright.chromium.launch(executable_path=path, args=_FLAGS + (_SCENES if scenes else _FLAT))
+        except Error as error:
+            why = " ".join(error.message.split())[:160]
+            missing(f"{NONE}: 'apt-get install chromium', or 'playwright install --with-deps chromium' ({why})")
         yield browser
         browser.close()

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import tempfile
 import zlib
+from pathlib import Path
 
 import hypothesis
 import numpy as np
 import pytest
 
+import chromium
 import holdfast as hf
 import oracles
 from holdfast import arms
@@ -37,6 +40,8 @@ def pytest_configure(config):
         _MADE.append(folder)
         os.environ["HOLDFAST_CACHE"] = folder
     config.addinivalue_line("markers", "interpreted: kernels made in the test run on CasADi's machine; for arms of its own.")
+    # Node is installed beside Python, whether or not the environment was activated.
+    os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
     for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS"):
         os.environ.pop(name, None)
 
@@ -57,6 +62,13 @@ def pytest_unconfigure(config):
 
 def pytest_report_header(config):
     return f"holdfast: random inputs from --draw {config.getoption('--draw')}"
+
+
+def pytest_terminal_summary(terminalreporter):
+    blind = [report for report in terminalreporter.stats.get("skipped", ()) if chromium.NONE in str(report.longrepr)]
+    if blind:
+        sentence = str(blind[0].longrepr[2]).removeprefix("Skipped: ")
+        terminalreporter.write_line(f"NO BROWSER, {len(blind)} TESTS SKIPPED: {sentence}", red=True, bold=True)
 
 
 @pytest.fixture(scope="session")

@@ -18,18 +18,44 @@ def pairs(both, lost, won, neither):
     return first, second
 
 
+def square_and_add(counts, method):
+    """Second share minus the first by Newcombe's method 10, with limits of the shares of another kind."""
+    both, lost, won, neither = counts
+    size = sum(counts)
+    one, two = (stats.binomtest(k, size).proportion_ci(method=method) for k in (both + lost, both + won))
+    p, q = (both + lost) / size, (both + won) / size
+    table = np.array([[both, lost], [won, neither]])
+    across = float(np.prod([*table.sum(axis=0), *table.sum(axis=1)]))
+    excess = both * neither - lost * won
+    phi = (max(excess - size / 2, 0) if excess > 0 else excess) / np.sqrt(across) if across else 0.0
+    down = np.array([q - two.low, -(one.high - p)])
+    up = np.array([two.high - q, -(p - one.low)])
+    mix = np.array([[1, phi], [phi, 1]])
+    return q - p - np.sqrt(down @ mix @ down), q - p + np.sqrt(up @ mix @ up)
+
+
 @pytest.mark.parametrize(
     ("counts", "low", "high"),
     [((36, 12, 2, 0), 0.0569, 0.3404), ((1, 1, 7, 12), -0.507, -0.026), ((0, 0, 0, 10), -0.2775, 0.2775)],
 )
-def test_the_published_interval_of_paired_shares(counts, low, high):
-    """The first share minus the second: Newcombe 1998 for method 10, and Fagerland, Lydersen, Laake for data of Bentur et al.,
-    both as remembered; nothing in ten cases: plus or minus the end of Wilson's interval.
+def test_the_interval_of_paired_shares_is_the_published_one_with_exact_limits(counts, low, high):
+    """The formula gives the published values (the first share minus the second: Newcombe 1998 for method 10, and Fagerland,
+    Lydersen, Laake for data of Bentur et al., both as remembered) with Wilson's limits; ours are the exact ones.
     """
+    turned = (counts[0], counts[2], counts[1], counts[3])
+    np.testing.assert_allclose(square_and_add(turned, "wilson"), (low, high), atol=6e-4)
     second, first = pairs(*counts)
     found = Difference.of_pairs(first, second)
-    np.testing.assert_allclose((found.low, found.high), (low, high), atol=6e-4)
+    np.testing.assert_allclose((found.low, found.high), square_and_add(turned, "exact"), rtol=1e-9)
     assert found.value == pytest.approx((counts[1] - counts[2]) / sum(counts))
+
+
+def test_an_interval_of_pairs_holds_nought_where_the_test_does_not_refuse_it():
+    """Five pairs that all differ the same way: p = 1/16, and square-and-add alone would leave 0 out."""
+    found = Difference.of_pairs(*pairs(0, 5, 0, 0))
+    assert square_and_add((0, 5, 0, 0), "exact")[1] < 0
+    assert found.p_value == pytest.approx(1 / 16)
+    assert found.high == 0
 
 
 @given(st.tuples(*[st.integers(0, 40)] * 4).filter(lambda c: sum(c) > 0))
@@ -44,14 +70,18 @@ def test_an_interval_turns_round_with_its_things(counts):
     assert there.p_value == pytest.approx(min(1.0, 2 * tail))
 
 
-def test_the_interval_covers_the_truth_about_as_often_as_it_says(rng):
-    share = np.array([0.55, 0.12, 0.05, 0.28])
-    truth = share[2] - share[1]
-    inside = 0
-    for counts in rng.multinomial(60, share, size=400):
-        found = Difference.of_pairs(*pairs(*counts))
-        inside += found.low <= truth <= found.high
-    assert stats.binomtest(inside, 400, 0.95).pvalue > 1e-4
+@pytest.mark.parametrize("share", [(0.55, 0.12, 0.05, 0.28), (0.25, 0.25, 0.25, 0.25), (0.0, 0.5, 0.5, 0.0)])
+def test_pairs_cover_by_enumeration(share):
+    """Every outcome of ten pairs with its probability: no random numbers."""
+    inside = 0.0
+    for both in range(11):
+        for lost in range(11 - both):
+            for won in range(11 - both - lost):
+                counts = both, lost, won, 10 - both - lost - won
+                found = Difference.of_pairs(*pairs(*counts))
+                truth = share[2] - share[1]
+                inside += float(stats.multinomial.pmf(counts, 10, share)) * (found.low <= truth <= found.high)
+    assert inside >= 0.95
 
 
 def test_mean_differences_are_students(rng):
@@ -64,6 +94,10 @@ def test_mean_differences_are_students(rng):
     assert Difference.of_means(np.ones(5)).p_value == 0
 
 
-def test_a_share_is_wilsons():
-    found = Interval.of(3, 10)
-    np.testing.assert_allclose((found.low, found.high), (0.10779, 0.60322), atol=1e-5)
+@given(st.integers(1, 400).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))), st.sampled_from([0.8, 0.95, 0.999]))
+def test_a_share_is_that_of_clopper_and_pearson(count, confidence):
+    hits, size = count
+    found = Interval.of(hits, size, confidence)
+    exact = stats.binomtest(hits, size).proportion_ci(confidence, "exact")
+    np.testing.assert_allclose((found.low, found.high), (exact.low, exact.high), atol=1e-11)
+    assert found.value == hits / size

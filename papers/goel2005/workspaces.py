@@ -194,7 +194,7 @@ def starts_of_figures(w: hf.Workspace) -> list[Claim]:
                 + (f", nor for other signs, which are hard to read: {read}" if name == "6" else "")
                 + ". R100 = 100 % asks that no configuration ever leaves the joint's range on its way; from (2, 2) that holds "
                 f"({w.reach.full[at[2, 2], joint]:.0f}%)",
-                Verdict.FALSE,
+                Verdict.AS_READ,
             )
         )
     both = hf.workspace(law(), TARGET, [START_5, START_6], configurations=180, points=20)
@@ -220,7 +220,7 @@ def starts_of_figures(w: hf.Workspace) -> list[Claim]:
             "Fig. 9. Beside them it creeps past, for 600/Ke at 0.1 deg and for 3500/Ke at 0.01 deg (specification): a short "
             "time "
             "limit, or a threshold on the speed, takes that for rest, which is how we think the statement came about",
-            Verdict.FALSE,
+            Verdict.AS_READ,
         )
     )
     return out

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import shlex
+from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
 
+from holdfast import reading
 from holdfast.arm.builtin import Builtin, about, load, names
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
 
-__all__ = ["Builtin", "about", "load", "names", "resolve"]
+__all__ = ["Builtin", "about", "command_words", "load", "names", "resolve"]
 
 URDF_ENDINGS = (".urdf", ".xml")
 MJCF_ENDINGS = (".mjcf",)
 TABLE_ENDINGS = (".yaml", ".yml")
 
 
-def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
+def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Mapping[str, float] | None = None) -> Arm:
     """The arm that a person means on the command line.
 
     Args:
@@ -25,24 +29,32 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
         base: Link of a URDF file or body of an MJCF file on which the arm stands; see :func:`holdfast.arm.urdf.load` and
             :func:`holdfast.arm.mjcf.load`.
         tip: Link of a URDF file, or body or site of an MJCF file, whose frame is the tool.
+        hold: Value, rad or m, at which joints of a URDF or MJCF file stand for good.
 
     Raises:
-        ArmError: There is no such arm, the file is wrong, or base and tip are given for something that is neither a URDF
+        ArmError: There is no such arm, the file is wrong, or base, tip or hold are given for something that is neither a URDF
             nor an MJCF file.
         HoldfastError: It is an MJCF file and MuJoCo is not installed.
     """
     from holdfast.arm import mjcf, table, urdf
 
+    if not isinstance(spec, (str, PathLike)):
+        raise ArmError(f"the arm is {spec!r}; give a built-in name or the path of a file")
+    spec = str(spec)
     ending = Path(spec).suffix.lower()
     if spec in names() or ending in TABLE_ENDINGS:
-        if base is not None or tip is not None:
-            raise ArmError(f"'{spec}' is not a URDF or MJCF file, so it has no links to choose; leave out base and tip")
+        if base is not None or tip is not None or hold:
+            raise ArmError(
+                f"'{spec}' is not a URDF or MJCF file, so it has no links or joints to choose; leave out base, tip and hold"
+            )
         return load(spec) if spec in names() else table.load(spec)
     if ending in MJCF_ENDINGS or (ending == ".xml" and _outermost(spec) == "mujoco"):
-        return mjcf.load(spec, base, tip)
+        return mjcf.load(spec, base, tip, hold)
     if ending in URDF_ENDINGS:
-        return urdf.load(spec, base, tip)
-    if Path(spec).exists():
+        return urdf.load(spec, base, tip, hold)
+    if ending == ".xacro":
+        raise ArmError(f"'{spec}' is a xacro file; {urdf.expand_first(Path(spec))}")
+    if reading.exists(spec):
         raise ArmError(
             f"'{spec}' is neither a URDF file (.urdf, .xml), an MJCF file (.mjcf, .xml) nor a DH table (.yaml, .yml); "
             "rename or convert it"
@@ -55,12 +67,27 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None) -> Arm:
         ) from error
 
 
+def command_words(arm: Arm) -> tuple[str, list[str], str]:
+    """How a command line names an arm: ARM, its options, and a remark about what the reader must put in."""
+    if arm.name in names() and load(arm.name).fingerprint == arm.fingerprint:
+        return arm.name, [], ""
+    known = arm.source.lower().endswith((*URDF_ENDINGS, *MJCF_ENDINGS, *TABLE_ENDINGS)) and "\n" not in arm.source
+    spec = arm.source if known else "ARM"
+    remark = "the file of the arm where you have it" if known else "ARM is the file of the arm"
+    if arm.chain is None:
+        return spec, [], remark
+    tip = [] if arm.chain.tip is None else [("tip", arm.chain.tip)]
+    options = [("base", arm.chain.base), *tip, *(("hold", f"{name}={value!r}") for name, value in arm.chain.held)]
+    return spec, [f"--{option} {shlex.quote(value)}" for option, value in options], remark
+
+
 def _outermost(path: str) -> str:
     """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file then explains."""
+    import io
     from xml.etree import ElementTree
 
     try:
-        for _, element in ElementTree.iterparse(path, events=("start",)):
+        for _, element in ElementTree.iterparse(io.BytesIO(reading.raw(path)), events=("start",)):
             return str(element.tag)
     except (OSError, ElementTree.ParseError, LookupError, ValueError):
         pass

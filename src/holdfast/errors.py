@@ -6,9 +6,17 @@ The command line prints it and exits with code 2.
 
 from __future__ import annotations
 
+_MOST = 1000  # letters
+
 
 class HoldfastError(Exception):
     """Base class: catch this to catch every error that holdfast raises on purpose."""
+
+    def __str__(self) -> str:
+        text = super().__str__()  # which may quote what stands in a file: of any length, with signs that steer a terminal
+        if not text.isprintable():
+            text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+        return text if len(text) <= _MOST else f"{text[: _MOST * 3 // 4]} ... {text[-_MOST // 4 :]}"
 
 
 class ArmError(HoldfastError, ValueError):

@@ -4,26 +4,50 @@ from __future__ import annotations
 
 import os
 import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TextIO
 
 
-def replaced(path: Path, text: str, errors: str = "strict") -> None:
+def replaced(path: Path, content: str | bytes, errors: str = "strict") -> None:
     """Write a file, all of it or nothing, with the permissions that every new file gets.
 
     Args:
         path: The file.
-        text: Its content, written as UTF-8.
+        content: Its content; text is written as UTF-8.
         errors: What becomes of characters that UTF-8 does not have, as :meth:`str.encode` takes it.
 
     Raises:
         OSError: The disk refuses; what was there is as it was.
     """
+    with _beside(path) as temporary:
+        temporary.write_bytes(content.encode(errors=errors) if isinstance(content, str) else content)
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[TextIO]:
+    """A file of text in UTF-8 to write into, line ends as given; it takes its place once the block ends, if nothing was wrong.
+
+    Raises:
+        OSError: The disk refuses; what was there is as it was.
+    """
+    with _beside(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+        yield file
+
+
+@contextmanager
+def _beside(path: Path) -> Iterator[Path]:
+    """A place for what a file will hold; it is on the disk before it replaces what was there."""
+    if path.exists() and not path.is_file():  # a device or a pipe is written to, not replaced
+        yield path
+        return
+    path = path.resolve()  # a link stays one
+    # Not tempfile: its files are private, and results are for sharing.
     temporary = path.with_name(f".holdfast-{os.getpid()}-{secrets.token_hex(4)}.tmp")
     try:
-        # Not tempfile: its files are private, and results are for sharing.
-        with temporary.open("x", encoding="utf-8", errors=errors, newline="\n") as file:
-            file.write(text)
-            file.flush()
+        yield temporary
+        with temporary.open("rb+") as file:
             os.fsync(file.fileno())
         temporary.replace(path)
     finally:

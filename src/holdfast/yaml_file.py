@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import reprlib
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Annotated, Any, get_args
@@ -9,7 +11,13 @@ from typing import Annotated, Any, get_args
 import yaml
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Tag, ValidationError
 
+from holdfast import reading
 from holdfast.errors import InputError
+
+_LARGEST = 1 << 20  # bytes: PyYAML takes ten seconds for as many
+_DEEPEST = 50
+_MOST = 500_000
+_TOO_DEEP = f"its blocks are more than {_DEEPEST} levels deep; write it flatter"
 
 
 def _not_a_flag(value: Any) -> Any:
@@ -30,15 +38,64 @@ class Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-class _OneKeyOnce(yaml.SafeLoader):
-    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite."""
+class _Loader(yaml.SafeLoader):
+    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite, and so is what blows up."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        keys = [key.value for key, _ in node.value]
-        for key in keys:
-            if keys.count(key) > 1:
-                raise InputError(f"line {node.start_mark.line + 1}: the key '{key}' is given twice; give it once")
+        seen: set[str] = set()
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise InputError(f"line {key.start_mark.line + 1}: a key is a list or a block; keys must be words or numbers")
+            if key.value in seen:
+                raise InputError(f"line {key.start_mark.line + 1}: the key '{_short(key.value)}' is given twice; give it once")
+            seen.add(key.value)
         return super().construct_mapping(node, deep)
+
+
+def parse(text: str, hint: str = "") -> Any:
+    """What a text in YAML says; None if it says nothing.
+
+    Args:
+        text: The text.
+        hint: How messages about wrong YAML end.
+
+    Raises:
+        InputError: It is not YAML, gives a key twice, or is far larger or deeper than what people write once its aliases are
+            written out.
+    """
+    try:
+        loader = _Loader(text)
+        node = loader.get_single_node()
+        if node is None:
+            return None
+        _extent(node, {})
+        return loader.construct_document(node)
+    except InputError:
+        raise
+    except RecursionError as error:
+        raise InputError(_TOO_DEEP) from error
+    # PyYAML lets pass what Python says of a value, as of the day 2026-02-30 or of !!int x.
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError) as error:
+        raise InputError(f"this is not sound YAML ({_short(' '.join(str(error).split()), 300)}){hint}") from error
+
+
+def _extent(node: yaml.Node, known: dict[int, tuple[int, int]]) -> tuple[int, int]:
+    """Entries and depth of a node with every alias and merge written out."""
+    if id(node) in known:
+        return known[id(node)]
+    known[id(node)] = _MOST, 0  # while it is open: an alias to a block from within it has no end
+    size, depth = 1, 0
+    inner = () if isinstance(node, yaml.ScalarNode) else node.value
+    for part in itertools.chain.from_iterable(inner) if isinstance(node, yaml.MappingNode) else inner:
+        more, deep = _extent(part, known)
+        size, depth = size + more, max(depth, deep + 1)
+    if size > _MOST:
+        line = node.start_mark.line + 1
+        raise InputError(f"line {line}: with its aliases written out it has more than {_MOST} entries; use fewer aliases")
+    if depth > _DEEPEST:
+        raise InputError(_TOO_DEEP)
+    known[id(node)] = size, depth
+    return size, depth
 
 
 def content(path: Path, example: str, least: str) -> dict[str, Any]:
@@ -53,15 +110,18 @@ def content(path: Path, example: str, least: str) -> dict[str, Any]:
         InputError: The file cannot be read, or is not YAML with keys and values.
     """
     try:
-        data = yaml.load(path.read_text(encoding="utf-8"), _OneKeyOnce)
+        data = parse(reading.text(path, _LARGEST), f"; see {example} for an example")
     except OSError as error:
         raise InputError(f"the file cannot be read ({error.strerror}); give the path of a YAML file") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        reason = " ".join(str(error).split())
-        raise InputError(f"this is not sound YAML ({reason}); see {example} for an example") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"this is not sound YAML ({error}); see {example} for an example") from error
     if not isinstance(data, dict):
         raise InputError(f"the file must hold keys and values, at least {least}; see {example} for an example")
     return data
+
+
+def _short(text: str, most: int = 80) -> str:
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[str] = ()) -> str:
@@ -77,7 +137,7 @@ def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[st
     trail = tuple(x for x in first["loc"] if x not in tags)
     where = first["loc"]
     place = "".join(f"[{x}]" if isinstance(x, int) else f".{x}" for x in trail).lstrip(".")
-    given = repr(first["input"])
+    given = reprlib.repr(first["input"])
     match first["type"]:
         case "extra_forbidden":
             return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(model, where))}"

@@ -163,7 +163,8 @@ def test_resolve(tmp_path: Path) -> None:
         path.write_text("rows: [{a: 1, alpha: 0}, {a: 1, alpha: 0}]")
         assert arms.resolve(str(path)).n == 2
     with pytest.raises(
-        ArmError, match="'panda' is not a URDF or MJCF file, so it has no links to choose; leave out base and tip"
+        ArmError,
+        match="'panda' is not a URDF or MJCF file, so it has no links or joints to choose; leave out base, tip and hold",
     ):
         arms.resolve("panda", tip="panda_link8")
     with pytest.raises(ArmError, match="is not a URDF or MJCF file"):

@@ -177,7 +177,7 @@ REFUSED = [
     ("rows: [{a: 1, alpha: 0, type: ball}]", "rows[0].type: 'ball' is not known; use 'revolute' or 'prismatic'"),
     (f"rows: [{ROW}]\nangles: grad", "angles: 'grad' is not known; use 'rad' or 'deg'"),
     (f"rows: [{ROW}]\nconvention: Craig", "convention: 'Craig' is not known; use 'standard' or 'modified'"),
-    (f"rows: [{ROW}]\nrows: [{ROW}]", "line 1: the key 'rows' is given twice; give it once"),
+    (f"rows: [{ROW}]\nrows: [{ROW}]", "line 2: the key 'rows' is given twice; give it once"),
     ("rows: [{a: 1, alpha: 0, a: 2}]", "line 1: the key 'a' is given twice; give it once"),
     (
         f"rows: [{ROW}]\nbase: {{pos: [0, 0, 0]}}",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -306,8 +307,8 @@ def test_faults_far_from_the_chain_do_no_harm(tmp_path: Path) -> None:
 
 
 def test_long_lists_are_cut(tmp_path: Path) -> None:
-    many = [link(f"c{k}") + joint(f"k{k}", "b", f"c{k}") for k in range(20)]
-    with pytest.raises(ArmError, match=r"the arm could end at 'c0', .* 'c11' and 8 more; name one link as tip"):
+    many = [link(f"c{k}") + joint(f"k{k}", "b", f"c{k}") for k in range(70)]
+    with pytest.raises(ArmError, match=r"the arm could end at 'c0', .* 'c59' and 10 more; name one with --tip \(tip= in"):
         urdf.load(write(tmp_path, AB, J, *many))
 
 
@@ -403,27 +404,27 @@ REFUSED = [
     ),
     (
         AB + joint("j", "a", "b", "fixed"),
-        {},
-        "no moving joint lies between 'a' and 'b'; choose a base and tip with joints in between",
+        {"tip": "b"},
+        "no moving joint lies between 'a' and 'b'; choose a base and tip with joints in between that are not held",
     ),
     (
         AB + link("c") + joint("j", "a", "b", "fixed") + joint("k", "a", "c", "fixed"),
         {},
         "no moving joint hangs on 'a'; an arm needs at least one",
     ),
-    (AB + J, {"tip": "a"}, "no moving joint lies between 'a' and 'a'; choose a base and tip with joints in between"),
-    (AB + J, {"base": "x"}, "there is no base link 'x'; the links are 'a', 'b'"),
-    (AB + J, {"tip": "x"}, "there is no tip link 'x'; the links are 'a', 'b'"),
+    (AB + J, {"tip": "a"}, "no moving joint lies between 'a' and 'a'; .*, such as the tip 'b'"),
+    (AB + J, {"base": "x"}, "there is no base link 'x'; an arm could stand on 'a'"),
+    (AB + J, {"tip": "x"}, "there is no tip link 'x'; the arm could end at 'b'"),
     (
         AB + J,
         {"base": "b", "tip": "a"},
-        "tip link 'a' does not hang on base link 'b'; choose a base on the way to the root",
+        "tip link 'a' does not hang on base link 'b'; choose a base on the way from the root to the tip",
     ),
-    (GRIPPER, {}, "the arm could end at 'c', 'd'; name one link as tip"),
+    (GRIPPER, {}, "the arm could end at 'c', 'd'; name one with --tip (tip= in Python)"),
     (
         AB + link("c") + link("d") + J + joint("k", "b", "c", "fixed") + joint("l", "b", "d", "fixed"),
         {},
-        "the arm could end at 'c', 'd'; name one link as tip",
+        "the arm could end at 'c', 'd'; name one with --tip (tip= in Python)",
     ),
     (
         AB + joint("j", "a", "b", "floating"),
@@ -437,7 +438,7 @@ REFUSED = [
     ),
     (
         AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='j'/>"),
-        {},
+        {"tip": "c"},
         "joint 'k' on the chain mimics 'j', so it is not a degree of freedom; "
         "choose a base and tip with independent joints in between",
     ),
@@ -469,10 +470,10 @@ REFUSED = [
     ),
     (
         GRIPPER,
-        {"tip": "c", "hold": {"j": 0.0}},
-        "hold names 'j', which is not a moving joint beside the chain; those are 'l'",
+        {"tip": "c", "hold": {"x": 0.0}},
+        "hold names 'x', which is no moving joint of this file; those are 'j', 'k', 'l'",
     ),
-    (AB + J, {"hold": {"j": 0.0}}, "hold names 'j', which is not a moving joint beside the chain; this file has none"),
+    (AB + J, {"hold": {"j": 0.0}}, "no moving joint lies between 'a' and 'b'; choose a base and tip with joints in between"),
     (
         GRIPPER,
         {"tip": "c", "hold": {"l": 2.0}},
@@ -514,7 +515,7 @@ def test_refusals(tmp_path: Path, parts: str, options: dict, sentence: str) -> N
     with pytest.raises(ArmError) as caught:
         urdf.load(write(tmp_path, parts), **options)
     assert str(caught.value).startswith("bot.urdf: ")
-    assert sentence in str(caught.value)
+    assert sentence in str(caught.value) or re.search(sentence, str(caught.value))
 
 
 RAW = [
@@ -524,7 +525,7 @@ RAW = [
     (b"<sdf/>", "the outermost element is <sdf>; a URDF file has <robot>"),
     (
         b"<robot xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:include filename='x'/></robot>",
-        "the file still has xacro macros; expand it with the xacro tool first",
+        r"xacro macros that are not expanded \(<xacro:include>\); expand it first: xacro bot.urdf > bot.expanded.urdf",
     ),
     (b"<!DOCTYPE robot [<!ENTITY a 'b'>]><robot name='&a;'/>", "the file has a DOCTYPE"),
     (b"<!DOCTYPE robot SYSTEM 'file:///etc/hostname'><robot/>", "the file has a DOCTYPE"),

@@ -11,6 +11,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arm.attachment import attachment, attachment_text
+from holdfast.assess.compare_report import build
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -118,6 +119,16 @@ def test_what_cannot_be_compared(runs):
         hf.compare(runs[:2], ["x"])
     with pytest.raises(hf.InputError, match="threshold is inf"):
         hf.compare(runs[:2], ["x", "y"], np.inf)
+
+
+def test_an_empty_headline_says_who_is_nearest_and_why(runs):
+    two = hf.compare([runs[0], runs[2]], ["straight", "pa10"], 0.99)
+    line = build(two).headline
+    assert "No candidate keeps" in line
+    straight = two.table[0]
+    assert f"Nearest is straight. A lock of {straight['worst_joint']} is the worst failure" in line
+    assert f"The median of the reached poses is {straight['median']:.3f}" in line
+    assert f"at the best configuration of each pose it is {straight['optimised_median']:.3f}" in line
 
 
 def test_the_page(comparison, runs, tmp_path):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import stats
 
 from holdfast.assess import Distribution, Interval
 from holdfast.assess.distribution import Collector
@@ -136,19 +137,17 @@ def test_quantile_inverts_the_cdf(case, p):
 # ---- error bars ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("hits", "n", "confidence", "z"), [(12, 40, 0.95, 1.959964), (0, 25, 0.99, 2.575829), (25, 25, 0.9, 1.644854)]
-)
-def test_wilson_interval_is_the_textbook_one(hits, n, confidence, z):
-    """Wilson 1927: (p + z^2/2n +- z sqrt(p (1-p)/n + z^2/4n^2)) / (1 + z^2/n)."""
+@pytest.mark.parametrize(("hits", "n", "confidence"), [(12, 40, 0.95), (0, 25, 0.99), (25, 25, 0.9)])
+def test_an_interval_is_the_exact_one(hits, n, confidence):
+    """Clopper and Pearson 1934: at either end the count, or one more extreme, has half of what is left of the probability."""
     d = Distribution.of(np.r_[np.ones(hits), np.zeros(n - hits)], "larger")
     found = d.interval(at_least=0.5, confidence=confidence)
-    p = hits / n
-    middle = (p + z * z / (2 * n)) / (1 + z * z / n)
-    half = z * np.sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n)
-    assert found.value == p
-    assert found.low == pytest.approx(middle - half, abs=1e-6)
-    assert found.high == pytest.approx(middle + half, abs=1e-6)
+    assert found.value == hits / n
+    if hits:
+        assert stats.binom.sf(hits - 1, n, found.low) == pytest.approx((1 - confidence) / 2)
+    if hits < n:
+        assert stats.binom.cdf(hits, n, found.high) == pytest.approx((1 - confidence) / 2)
+    assert (found.low == 0, found.high == 1) == (hits == 0, hits == n)
     assert found.confidence == confidence
 
 
@@ -178,7 +177,7 @@ def test_band_covers_the_true_cdf_as_often_as_it_says(confidence, at_most):
     assert confidence - noise <= inside / 400 <= at_most
 
 
-def test_wilson_interval_covers_the_true_probability():
+def test_an_interval_covers_the_true_probability():
     generator, inside = np.random.default_rng(1927), 0
     for _ in range(400):
         found = Distribution.of(generator.random(200), "larger").interval(at_least=0.8)

@@ -93,14 +93,15 @@ BAD = {
     "upside down": ("joints: {lower: [2], upper: [1]}", ["lower 2 of joint 1 is above upper 1"]),
     "different lengths": ("joints: {lower: [0, 0], upper: [1]}", ["shape"]),
     "name is a list": ("name: [a]\nbox: {center: [0, 0, 0], size: 1}", ["name"]),
-    "a list": ("- box", ["top level"]),
-    "a word": ("box", ["top level"]),
-    "empty": ("", ["top level"]),
-    "not YAML": ("box: {center: [0, 0", ["not valid YAML"]),
-    "tabs": ("box:\n\tcenter: 1", ["not valid YAML"]),
-    "an object": ("!!python/object/apply:os.system ['true']", ["not valid YAML"]),
-    "binary": (bytes(range(256)), ["not valid YAML"]),
+    "a list": ("- box", ["keys and values, at least box, joints or poses"]),
+    "a word": ("box", ["keys and values, at least box, joints or poses"]),
+    "empty": ("", ["keys and values, at least box, joints or poses"]),
+    "not YAML": ("box: {center: [0, 0", ["not sound YAML"]),
+    "tabs": ("box:\n\tcenter: 1", ["not sound YAML"]),
+    "an object": ("!!python/object/apply:os.system ['true']", ["not sound YAML"]),
+    "binary": (bytes(range(256)), ["not sound YAML"]),
     "number keys": ("1: 2", ["1"]),
+    "a key twice": ("box: {center: [0, 0, 0], size: 1, size: 2}", ["line 1: the key 'size' is given twice"]),
 }
 
 
@@ -117,7 +118,7 @@ def test_a_bad_file_is_answered_with_one_sentence_that_names_it(case, file):
 
 
 def test_a_file_that_cannot_be_read(tmp_path):
-    with pytest.raises(InputError, match=r"cannot read region file '.*missing.yaml': No such file"):
+    with pytest.raises(InputError, match=r"region file '.*missing.yaml': the file cannot be read \(No such file"):
         Region.load(tmp_path / "missing.yaml")
-    with pytest.raises(InputError, match=r"cannot read region file '.*': Is a directory"):
+    with pytest.raises(InputError, match=r"region file '.*': the file cannot be read \(it is a folder"):
         Region.load(tmp_path)

@@ -102,6 +102,34 @@ def headline(html: str) -> str:
     return found[1]
 
 
+def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
+    """Counted here from the rows, not by the distribution."""
+    a = case("panda")
+    data = a.dataset
+    value, failed = data["index"].values, data["by_failure"].values
+    reached = np.isfinite(value)
+    line = facts.Facts(a, 0.37).headline
+    assert "probability 0.00" in line
+    worst, counts = np.unique(failed[reached].argmin(axis=1), return_counts=True)
+    name = PANDA.joint_names[worst[counts.argmax()]]
+    assert f"A lock of {name} is the worst failure at {100 * counts.max() / counts.sum():.1f} %" in line
+    assert f"The median of the reached poses is {np.quantile(value[reached], 0.5, method='inverted_cdf'):.3f}" in line
+    assert "would gain, a run that optimises says" in line
+    assert "A lock of" not in facts.Facts(a, 0.01).headline  # which says enough
+    best = facts.Facts(case("optimised"), 0.47).headline
+    median = np.nanquantile(case("optimised").dataset["optimised_index"].values, 0.5, method="inverted_cdf")
+    assert f"at the best configuration of each pose it is {median:.3f}, and the probability" in best
+
+
+def test_a_headline_that_is_zero_by_structure_names_the_joint():
+    a = case("structural")
+    line = facts.Facts(a, None).headline
+    assert "Once joint4 locks, the task is singular in every configuration." in line
+    failed = a.dataset["by_failure"].values
+    spared = np.delete(failed[np.isfinite(failed).all(axis=1)], 3, axis=1).min(axis=1)
+    assert f"would be {np.quantile(spared, 0.5, method='inverted_cdf'):.3f}." in line
+
+
 @pytest.mark.parametrize(
     ("name", "threshold", "shown"),
     [("paper", None, 0.29), ("paper", 0.1, 0.1), ("condition number", 80.0, 80.0), ("joints", None, 0.29)],

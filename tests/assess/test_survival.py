@@ -121,7 +121,29 @@ def test_optimised_runs_through_the_folder(arm, region, tmp_path):
     assert "What choosing configurations gains" in again.report(tmp_path / "report.html").read_text()
 
 
-@pytest.mark.parametrize("lost", ["survives", "optimised_worst", "optimised_index", "optimised_q"])
+def test_rows_hold_the_angle_of_the_lock(arm):
+    """With it every answer can be looked at again: it is where some pose of the run had the joint, and the annulus agrees."""
+    box = hf.Region.box([0, 0, 0], [5.0, 5.0, 0.0])
+    data = hf.assess(arm, box, poses=300, seed=5, task="planar", after_lock=True, lock_at={"joint3": 0.4}).dataset
+    reached, angles, left = data["status"].values == 0, data["lock_angle"].values, data["survives"].values
+    assert np.isnan(angles[~reached]).all()
+    np.testing.assert_array_equal(angles[reached, 2], 0.4)
+    for joint in range(2):
+        assert np.isin(angles[reached, joint], data["q"].values[reached, joint]).all()
+        assert len(np.unique(angles[reached, joint])) > 20
+    for joint in range(3):
+        parts = [
+            annulus(p[:2], joint, a) for p, a in zip(data["position"].values[reached], angles[reached, joint], strict=True)
+        ]
+        inner, distance, outer = np.array(parts).T
+        clear = (np.abs(distance - inner) > 1e-3) & (np.abs(distance - outer) > 1e-3)
+        truth = (inner < distance) & (distance < outer)
+        assert (left[reached, joint][clear] == truth[clear]).mean() > 0.99
+    given = hf.assess(arm, box, poses=20, seed=5, task="planar", lock_at={"joint3": 0.4}).dataset["lock_angle"].values
+    assert np.isnan(given[:, :2]).all()
+
+
+@pytest.mark.parametrize("lost", ["lock_angle", "survives", "optimised_worst", "optimised_index", "optimised_q"])
 def test_a_lost_column_is_a_sentence_and_not_a_result(arm, region, tmp_path, lost):
     hf.assess(arm, region, poses=50, seed=2, task="planar", optimise=True, after_lock=True, store=tmp_path / "run")
     shutil.rmtree(tmp_path / "run" / "samples.zarr" / lost / "c")

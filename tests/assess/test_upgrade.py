@@ -58,7 +58,7 @@ def test_gains_are_ranked_paired_shares(run, optimised, threshold):
         assert not (before & ~after).any()
         assert u.before == pytest.approx(before.mean(), abs=1e-15)
         assert u.after == pytest.approx(after.mean(), abs=1e-15)
-        limits = binomtest(gained, 120).proportion_ci(0.95, "wilson")
+        limits = binomtest(gained, 120).proportion_ci(0.95, "exact")
         np.testing.assert_allclose([u.gain, u.low, u.high], [gained / 120, limits.low, limits.high], atol=1e-12)
 
 

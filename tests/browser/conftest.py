@@ -24,7 +24,7 @@ from holdfast.teleop.stick import Stick
 # Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.
 @pytest.fixture(scope="package")
 def browser() -> Iterator:
-    with chromium.opened(pytest.fail) as opened:
+    with chromium.opened(chromium.required) as opened:
         yield opened
 
 

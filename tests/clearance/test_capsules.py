@@ -110,7 +110,7 @@ REFUSED = [
     ("radius: thick", "radius: 'thick' is wrong; input should be a valid number"),
     ("radius: .inf", "radius: inf is wrong; input should be a finite number"),
     ("radius: 1\nlink: {}", "link: the key 'link' is not known; the keys here are radius, links, ignore"),
-    ("radius: 1\nradius: 2", "line 1: the key 'radius' is given twice; give it once"),
+    ("radius: 1\nradius: 2", "line 2: the key 'radius' is given twice; give it once"),
     ("links: {hand: []}", "links: 'panda' has no link 'hand'; its links are base, panda_joint1, panda_joint2"),
     (f"links: {{base: [{{{PART}}}]}}", "links.base[0].radius: it is missing; give it here or for the whole file"),
     (f"links: {{base: [{{{PART}, radius: -1}}]}}", "links.base[0].radius: -1 is wrong; input should be greater than 0"),

@@ -17,7 +17,7 @@ def test_it_is_the_library(ask, tmp_path):
         data = ask("export", "planar-3r", "--law", name, "--language", "c", "--out", out, "--name", "law", *options)
         assert (data["law"], data["task"], data["arm"]) == (name, "planar", "planar-3r")
         files = law.export_c(tmp_path / "library", "law")
-        for key, file in zip(("source", "header"), files, strict=True):
+        for key, file in zip(("source", "header", "example", "test"), files, strict=True):
             assert (out / file.name).read_text() == file.read_text()
             assert data[key] == str(out / file.name)
 

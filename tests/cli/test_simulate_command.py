@@ -14,6 +14,8 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
 
+import holdfast as hf
+
 CALL = ["simulate", "planar-2r", "--start", "0 -30", "--degrees", "--lock", "1"]
 
 
@@ -59,6 +61,44 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     assert "holdfast simulate planar-2r" in page
     assert matplotlib.image.imread(out / "run.png").shape[1] > 900
     assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1.133893, abs=1e-5)
+
+
+PAST = ["simulate", "panda", "--task", "position", "--start", "0 -45 0 -135 0 90 45", "--degrees", "--lock", "4"]
+FAR = "--target=-0.217,0.028,0.034"  # reached by the law, through what the limits of joints 2 and 6 forbid
+
+
+def test_reaching_the_target_and_keeping_the_limits_are_two_facts(cli, tmp_path):
+    code, said, _ = cli(*PAST, FAR, "--out", tmp_path)
+    assert code == 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    table = np.loadtxt(tmp_path / "run.csv", delimiter=",", skiprows=1)
+    low, high = (np.degrees(f(table[:, 1:8], axis=0)) for f in (np.min, np.max))
+    # Limits of the manufacturer's data sheet, degrees.
+    limits = np.array([[-166, 166], [-101, 101], [-166, 166], [-176, -4], [-166, 166], [-1, 215], [-166, 166]])
+    past = np.flatnonzero((low < limits[:, 0] - 1) | (high > limits[:, 1] + 1))
+    assert past.tolist() == [1, 5]
+    for text in (" ".join(said.split()), page):
+        assert "The hand arrives" in text
+        assert "On the way panda_joint2 goes to -188.9 deg (limit -101" in text
+        assert "and panda_joint6 goes to -24.27 deg (limit -1" in text
+        assert "a real arm would stop there" in text
+    assert low[[1, 5]] == pytest.approx([-188.9, -24.27], abs=0.05)
+    data = json.loads(cli(*PAST, FAR, "--json")[1])
+    assert data["outcome"] == "converged"
+    assert data["limits_passed"] == ["panda_joint2", "panda_joint6"]
+    assert np.degrees(data["limits"]["panda_joint2"]) == pytest.approx(limits[1], abs=1)
+
+
+def test_a_motion_within_the_limits_says_so(cli):
+    code, said, _ = cli(*PAST, "--target", "0.598,-0.104,0.241")
+    assert code == 0
+    assert "All joints stay within their limits." in said
+
+
+def test_without_limits_there_is_nothing_to_keep():
+    arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0)] * 3)
+    runs = hf.simulate(hf.control.pseudoinverse(arm, "planar"), [[0.3, 0.7, 1.0]] * 2, [1.0, 1.2])
+    assert runs.limits_sentence(1) == ""
 
 
 def test_a_lock_on_the_way_is_marked_from_then_on(cli, tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -229,6 +230,41 @@ def test_status_verify_and_a_damaged_chunk(cli, ask, file, folder, tmp_path):
     assert ask("study", "run", file, "--out", whole)["complete"]
     assert bits(whole) == bits(folder)
     assert ask("study", "verify", whole) == {"damaged": []}
+    shutil.rmtree(whole / "cells" / "planar-3r-pseudoinverse")
+    code, _, err = cli("study", "verify", whole)
+    assert code == 2
+    assert "cell 'planar-3r-pseudoinverse' is lost: it was begun, and nothing of it is left" in err
+    code, out, _ = cli("study", "verify", whole)
+    assert code == 0
+    assert "are not computed\nnothing is there of 1 cell: planar-3r-pseudoinverse" in out
+    assert ask("study", "run", file, "--out", whole)["complete"]
+
+
+def test_labels_of_a_damaged_study_are_named_and_mended(cli, ask, file, folder, tmp_path):
+    whole = tmp_path / "copy"
+    assert cli("study", "merge", whole, folder)[0] == 0
+    study = whole / "study.json"
+    data = json.loads(study.read_text())
+    del data["cells"][0]["labels"]["arm"]
+    study.write_text(json.dumps(data))
+    code, _, err = cli("study", "report", whole)
+    assert code == 2
+    assert "has no label 'arm'" in err
+    assert ask("study", "run", file, "--out", whole)["complete"]
+    assert cli("study", "report", whole)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (f"poses: {2**70}\nchunk: 1\narms: [planar-3r]\nassess: {{}}\n", "rows in chunks of 1; a cell may have at most"),
+        ("poses: 100000000\nchunk: 1\narms: [planar-3r]\nassess: {}\n", "give fewer rows or a larger chunk"),
+    ],
+)
+def test_a_study_of_more_chunks_than_can_be_counted(refused, tmp_path, text, said):
+    (tmp_path / "s.yaml").write_text(text)
+    assert said in refused("study", "run", tmp_path / "s.yaml", "--out", tmp_path / "out")
+    assert said in refused("study", "run", tmp_path / "s.yaml", "--dry-run")
 
 
 def test_shares_and_merge(ask, refused, file, folder, tmp_path):
@@ -305,7 +341,7 @@ def test_an_unfinished_study_reports_what_is_there(ask, refused, file, tmp_path)
         ({"assess": {"index": ["nice"]}}, "assess.index: the key 'index' is not known"),
         ({"assess": {"keep": "some"}}, "assess.keep: 'some' is not known"),
         ({"assess": {"tasks": ["world:vx"]}}, "assess.tasks: frame 'world'"),
-        ({"assess": {"regions": ["none.yaml"]}}, "cannot read region file"),
+        ({"assess": {"regions": ["none.yaml"]}}, "none.yaml': the file cannot be read"),
         ({"assess": {"thresholds": {"manipulability": 1}}}, "'manipulability' is not among the indices"),
         ({"assess": {"keep": "counts", "after_lock": True}}, "after_lock needs every pose"),
         ({"convergence": {"laws": ["wild"]}}, "wild"),

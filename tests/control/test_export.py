@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import ctypes
 import py_compile
+import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import damping_oracle
 import numpy as np
+import pinocchio as pin
 import pytest
 
 import holdfast as hf
+from holdfast.arm.builtin import DATA
 from holdfast.errors import InputError, StoreError
 
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
@@ -49,8 +52,9 @@ def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
     jit = hf.control.by_name(slug, arm, task="planar", **options.get(slug, {}))
     others = 3 if slug == "failure-tolerant" else 0
     files = law.export_c(tmp_path / "new" / "folder")
-    assert [f.name for f in files] == [f"{slug.replace('-', '_')}{end}" for end in (".c", ".h")]
-    call = compiled(*files, 2, 3, others)
+    name = slug.replace("-", "_")
+    assert [f.name for f in files] == [f"{name}{end}" for end in (".c", ".h", "_example.c", "_test.c")]
+    call = compiled(*files[:2], 2, 3, others)
     q, v = rng.uniform(-np.pi, np.pi, (300, 3)), rng.normal(size=(300, 2))
     compiled_here = jit.velocity(q, v)  # its sines differ in the last digit, and a damping where PKE is flat by more
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
@@ -69,7 +73,7 @@ def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
 @needs_compiler
 def test_what_has_no_answer_stops_the_arm(tmp_path):
     arm = hf.arms.load("planar-3r")
-    call = compiled(*hf.control.pseudoinverse(arm, "planar").export_c(tmp_path), 2, 3, 0)
+    call = compiled(*hf.control.pseudoinverse(arm, "planar").export_c(tmp_path)[:2], 2, 3, 0)
     for q, v in (([np.nan, 0, 1], [1, 0]), ([0.1, 0.2, 1], [np.inf, 0]), ([0, 0, 0], [1, 0])):
         code, rates, _ = call(q, v)
         assert code == 1
@@ -81,13 +85,153 @@ def test_seven_joints_and_a_pose(rng, tmp_path, monkeypatch):
     """The longest law there is; unoptimised, as the compiler takes long for 29,000 operations."""
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     law = hf.control.failure_tolerant(damping_oracle.arm_7r(), "pose")
-    call = compiled(*law.export_c(tmp_path, "seven"), 6, 7, 3, "-O0")
+    call = compiled(*law.export_c(tmp_path, "seven")[:2], 6, 7, 3, "-O0")
     q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 6))
     for a, b, rates, damping in zip(q, v, law.velocity(q, v), law.damping(q, v), strict=True):
         code, got, told = call(a, b)
         assert code == 0
         np.testing.assert_allclose(got, rates, rtol=1e-12, atol=1e-12 * np.abs(rates).max())
         assert told[0] == pytest.approx(damping, rel=1e-12)
+
+
+def pinocchio_jacobian(task):
+    """The task Jacobian of the Panda's flange by Pinocchio, in the frame of the task."""
+    file = str(DATA.joinpath("panda.urdf"))
+    full = pin.buildModelFromUrdf(file)
+    model = pin.buildReducedModel(full, [i for i, x in enumerate(full.names) if "finger" in x], pin.neutral(full))
+    data, frame = model.createData(), model.getFrameId("panda_link8")
+    seen = pin.LOCAL if task.frame == "tool" else pin.LOCAL_WORLD_ALIGNED
+
+    def jacobian(q):
+        pin.computeJointJacobians(model, data, q)
+        pin.updateFramePlacements(model, data)
+        return task.rows @ pin.getFrameJacobian(model, data, frame, seen)
+
+    return jacobian
+
+
+def planar_jacobian(q):
+    """Three unit links in a plane."""
+    angles = np.cumsum(q)
+    ends = np.stack([-np.sin(angles), np.cos(angles)])
+    return np.stack([ends[:, k:].sum(axis=1) for k in range(3)], axis=1)
+
+
+TASKS = [("planar-3r", "planar", 2), ("panda", "position", 3), ("panda", "pointing", 5), ("panda", "pose", 6)]
+
+
+@needs_compiler
+@pytest.mark.parametrize(("name", "task", "m"), TASKS)
+@pytest.mark.parametrize("slug", ["pseudoinverse", "weighted", "damped", "failure-tolerant"])
+def test_c_agrees_with_numpy_formulas_over_a_jacobian_of_pinocchio(slug, name, task, m, rng, tmp_path):
+    """Nothing of holdfast on the other side: the Jacobian is Pinocchio's, or a plane's, and the laws are formulas in NumPy."""
+    panda = hf.Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8")
+    arm = panda if name == "panda" else hf.arms.load(name)
+    weights = rng.uniform(0.5, 3, arm.n)
+    options = {"weighted": {"weights": weights}, "damped": {"damping": 0.3}, "failure-tolerant": {"pre_failure_error": 0.4}}
+    law = hf.control.by_name(slug, arm, task=task, **options.get(slug, {}))
+    jacobian = pinocchio_jacobian(law.task) if name == "panda" else planar_jacobian
+    others = 3 if slug == "failure-tolerant" else 0
+    call = compiled(*law.export_c(tmp_path, "law")[:2], m, arm.n, others, "-O0" if others and m > 3 else "-O1")
+    for _ in range(40):
+        q, v = rng.uniform(-2.5, 2.5, arm.n), rng.normal(size=m)
+        j = jacobian(q)
+        if np.linalg.cond(j) > 50:
+            continue
+        code, rates, told = call(q, v)
+        inverse = np.diag(1 / weights) if slug == "weighted" else np.eye(arm.n)
+        damping = {"damped": 0.3, "failure-tolerant": told[0] if told else None}.get(slug, 0.0)
+        expected = inverse @ j.T @ np.linalg.solve(j @ inverse @ j.T + damping**2 * np.eye(m), v)
+        assert code == 0
+        np.testing.assert_allclose(rates, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
+        if others:
+            u = v / np.linalg.norm(v)
+            _, least, largest = damping_oracle.optimum(j, u, 0.4)
+            assert told[0] <= told[1] == pytest.approx(largest, rel=1e-9)
+            assert told[2] == 1
+            assert least - 1e-9 <= damping_oracle.peak(j, u, told[0]) <= least + 1e-6
+
+
+def run(
+    folder, *sources, compiler=COMPILER, flags=("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wno-unused-parameter")
+):
+    """Compile, run: exit code and what it said."""
+    binary = folder / "program"
+    subprocess.run([compiler, *flags, *map(str, sources), "-o", str(binary), "-lm"], check=True, timeout=300)
+    done = subprocess.run([str(binary)], capture_output=True, text=True, timeout=60)
+    return done.returncode, done.stdout + done.stderr
+
+
+@needs_compiler
+@pytest.mark.parametrize("slug", ["pseudoinverse", "failure-tolerant"])
+def test_the_test_beside_it_passes_and_can_fail(slug, tmp_path):
+    law = hf.control.by_name(slug, hf.arms.load("planar-3r"), task="planar")
+    source, _, _, test = law.export_c(tmp_path, "law")
+    assert run(tmp_path, source, test) == (0, "passed\n")
+    text = test.read_text()
+    lists = [np.array([float(x) for x in part.split(",")]) for part in re.findall(r"{([-\d][^{}]*)}", text.split("cases[")[1])]
+    assert len(lists) == 15
+    if slug == "pseudoinverse":  # what it expects is no copy of the C: the plane's own formula gives it
+        for q, v, rates in zip(lists[::3], lists[1::3], lists[2::3], strict=True):
+            np.testing.assert_allclose(rates, np.linalg.pinv(planar_jacobian(q)) @ v, rtol=1e-9)
+    test.write_text(text.replace(repr(float(lists[2][0])), repr(float(lists[2][0]) + 1e-6), 1))
+    code, told = run(tmp_path, source, test)
+    assert code == 1
+    assert "case 1: returned 0, rates differ by" in told
+
+
+@needs_compiler
+def test_the_example_follows_the_command_and_stops_at_a_wrong_order_of_joints(tmp_path):
+    arm = hf.arms.load("planar-3r")
+    source, _, example, _ = hf.control.pseudoinverse(arm, "planar").export_c(tmp_path, "law")
+    code, told = run(tmp_path, source, example)
+    assert code == 0
+    q = np.array([float(line.split()[1]) for line in told.splitlines()])
+    start = np.array(hf.arms.about("planar-3r").home)
+    moved = arm.forward_kinematics(q)[:2, 3] - arm.forward_kinematics(start)[:2, 3]
+    np.testing.assert_allclose(moved, [0.01, 0], atol=1e-5)  # 0.01 m/s for a second, in steps of 0.01 s
+    example.write_text(example.read_text().replace('"joint1", "joint2"', '"joint2", "joint1"'))
+    assert run(tmp_path, source, example) == (2, "joint 1 of the driver is not the arm's\n")
+
+
+@needs_compiler
+def test_names_of_joints_are_compared_letter_by_letter(tmp_path):
+    arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0, name=x) for x in ('a"\\b??/', "größe", "a")], name="odd")
+    files = hf.control.pseudoinverse(arm, "planar").export_c(tmp_path, "law")
+    compiled(*files[:2], 2, 3, 0)
+    library = ctypes.CDLL(str(files[0].with_suffix(".so")))
+    given = (ctypes.c_char_p * 3).in_dll(library, "law_joints")
+    assert [x.decode() for x in given] == list(arm.joint_names)
+
+    def check(*names):
+        return library.law_check_joints((ctypes.c_char_p * max(len(names), 1))(*[x and x.encode() for x in names]), len(names))
+
+    assert check(*arm.joint_names) == 0
+    assert check(*arm.joint_names[:2]) == 3
+    assert check(*arm.joint_names, "b") == 4
+    assert check(arm.joint_names[0], "a", "größe") == 2
+    assert check(arm.joint_names[0], "größ", "a") == 2
+    assert check(arm.joint_names[0], "größen", "a") == 2
+    assert check(None, "größe", "a") == 1
+    assert check() == 1
+
+
+def test_the_header_says_what_made_it(tmp_path):
+    law = hf.control.damped(hf.arms.load("ur5-rail"), 0.1, "position")
+    text = law.export_c(tmp_path, "law")[1].read_text()
+    assert f'#define LAW_ARM "{law.arm.fingerprint}"' in text
+    assert f'#define LAW_HOLDFAST "{hf.__version__}"' in text
+    other = hf.control.damped(law.arm.with_base(np.diag([1.0, -1, -1, 1])), 0.1, "position")
+    assert law.arm.fingerprint not in other.export_c(tmp_path, "other")[1].read_text()
+
+
+@pytest.mark.skipif(shutil.which("g++") is None, reason="no C++ compiler (g++) on this machine")
+def test_cpp_links_with_it(tmp_path):
+    source, _, example, _ = hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar").export_c(tmp_path, "law")
+    shutil.move(example, example.with_suffix(".cpp"))
+    subprocess.run([COMPILER, "-std=c99", "-c", str(source), "-o", str(tmp_path / "law.o")], check=True, timeout=300)
+    code, told = run(tmp_path, example.with_suffix(".cpp"), tmp_path / "law.o", compiler="g++", flags=("-Wall", "-Werror"))
+    assert (code, told.split()[0]) == (0, "joint1")
 
 
 def test_what_is_refused(tmp_path):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
+from itertools import product
+
 import damping_oracle
 import numpy as np
 import pytest
@@ -14,18 +17,27 @@ from holdfast.errors import InputError, TaskError
 LENGTH = 0.3
 
 
+def exported():
+    """Every law that holdfast.control offers."""
+    kinds = [getattr(hf.control, name) for name in hf.control.__all__]
+    return [k for k in kinds if isinstance(k, type) and issubclass(k, hf.control.Law) and not inspect.isabstract(k)]
+
+
 def laws_of(arm, task, rng):
+    """One law or more of every kind; a kind that needs an option of which nothing is known here fails."""
     root = rng.normal(size=(arm.n, arm.n))
-    return [
-        hf.control.pseudoinverse(arm, task),
-        hf.control.weighted(arm, rng.uniform(0.2, 3, arm.n), task),
-        hf.control.weighted(arm, root @ root.T + np.eye(arm.n), task),
-        hf.control.damped(arm, 0.2, task),
-        hf.control.failure_tolerant(arm, task),
-    ]
+    options = {"weights": [rng.uniform(0.2, 3, arm.n), root @ root.T + np.eye(arm.n)], "damping": [0.2]}
+    laws = []
+    for kind in exported():
+        known = list(inspect.signature(kind).parameters.values())[1:]
+        needed = [p.name for p in known if p.default is inspect.Parameter.empty]
+        assert set(needed) <= set(options), f"{kind.__name__} needs {needed}: give values, and its formula"
+        laws += [kind(arm, **dict(zip(needed, v, strict=True)), task=task) for v in product(*(options[x] for x in needed))]
+    return laws
 
 
-def by_hand(law, j, u):
+def by_hand(law, j, u, damping):
+    """Rates (n,) for a scaled Jacobian and velocity from the law's formula; ``damping`` is what the law says it took."""
     if isinstance(law, hf.control.Weighted):
         w = np.linalg.inv(law.weights)
         return w @ j.T @ np.linalg.solve(j @ w @ j.T, u)
@@ -33,7 +45,9 @@ def by_hand(law, j, u):
         return damping_oracle.damped(j, law.fixed_damping) @ u
     if isinstance(law, hf.control.Pseudoinverse):
         return np.linalg.pinv(j) @ u
-    return None
+    if isinstance(law, hf.control.FailureTolerant):  # of which the choice of damping has tests of its own
+        return damping_oracle.damped(j, damping) @ u
+    raise AssertionError(f"no formula of {type(law).__name__} is written here")
 
 
 @pytest.fixture(scope="module")
@@ -50,15 +64,17 @@ def cases(mixed5, generator):
     patch.undo()
 
 
+def test_every_law_that_is_offered_is_among_the_cases_and_has_a_name(cases):
+    assert {type(law) for law in cases[0]} == set(exported()) == set(BY_NAME.values())
+
+
 def test_rates_are_those_of_the_formulas(cases):
     laws, q, v, j, u = cases
     for law in laws:
         rates = law.velocity(q, v)
         damping = law.damping(q, v)
         for k in range(len(q)):
-            expected = by_hand(law, j[k], u[k])
-            if expected is None:
-                expected = damping_oracle.damped(j[k], damping[k]) @ u[k]
+            expected = by_hand(law, j[k], u[k], damping[k])
             size = np.abs(expected).max()
             np.testing.assert_allclose(rates[k], expected, rtol=0, atol=1e-9 * size, err_msg=law.name)
         if law.slug != "failure-tolerant":

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 import holdfast as hf
 import oracles
 from holdfast.control import pseudoinverse
-from holdfast.converge.convergence_map import shared
 from holdfast.converge.starts import read_places
+from holdfast.converge.workspace import mean_intervals
 from holdfast.converge.workspace_job import Beginnings
 
 CELLS = 5
@@ -107,13 +107,45 @@ def test_a_planar_arm_by_sampling_beside_the_exact_analysis(three, rng):
 
 
 def test_intervals_count_starts(sampled):
+    """However often a start is looked at, it stays one: the interval is no narrower than any that covers so few values may be.
+
+    Of k starts that all have 100 % nothing excludes a mean of ``(1 - confidence) / 2`` to the power ``1 / k`` (a start fails
+    wholly with the rest of the probability). Copies of every start, which a count of configurations could not tell from
+    more configurations, must narrow it.
+    """
+    seen = 0
     for name, ends in sampled.intervals(0.9).items():
-        for k, values in enumerate(sampled.measures[name].T):
-            if np.isnan(values).all():
-                assert np.isnan(ends[k]).all()
+        for (low, high), values in zip(ends, sampled.measures[name].T, strict=True):
+            known = values[~np.isnan(values)]
+            if not known.size:
+                assert np.isnan([low, high]).all()
                 continue
-            one = shared(values / 100, int((sampled.configurations - sampled.lost).sum()), 0.9)
-            assert ends[k] == pytest.approx([100 * one.low, 100 * one.high])
+            assert low <= known.mean() + 1e-9
+            assert high >= known.mean() - 1e-9
+            widest = 100 * (1 - 0.05 ** (1 / known.size))
+            if known.min() >= 100 - 1e-9:
+                assert 100 - low >= widest - 1e-6
+                seen += 1
+            if known.max() <= 1e-9:
+                assert high >= widest - 1e-6
+                seen += 1
+    assert seen
+    few = mean_intervals(sampled.measures["Ravg"][:, -1:], 0.9)[0]
+    many = mean_intervals(np.repeat(sampled.measures["Ravg"][:, -1:], 9, axis=0), 0.9)[0]
+    assert np.diff(many) < 0.6 * np.diff(few)
+
+
+def test_intervals_of_starts_hold_the_mean_of_all_starts(rng):
+    """The mean over 4,000 starts is the truth of 300 samples of 12 of them, each start many configurations: Beta shares."""
+    everything = 100 * rng.beta(0.3, 0.6, 4000)[:, None]
+    inside = 0
+    for _ in range(300):
+        low, high = mean_intervals(rng.choice(everything, 12), 0.9)[0]
+        inside += low <= everything.mean() <= high
+    assert inside >= 0.9 * 300
+
+
+def test_the_share_of_starts_throughout(sampled):
     full, known = sampled.throughout("R100"), sampled.reach.full
     assert [i.value for i in full] == pytest.approx(list(np.nanmean(np.where(np.isnan(known), np.nan, known == 100), axis=0)))
     with pytest.raises(hf.InputError, match="R100 or F100"):

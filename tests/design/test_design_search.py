@@ -139,6 +139,14 @@ def test_the_search_finds_the_known_optimum_of_a_planar_arm(searched):
     assert searched.checked.optimism == pytest.approx(searched.guaranteed[searched.best] - found.guaranteed.value)
 
 
+def test_no_design_guarantees_as_much_as_the_best_and_reaches_farther(searched):
+    """Of this arm whole families of designs attain the bound."""
+    value = searched.guaranteed[searched.best]
+    alike = np.abs(searched.guaranteed - value) <= 1e-4 * value
+    assert searched.reach[searched.best] >= searched.reach[alike].max()
+    assert searched.best in searched.front
+
+
 def test_what_the_search_reports_is_what_the_arms_are_worth(searched, planar3):
     arm = searched.arm()
     run = hf.assess(arm, searched.region, hf.indices.relative_manipulability(arm, "planar"), poses=100, seed=9, optimise=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -182,10 +183,28 @@ def test_refused_designs(pa10: hf.Arm) -> None:
         space.draw(0)
 
 
-def test_masses_are_left_out_and_said_so() -> None:
+def test_masses_of_other_shapes_are_left_out() -> None:
     panda = arms.load("panda")
     made = design_space(panda, ["d3=200..400mm"]).arm_of([0.35])
-    assert made.links == (None,) * 7
+    assert made.links[2] is None
     assert made.joints[0].velocity == panda.joints[0].velocity
     assert DesignSpace(panda, (Parameter("d3", 0.2, 0.4),)).names == ("d3",)
     assert replace(Parameter("d3", 0.2, 0.4), upper=0.5).upper == 0.5
+
+
+def test_masses_stay_where_the_links_keep_their_shape(rng: np.random.Generator) -> None:
+    """The torques of the given arm, read from its URDF file with other frames, are those of a design with other limits."""
+    panda = hf.arms.load("panda").with_payload(hf.Link(1.5, np.array([0.02, 0, 0.1]), 0.01 * np.eye(3), "part"))
+    limits = design_space(panda, {"upper4": (-1.0, 0.0)}).arm_of([-0.5])
+    q, qd, qdd = rng.uniform(-1, 1, (3, 7))
+    np.testing.assert_allclose(limits.inverse_dynamics(q, qd, qdd), panda.inverse_dynamics(q, qd, qdd), rtol=1e-9, atol=1e-9)
+    longer = design_space(panda, {"d3": (0.2, 0.4)}).arm_of([0.35])
+    assert [link is None for link in longer.links] == [k == 2 for k in range(7)]
+    assert longer.payload is not None
+    # What hangs behind the longer link weighs as much about the joints behind it.
+    whole = hf.Arm(**{**vars_of(longer), "links": tuple(link or panda.links[2] for link in longer.links)})
+    np.testing.assert_allclose(whole.inertia_diagonal(q)[3:], panda.inertia_diagonal(q)[3:], rtol=1e-9)
+
+
+def vars_of(arm: hf.Arm) -> dict[str, Any]:
+    return {f.name: getattr(arm, f.name) for f in fields(arm)}

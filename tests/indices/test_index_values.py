@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import comb
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 
 import holdfast as hf
 import oracles
@@ -13,6 +15,7 @@ from holdfast import indices
 from holdfast.arm.task import Task, rows_task
 from holdfast.failures import failure_sets
 from holdfast.indices import BY_NAME, by_name
+from holdfast.indices.relative import _bound_note
 
 INVARIANT = ("relative-manipulability", "manipulability")
 SPECTRAL = tuple(n for n in BY_NAME if n not in INVARIANT)
@@ -162,6 +165,64 @@ def test_the_bound_is_attained_where_all_rho_are_equal():
     index = indices.relative_manipulability(hf.Arm("star", tuple(joints)), ["vx", "vy"])
     assert index.bound == pytest.approx(np.sqrt(1 / 3))
     np.testing.assert_allclose(index.by_joint([0.1, 0.2, 0.3]), index.bound, rtol=1e-15)
+
+
+def sliding(directions):
+    """An arm of sliding joints along (n, 3) directions: their transpose is the Jacobian of a position."""
+    joints = tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), np.array(d)) for k, d in enumerate(directions))
+    return hf.Arm("slides", joints)
+
+
+def test_the_bound_of_pairs_is_attained_by_the_axes_of_an_icosahedron():
+    golden = (1 + np.sqrt(5)) / 2
+    corners = np.array([[0, 1, golden], [0, -1, golden]]) / np.hypot(1, golden)
+    axes = np.concatenate([np.roll(corners, k, axis=1) for k in range(3)])
+    index = indices.relative_manipulability(sliding(axes), "position", 2)
+    assert index.bound == pytest.approx(np.sqrt(1 / 5))
+    assert index.bound_note == ""
+    assert index(np.zeros(6)) == pytest.approx(index.bound, rel=1e-12)
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_a_bound_that_is_not_attained_says_what_is(n, rng):
+    """The closed form by a regular star, and a search over Jacobians that comes near it and never beyond: QR and minors."""
+    m = n - 2
+    best = 2 / n * np.sin(np.pi / n)
+    angle = np.pi * np.arange(n) / n
+    star = np.sqrt(2 / n) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    jacobian = np.linalg.svd(star.T)[2][2:]
+    directions = np.zeros((n, 3))
+    directions[:, :m] = jacobian.T
+    # Joint axes have length 1 (rho knows no scale of rows, but of columns it does): the star's columns are equal already.
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    index = indices.relative_manipulability(sliding(directions), ["vx", "vy", "vz"][:m], 2)
+    assert index(np.zeros(n)) == pytest.approx(best, rel=1e-12)
+    assert index.bound == pytest.approx(np.sqrt(1 / comb(n, 2)))
+    assert index.bound_note == f"an upper bound, not attained: the best possible is {best:.4f}"
+
+    def least(x):
+        basis = np.linalg.qr(x.reshape(n, 2))[0]
+        return min(abs(np.linalg.det(basis[[i, j]])) for i in range(n) for j in range(i))
+
+    found = max(-minimize(lambda x: -least(x), rng.normal(size=2 * n), method="Nelder-Mead").fun for _ in range(12))
+    assert 0.8 * best < found <= best + 1e-12 < index.bound
+
+
+@pytest.mark.parametrize(
+    ("size", "note"),
+    [
+        ((9, 6, 1), ""),
+        ((7, 1, 3), ""),
+        ((10, 5, 2), ""),
+        ((6, 4, 3), ""),
+        ((8, 6, 2), "an upper bound, not attained: the best possible is 0.0957"),
+        ((5, 2, 3), "an upper bound, not attained: the best possible is 0.2351"),
+        ((9, 6, 2), "an upper bound, not attained"),
+        ((12, 6, 2), "an upper bound; whether it is attained is not known"),
+    ],
+)
+def test_what_is_known_of_a_bound(size, note):
+    assert _bound_note(*size) == note
 
 
 @pytest.mark.parametrize("arm_name", ["pa10", "mixed7"])

@@ -17,9 +17,9 @@ PAGE = Path(__file__).parents[2] / "page"
 def node():
     """What the page is built with."""
     if shutil.which("node") is None:
-        pytest.fail("the page is built again and compared, and there is no Node here: apt-get install nodejs npm")
+        pytest.fail("the page is built again and compared, and there is no Node here: 'make test' installs it")
     if not (PAGE / "node_modules").is_dir():
-        pytest.fail("the page is built again and compared, and its tools are not installed: run 'npm ci' in page/")
+        pytest.fail("the page is built again and compared, and its tools are not installed: 'make test' installs them")
 
 
 def sources() -> str:

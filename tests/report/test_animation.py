@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from wellformed import check
 
+import chromium
 from holdfast.report import page, svg
 from holdfast.report.animation import Motion, Projection, animation, shown_seconds
 from holdfast.report.timelines import Line, Timeline, small_multiples, timeline_figure
@@ -83,6 +84,32 @@ def test_the_script_is_javascript(motion, tmp_path):
     file = tmp_path / "a.js"
     file.write_text(re.search(r"<script>(.*?)</script>", drawn(motion, [SIDE]), re.DOTALL)[1])
     subprocess.run(["node", "--check", str(file)], check=True)
+
+
+BUSY = "setInterval(() => { const t = performance.now(); while (performance.now() - t < 25); }, 30);"
+
+
+def test_play_plays_every_time_also_on_a_busy_page(motion, tmp_path):
+    """While a page is busy, the first frame after a click carries a time from before the click."""
+    report = page.Page("t", "h", [page.Section("", [page.Picture(animation(motion, [SIDE], "motion", "An arm"), "c")])])
+    file = page.write(report, tmp_path / "motion.html")
+    with chromium.opened(pytest.fail) as browser:
+        opened, errors = browser.new_page(), []
+        opened.on("pageerror", lambda error: errors.append(str(error)))
+        opened.add_init_script(BUSY)
+        opened.goto(file.as_uri())
+        slider, button = opened.locator("#motion input"), opened.locator("#motion button")
+        for _ in range(20):
+            button.click()
+            opened.wait_for_function("() => document.querySelector('#motion input').value > 0")
+            assert not errors
+            button.click()
+            assert button.inner_text() == "Play"
+            slider.fill("0")
+        button.click()
+        opened.wait_for_function("() => document.querySelector('#motion button').textContent === 'Play'")
+        assert slider.input_value() == "10"
+        assert not errors
 
 
 def test_a_motion_is_played_so_that_it_can_be_followed():

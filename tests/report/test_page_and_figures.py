@@ -122,6 +122,6 @@ def test_words() -> None:
         "a",
         "a, b or c",
     )
-    # Wilson, 145 of 2000 by hand: (0.0725 + 0.00096 -+ 1.96 sqrt(0.0725 0.9275 / 2000 + 2.4e-7)) / 1.00192
+    # Clopper and Pearson, 145 of 2000: half of 5 % of the probability is beyond the count at 0.06152 and at 0.08477
     assert share(145, 2000) == "145 (7.2 %, 95 % interval 6.2 to 8.5 %)"
     assert plain("a$b$\n" + "x" * 80, 10) == "a\\$b\\$ xxxx…"

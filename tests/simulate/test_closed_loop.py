@@ -187,6 +187,50 @@ def test_a_limit_cycle_is_moving(three):
     assert path.error[late].max() == pytest.approx(0.997, abs=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("start", "x", "rate"),
+    [
+        ((-0.3283141, 2.08742931, -0.0742208), (-0.14897975, 0.06973707), 13),
+        ((1.07891254, -0.21329997, 0.01236121), (0.69898401, 0.53231833), 37),
+    ],
+)
+def test_a_fast_limit_cycle_is_moving(three, start, x, rate):
+    """Joint 3 stands nearly straight: joint 1 turns for ever, too fast for 100,000 steps to last until the limit."""
+    runs = simulate(three, start, x, locked=[2])
+    assert (runs.outcome, runs.reason) == ("moving", Reason.NONE)
+    assert runs.time < 3000
+    span = 6 * 2 * np.pi / rate
+
+    def rates(t, q):
+        return planar_rates(q, np.array(x), np.array([1, 1, 0]))
+
+    found = solve_ivp(rates, (0, span), runs.q_final, "DOP853", rtol=1e-12, atol=1e-13, dense_output=True)
+    turns = np.abs(found.y[0, -1] - found.y[0, 0]) / (2 * np.pi)
+    assert turns == pytest.approx(6, rel=0.05)
+    # Once round it is where it was, and so again and again.
+    once = found.sol(np.linspace(0.5, 1.5, 40_001) * span / turns)
+    there = once[1, np.argmin(np.abs(np.abs(once[0] - runs.q_final[0]) - 2 * np.pi))]
+    assert there == pytest.approx(runs.q_final[1], abs=1e-4)
+    assert np.linalg.norm([rates(0, q) for q in found.y.T], axis=1).min() > 0.1
+    if rate < 20:
+        orbit = hf.converge.orbit(runs)
+        assert orbit.label == "turning"
+        assert orbit.stable
+
+
+def test_only_what_goes_on_is_said_to_circle(three, random_runs, monkeypatch):
+    """With few steps every long run is looked at; one that would end elsewhere must not be taken for a cycle."""
+    from holdfast.simulate import compiled
+
+    monkeypatch.setattr(compiled, "MOST_STEPS", 250)
+    q0, x, locked, runs = random_runs
+    few = simulate(three, q0, x, locked)
+    assert (few.reason == Reason.STEPS).any()
+    moving = few.outcome == "moving"
+    assert moving.any()
+    assert (runs.outcome[moving] == "moving").all()
+
+
 def test_a_creeping_arm_is_undecided_until_it_has_the_time(three):
     """Just off the folded line of joint 1 the transit takes very long, slower than anything that turns for ever."""
     fold = 45 + np.rad2deg(np.arccos(1 / np.hypot(1.5, 1.5)))

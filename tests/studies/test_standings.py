@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,7 +13,8 @@ from holdfast.assess.distribution import Distribution
 from holdfast.indices import by_name
 from holdfast.interval import Interval
 from holdfast.report.page import Page, Section, render
-from holdfast.studies.report import _headline, _standings, _structure
+from holdfast.studies.headline import headline
+from holdfast.studies.report import _standings, _structure, _structures
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.standings import standings
 
@@ -47,7 +49,7 @@ def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     assert first.level == ["b", "a"]
     assert first.about == "200 motions × 2 joints"
     assert (second.law, second.level) == ("damped:0.1", ["a"])
-    text = render(Page("t", _headline([first, second]), [Section("s", _standings([first, second]))]))
+    text = render(Page("t", headline([first, second]), [Section("s", _standings([first, second]))]))
     assert "level with a" in text
     assert "a arrives most often, under damped:0.1" in text
 
@@ -62,7 +64,7 @@ def test_smaller_is_better_where_the_index_says_so_and_units_are_said():
     assert plain.level == ["even"]
     assert best.question == "manipulability ≤ 10, best configuration"
     assert best.level == ["even", "uneven"]
-    text = render(Page("t", _headline([plain, best]), [Section("s", _standings([plain, best]))]))
+    text = render(Page("t", headline([plain, best]), [Section("s", _standings([plain, best]))]))
     assert "After any failure considered, even most often keeps a manipulability ≤ 10 m/rad: at 1.000" in text
     assert "clearly ahead" in text
 
@@ -75,10 +77,28 @@ def test_one_arm_alone_has_nobody_to_be_compared_with():
 def test_a_joint_whose_lock_ends_the_task_everywhere_is_named():
     def of(arm: str, index: str, failures: str = "single") -> Assessed:
         plan = SimpleNamespace(arm=arms.load(arm), index=by_name(index, arms.load(arm), "pose"))
-        return Assessed({"arm": arm, "failures": failures}, plan, None, None, None, None)
+        return Assessed({"arm": arm, "task": "pose", "failures": failures}, plan, None, None, None, None)
 
     indices = ("relative-manipulability", "manipulability")
     found = [of(arm, index) for arm in ("panda", "iiwa14") for index in indices]
-    (callout,) = _structure(found)  # an iiwa's hand is as far from its shoulder as its elbow says
+    (callout,) = _structure(_structures(found))  # an iiwa's hand is as far from its shoulder as its elbow says
     assert "once lbr_iiwa_joint_4 (joint 4) locks, 'iiwa14' is singular for task 'pose'" in callout.text
-    assert _structure([of("iiwa14", "manipulability", "pairs")]) == []
+    assert _structures([of("iiwa14", "manipulability", "pairs")]) == {}
+
+
+def test_an_arm_that_is_0_by_structure_is_level_with_none_and_an_empty_headline_says_why():
+    sparse = assessed("sparse", np.r_[np.full(60, 0.1), np.full(40, 0.2)], best=np.full(100, 0.3))
+    sparse = replace(sparse, worst=("elbow", 0.72))
+    nothing = assessed("nothing", np.zeros(100), best=np.zeros(100))
+    asked, ended = {("manipulability", "pose"): 0.5}, {("nothing", "pose", "single"): "its elbow"}
+    blind = standings([nothing, sparse], [], asked)[0]
+    assert blind.level == ["nothing", "sparse"]  # what shares alone say of two arms that keep nothing
+    plain, best = standings([nothing, sparse], [], asked, ended)
+    assert plain.level == best.level == ["sparse"]
+    line = headline([plain, best])
+    assert "hardly any pose keeps a manipulability ≥ 0.5: at most 0.00" in line
+    assert "level with" not in line
+    assert "sparse has the best median, 0.100; in the best configurations 0.300. Its worst failure" in line
+    assert "is most often a lock of elbow." in line
+    assert "nothing keeps nothing: once its elbow locks, it is singular everywhere." in line
+    assert "nothing: 0 by structure" in render(Page("t", line, [Section("s", _standings([plain, best]))]))

@@ -13,7 +13,7 @@ from holdfast import arms
 @pytest.fixture(scope="module")
 def browser():
     """A running headless Chromium."""
-    with chromium.opened(pytest.fail, scenes=True) as opened:
+    with chromium.opened(chromium.required, scenes=True) as opened:
         yield opened
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 from toy import Toy, cells
 
 from holdfast.errors import StoreError
-from holdfast.study import Cell, Store, Study, Threads, journal, merge
+from holdfast.study import Cell, Column, Store, Study, Threads, journal, merge
 from holdfast.study.folder import digest, held
 from holdfast.study.journal import Entry, Journal
 
@@ -188,6 +189,100 @@ def test_a_damaged_chunk_is_named_and_computed_again(how, tmp_path, straight):
     study.run(cells(), Threads(1))
     assert bits(study) == bits(straight)
     assert study.verify() == []
+
+
+@pytest.mark.parametrize("how", ["folder", "journal", "all damaged"])
+def test_a_cell_that_is_gone_is_named(how, tmp_path, straight):
+    """Nothing of it is left to be compared: verify said that all was sound."""
+    first, study = make(tmp_path / "first"), tmp_path / "merged"
+    first.run(cells(), Threads(1), stop=lambda: len(bits(first)) >= 6)  # of the second cell only a part
+    merge(study, [tmp_path / "first"])
+    for s in (first, Study.open(study)):
+        assert s.verify() == []
+        if how == "folder":
+            shutil.rmtree(s.folder(0))
+        elif how == "journal":
+            (s.folder(0) / "done.journal").unlink()
+        else:
+            for n in range(5):
+                file_of(s, n).write_bytes(b"")
+        found = s.verify()
+        assert {d.cell for d in found} == {"c0"}
+        assert [d.chunk for d in found] == (list(range(5)) if how == "all damaged" else [None])
+        assert s.verify() == []  # named once, missing from then on
+        s.run(cells(), Threads(1))
+        assert s.verify() == []
+        assert bits(s) == bits(straight)
+
+
+def test_a_cell_that_was_never_begun_is_no_damage(tmp_path):
+    study = make(tmp_path / "s")
+    assert study.verify() == []
+    study.run(cells(), Threads(1), stop=lambda: len(bits(study)) >= 3)
+    assert study.verify() == []
+    (tmp_path / "s" / "begun.journal").unlink()  # a folder of holdfast 0.9 has none
+    shutil.rmtree(study.folder(0))
+    assert study.verify() == []
+
+
+DAMAGED = {
+    "no name": lambda c: c.pop("name"),
+    "a name that leads elsewhere": lambda c: c.update(name="../../elsewhere"),
+    "a name of a folder below": lambda c: c.update(name="a/b"),
+    "a name that is too long": lambda c: c.update(name="x" * 300),
+    "no labels": lambda c: c.pop("labels"),
+    "labels that are text": lambda c: c.update(labels="x"),
+    "rows without end": lambda c: c.update(rows=2**70),
+    "more chunks than can be counted": lambda c: c.update(rows=10**9, chunk=1),
+    "chunks of nothing": lambda c: c.update(chunk=0),
+    "no digest": lambda c: c.pop("digest"),
+}
+
+
+@pytest.mark.parametrize("what", DAMAGED)
+def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
+    make(tmp_path / "s")
+    file = tmp_path / "s" / "study.json"
+    data = json.loads(file.read_text())
+    DAMAGED[what](data["cells"][1])
+    file.write_text(json.dumps(data))
+    with pytest.raises(StoreError, match=r"is damaged: its cell 2 is missing or wrong"):
+        Study.open(tmp_path / "s")
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("rows", 2**70), ("rows", -1), ("chunk", 0), ("columns", [["../x", "float64", [], "1", ""]]), ("columns", [["x"]]),
+     ("columns", [["x", "no type", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]]), ("done", [99])],
+)  # fmt: skip
+def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
+    store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], 10, 5)
+    assert store.missing == [0, 1]
+    file = tmp_path / "s" / "run.json"
+    file.write_text(json.dumps(json.loads(file.read_text()) | {key: value}))
+    with pytest.raises(StoreError, match="is damaged: its"):
+        Store.open(tmp_path / "s")
+
+
+def test_chunks_of_one_row_of_a_large_run_are_no_hang(tmp_path):
+    Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], 10**9, 10**6)
+    file = tmp_path / "s" / "run.json"
+    file.write_text(json.dumps(json.loads(file.read_text()) | {"chunk": 1}))
+    with pytest.raises(StoreError, match="its chunk is missing or wrong"):
+        Store.open(tmp_path / "s")
+
+
+def test_names_that_are_too_long_are_refused(tmp_path):
+    long = tmp_path / ("x" * 300)
+    for make_it in (
+        lambda: make(long),
+        lambda: Study.open(long),
+        lambda: merge(long, [make(tmp_path / "s").path]),
+        lambda: Store.open(long),
+        lambda: Store.create(long, {}, [Column("x", "float64")], 10, 5),
+    ):
+        with pytest.raises(StoreError):
+            make_it()
 
 
 @pytest.mark.parametrize("how", ["cut", "lost"])

@@ -4,6 +4,7 @@ import sys
 
 import numpy as np
 
+from holdfast.teleop.entries import Kind
 from holdfast.teleop.records import Records
 from holdfast.teleop.session import Session
 from holdfast.teleop.trials import End
@@ -29,7 +30,8 @@ def main(folder: str, code: str, trials: int) -> None:
                 q, _ = plant.cycle(q, v, mask)
             records.finish(number, End.ARRIVED, q)
             print(number, "end", flush=True)
-            records.rate(number, 1)
+            if todo.kind == Kind.TRIAL:
+                records.rate(number, 1)
 
 
 if __name__ == "__main__":

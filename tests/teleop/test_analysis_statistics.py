@@ -146,14 +146,30 @@ def test_paired_equal_to_pingouin(rng):
     assert found.rank_biserial == pytest.approx(by_rank["RBC"], rel=1e-8)
 
 
-def test_wilcoxon_by_enumeration(rng):
-    d = rng.normal(0.4, 1.0, 8)
-    ranks = stats.rankdata(np.abs(d))
-    sums = np.array([ranks @ np.array(signs) for signs in product((-1, 1), repeat=8)])
-    expected = np.mean(np.abs(sums) >= abs(ranks @ np.sign(d)) - 1e-9)
-    found = paired(d, np.zeros(8))
+@pytest.mark.parametrize("ties", [False, True])
+def test_wilcoxon_by_enumeration(rng, ties):
+    """All 2^12 signs; with ties (and pairs without a difference, which are left out) as without."""
+    d = rng.normal(0.4, 1.0, 12)
+    if ties:
+        d = np.r_[np.round(2 * d) / 2 + 0.5 * (np.round(2 * d) == 0), 0.0, 0.0]
+    ranks = stats.rankdata(np.abs(d[d != 0]))
+    sums = np.array([ranks @ np.array(signs) for signs in product((-1, 1), repeat=12)])
+    expected = np.mean(np.abs(sums) >= abs(ranks @ np.sign(d[d != 0])) - 1e-9)
+    found = paired(d, np.zeros(len(d)))
+    d = d[d != 0]
     assert found.wilcoxon == pytest.approx(expected, rel=1e-9)
     assert found.rank_biserial == pytest.approx(ranks @ np.sign(d) / ranks.sum())
+
+
+def test_wilcoxon_with_ties_at_twenty_pairs():
+    """Twenty differences of 1 and 2: by counting how many of the ones and of the twos are positive."""
+    d = np.r_[np.ones(9), -np.ones(3), 2 * np.ones(6), -2 * np.ones(2)]
+    one, two = 6.5, 16.5  # mean ranks of 12 ones and of 8 twos
+    sums = one * np.arange(13)[:, None] + two * np.arange(9)
+    chance = stats.binom.pmf(np.arange(13), 12, 0.5)[:, None] * stats.binom.pmf(np.arange(9), 8, 0.5)
+    middle, seen = 105.0, 9 * one + 6 * two
+    expected = chance[np.abs(sums - middle) >= abs(seen - middle) - 1e-9].sum()
+    assert paired(d, np.zeros(20)).wilcoxon == pytest.approx(expected, rel=1e-12)
 
 
 def noncentral_t_below(t, df, z):

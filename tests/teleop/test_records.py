@@ -5,6 +5,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import tempfile
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +24,7 @@ from holdfast.teleop.replay import replay
 from holdfast.teleop.session import Session, training_tasks
 from holdfast.teleop.tables import computer_table, cycle_table, dictionary, export, trial_table
 from holdfast.teleop.trials import End
+from holdfast.teleop.verify import verify
 
 PROGRAM = Path(__file__).with_name("crashing.py")
 
@@ -66,14 +68,18 @@ def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
 
 def test_what_is_written_is_read(records):
     code = records.add_subject().code
+    for _ in range(3):  # the training, which has no ratings
+        training, _, _ = one_trial(records, code, cycles=5)
+    with pytest.raises(hf.InputError, match="one of the training"):
+        records.rate(training, 2)
     number, written, last = one_trial(records, code)
     records.rate(number, 2, {"comment": "slow"})
     with Records.open(records.folder) as again:
-        (entry,) = again.entries()
+        (entry,) = again.entries(kind=Kind.TRIAL)
         trials = again.trials([entry])
         assert (entry.subject, entry.kind, entry.end, entry.rating, entry.answers) == (
             code,
-            Kind.TRAINING,
+            Kind.TRIAL,
             End.ARRIVED,
             2,
             {"comment": "slow"},
@@ -236,6 +242,11 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     ]:
         with pytest.raises(hf.InputError, match=message):
             records.append(trial, first, np.zeros(1), velocity, configuration)
+    for early in (np.array([5.9 / 6]), np.array([-1.0])):
+        with pytest.raises(hf.InputError, match="run backwards"):
+            records.append(number, 7, early, v, q[None])
+    with pytest.raises(hf.InputError, match="run backwards"):
+        records.append(number, 7, np.array([3.0, 2.9]), np.zeros((2, 2)), np.stack([q, q]))
     with pytest.raises(hf.InputError, match="rating is 4"):
         records.rate(number, 4)
     with pytest.raises(hf.InputError, match="a subject S01 already"):
@@ -319,3 +330,58 @@ def test_killed_at_any_moment(tmp_path, kills):
         assert {e.id for e in entries if e.end == End.ARRIVED} >= ended
         assert replay(again).differs == []
         assert Session(again, "P1").next() is not None or again.subject("P1").state == State.COMPLETED
+
+
+@pytest.fixture
+def archive(protocol):
+    """A folder of records that nobody may write: for root too, who becomes nobody meanwhile."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place) / "study"
+        with Records.create(folder, protocol) as records:
+            one_trial(records, records.add_subject().code)
+        Path(place).chmod(0o755)
+        folder.chmod(0o555)
+        for file in folder.iterdir():
+            file.chmod(0o444)
+        if root := os.geteuid() == 0:
+            os.seteuid(65534)
+        try:
+            yield folder
+        finally:
+            if root:
+                os.seteuid(0)
+            folder.chmod(0o755)
+
+
+def test_a_read_only_archive_is_read(archive):
+    with Records.open(archive) as records:
+        assert records.read_only
+        (entry,) = records.entries()
+        assert records.trials([entry]).cycles.tolist() == [7]
+        with pytest.raises(hf.StoreError, match="cannot be written; copy it"):
+            records.add_subject()
+    assert verify(archive).damaged == []
+    assert sorted(f.name for f in archive.iterdir()) == ["protocol.yaml", "records.sqlite"]
+
+
+def test_an_archive_that_was_copied_in_mid_write_says_what_to_do(archive):
+    os.seteuid(os.getuid())
+    archive.chmod(0o755)
+    (archive / "records.sqlite-wal").write_bytes(b"x" * 100)
+    archive.chmod(0o555)
+    if os.getuid() == 0:
+        os.seteuid(65534)
+    with pytest.raises(hf.StoreError, match="copy the whole folder"):
+        Records.open(archive)
+
+
+def test_a_folder_that_is_deleted_or_replaced_takes_nothing_more(records, protocol):
+    code = records.add_subject().code
+    records.folder.rename(records.folder.with_name("moved"))
+    with pytest.raises(hf.StoreError, match="is not there any more"):
+        records.set_note(code, "lost")
+    Records.create(records.folder, protocol).close()
+    with pytest.raises(hf.StoreError, match="is not there any more"):
+        records.set_note(code, "lost")
+    with Records.open(records.folder.with_name("moved")) as moved:
+        assert moved.subject(code).note == ""

@@ -65,7 +65,7 @@ def load(name: str) -> Arm:
         ArmError: There is no such arm; the message lists those there are.
     """
     entry, make = _entry(name)
-    return replace(make(), name=name, source=entry.source)
+    return replace(make(), name=name, source=entry.source, states={"home": np.array(entry.home)})
 
 
 def _entry(name: str) -> tuple[Builtin, Callable[[], Arm]]:
@@ -205,4 +205,4 @@ def _ur5_rail() -> Arm:
     x, y, z, mass = 0.4, 0.4, 0.1, 24.0
     box = mass / 12 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
     carriage = Link(mass, np.array([0, 0, -z / 2]), box, "carriage")
-    return replace(ur5, joints=(rail, *ur5.joints), links=(carriage, *ur5.links))
+    return replace(ur5, joints=(rail, *ur5.joints), links=(carriage, *ur5.links), chain=None)

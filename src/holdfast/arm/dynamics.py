@@ -18,7 +18,7 @@ from holdfast.arm.check import require_possible_inertia
 from holdfast.arm.kinematics import Frame, constant, joint_steps, joint_symbols, split
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]
 
@@ -40,6 +40,7 @@ def inverse_dynamics(arm: Arm, q: SX, qd: SX, qdd: SX) -> SX:
     return sum(_terms(arm, q, qd, qdd))
 
 
+@recalled
 def torque_kernel(arm: Arm) -> Kernel:
     """``(q, qd, qdd) -> inertial, viscous and gravity torques``, each (n,): the terms of :func:`inverse_dynamics`."""
     q, qd, qdd = joint_symbols(arm), ca.SX.sym("qd", arm.n), ca.SX.sym("qdd", arm.n)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 
@@ -67,7 +68,7 @@ def read_joint_table(arm: Arm, file: Path, what: str, first: str) -> JointTable:
     """
     title = f"{what} '{file}'"
     try:
-        reader = csv.reader(file.read_text(encoding="utf-8-sig").splitlines())
+        reader = csv.reader(reading.text(file).splitlines())
         lines = [(reader.line_num, cells) for cells in reader if cells]
     except OSError as error:
         raise InputError(f"cannot read {title}: {error.strerror or error}; give a CSV file") from error

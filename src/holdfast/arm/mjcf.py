@@ -6,6 +6,7 @@ What MuJoCo adds to the format (defaults, includes, inertia from shapes, degrees
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -14,8 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm import mjcf_limits
 from holdfast.arm.model import Arm, Link, snapped
-from holdfast.arm.tree import Tree, TreeJoint, chain, check_ends, quoted
+from holdfast.arm.tip import listed
+from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
 from holdfast.errors import ArmError, HoldfastError
 
 Array = NDArray[np.float64]
@@ -37,6 +40,18 @@ def import_mujoco() -> ModuleType:
     return mujoco  # type: ignore[no-any-return, unused-ignore]
 
 
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Keep MuJoCo from writing its warnings to stdout and to MUJOCO_LOG.TXT in the working folder."""
+    mujoco = import_mujoco()
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda _: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
 def load(
     path: str | Path,
     base: str | None = None,
@@ -54,13 +69,14 @@ def load(
 
     Read are ``range``, ``armature``, ``damping`` (the friction), gravity, and as effort the joint's ``actuatorfrcrange`` or
     else the sum of what its actuators can do. An Arm has no springs, dry friction, gravity compensation or contacts: they are
-    left out.
+    left out. Keyframes with a name become ``states``.
 
     Args:
         path: The file, with the files that it names beside it.
         base: Name of the body on which the arm stands; ``world`` if not given.
-        tip: Name of the body, or else of the site, whose frame is the tool; may be left out if there is only one end.
-        hold: Value, rad or m, at which joints beside the chain stand; by default the one of the file's initial pose.
+        tip: Name of the body, or else of the site, whose frame is the tool; may be left out as for a URDF file.
+        hold: Value, rad or m, at which joints stand, on the chain or beside it; those on the chain are then no joints of the
+            arm. By default all on the chain move, and those beside it stand where the file's initial pose puts them.
         name: Name of the arm; the file's model name if not given.
 
     Returns:
@@ -82,15 +98,15 @@ def load(
 
 
 def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
-    if not path.is_file():
-        raise ArmError("the file cannot be read; give the path of an MJCF file")
+    text = mjcf_limits.check(path)
     try:
-        if path.suffix.lower() == ".xml":
-            spec = mujoco.MjSpec.from_file(str(path))
-        else:  # MuJoCo goes by the ending
-            spec = mujoco.MjSpec.from_string(path.read_text(encoding="utf-8"))
-            spec.modelfiledir = str(path.parent)
-        model = spec.compile()
+        with quiet():
+            if path.suffix.lower() == ".xml":
+                spec = mujoco.MjSpec.from_file(str(path))
+            else:  # MuJoCo goes by the ending
+                spec = mujoco.MjSpec.from_string(text)
+                spec.modelfiledir = str(path.parent)
+            model = spec.compile()
     except ValueError as error:
         reason = " ".join(str(error).split())
         raise ArmError(f"MuJoCo cannot read this ({reason}); give a sound MJCF file, with the files that it names") from error
@@ -157,7 +173,8 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
                 carrier = bodies[int(model.site_bodyid[k])]
                 links[tip] = None
                 joints[f"{tip} (fixed)"] = _fixed(tip, carrier, _pose(model.site_pos[k], model.site_quat[k]))
-    return Tree(label, links, joints, limits_required=False)
+    tied = frozenset(joint_names[j] for _, _, those, _ in _ties(mujoco, model) for j in those)
+    return Tree(label, links, joints, limits_required=False, tied=tied)
 
 
 def _fixed(child: str, parent: str, origin: Array) -> TreeJoint:
@@ -232,14 +249,17 @@ def _arm(
     source: str,
 ) -> Arm:
     base, tip = check_ends(tree, base, tip)
-    on_chain = [joint.name for joint in tree.path(base, tip) if joint.moving]
-    _refuse_ties(mujoco, model, tree, set(on_chain))
-    stand = np.eye(4)
+    on_chain = {joint.name for joint in tree.path(base, tip) if not tree.stands(joint, hold)}
+    _refuse_ties(mujoco, model, tree, on_chain)
+    still, stand = Held(tree, on_chain, hold), np.eye(4)
     for joint in tree.path(tree.root, base):
-        stand = stand @ joint.at(joint.rest)
+        stand = stand @ joint.at(still.value(joint))
     weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
     gravity = np.zeros(3) if weightless else np.array(model.opt.gravity)
-    return chain(tree, base, tip, hold, name, gravity.tolist(), source, stand)
+    arm = chain(tree, base, tip, hold, name, gravity.tolist(), source, stand)
+    joints = _names(model.njnt, model.joint, "joint", 1)
+    at = [int(model.jnt_qposadr[joints.index(joint)]) for joint in arm.joint_names]
+    return replace(arm, states={str(model.key(k).name): model.key_qpos[k][at] for k in range(model.nkey) if model.key(k).name})
 
 
 def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str]) -> None:
@@ -258,13 +278,13 @@ def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str])
         caught = [joints[j] for j in tied_joints if joints[j] in on_chain]
         if caught:
             raise ArmError(
-                f"{kind} '{name}' ties joint {quoted(caught)} of the chain, which is then no degree of freedom of its own; "
+                f"{kind} '{name}' ties joint {listed(caught)} of the chain, which is then no degree of freedom of its own; "
                 "a serial arm needs independent joints, so remove it or choose another base and tip"
             )
         carriers = {carrier(b) for b in tied_bodies}
         if len(carriers) > 1:
             raise ArmError(
-                f"{kind} '{name}' ties the bodies {quoted([bodies[b] for b in tied_bodies])}, which closes a loop over joints "
+                f"{kind} '{name}' ties the bodies {listed([bodies[b] for b in tied_bodies])}, which closes a loop over joints "
                 "of the chain; a serial arm has no loops, so remove it or choose another base and tip"
             )
 

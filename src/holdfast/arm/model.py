@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,15 +13,18 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import real_numbers
 from holdfast.errors import ArmError, InputError
+from holdfast.kernels import Kernel, recalled
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH
-    from holdfast.kernels import SX, Kernel
+    from holdfast.kernels import SX
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
+_MOST = 1e12  # of any number, so that their products stay finite
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +117,8 @@ class Link:
             raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
         if self.mass < 0:
             raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
+        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MOST:
+            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MOST:g}; give kg, m and kg m^2")
         if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
             raise ArmError(f"{label}: the inertia matrix is not symmetric")
         object.__setattr__(self, "mass", float(self.mass))
@@ -141,6 +146,25 @@ class Link:
         return Link(mass, com, inertia, name)
 
 
+@dataclass(frozen=True)
+class Chain:
+    """Which part of a file an arm is.
+
+    Attributes:
+        base: Link on which it stands.
+        tip: Link whose frame is the tool; None once the tool is another one.
+        held: Joints of the file that were told to stand, and where, rad or m.
+    """
+
+    base: str
+    tip: str | None
+    held: tuple[tuple[str, float], ...] = ()
+
+    def __str__(self) -> str:
+        tip = [] if self.tip is None else [f"tip '{self.tip}'"]
+        return ", ".join([f"base '{self.base}'", *tip, *(f"'{name}' held at {value:g}" for name, value in self.held)])
+
+
 @dataclass(frozen=True, eq=False)
 class Arm:
     """A serial arm.
@@ -158,6 +182,8 @@ class Arm:
         gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
         payload: Body held by the hand, in the last joint's moving frame.
         source: Where the description comes from, for reports.
+        chain: Which links of that file are base and tip; None for a DH table.
+        states: Configurations (n,) that have a name, rad and m, such as ``home``.
     """
 
     name: str
@@ -169,6 +195,8 @@ class Arm:
     payload: Link | None = None
     source: str = ""
     flange: Array = field(default_factory=lambda: np.eye(4))
+    chain: Chain | None = None
+    states: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         joints = tuple(self.joints)
@@ -190,6 +218,9 @@ class Arm:
         object.__setattr__(self, "tool", _transform(self.tool, f"tool of arm '{self.name}'"))
         object.__setattr__(self, "flange", _transform(self.flange, f"flange of arm '{self.name}'"))
         object.__setattr__(self, "gravity", _frozen(gravity))
+        # An arm made by replace() may have other joints than the states were written for.
+        states = {name: _frozen(q) for name, q in self.states.items() if np.shape(q) == (len(joints),)}
+        object.__setattr__(self, "states", states)
 
     # ---- builders ----------------------------------------------------------------------------------------------
 
@@ -251,7 +282,8 @@ class Arm:
 
     def with_tool(self, tool: ArrayLike) -> Arm:
         """The same arm with another tool, given as ``from_dh`` and URDF files do: (4, 4) in the last link's own frame."""
-        return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"))
+        chain = None if self.chain is None else replace(self.chain, tip=None)
+        return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"), chain=chain)
 
     def with_payload(self, payload: Link | None) -> Arm:
         """The same arm holding another body, given in the last link's own frame; None: nothing."""
@@ -260,6 +292,23 @@ class Arm:
     def with_base(self, base: ArrayLike) -> Arm:
         """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
+
+    # ---- what it is called -------------------------------------------------------------------------------------
+
+    @property
+    def title(self) -> str:
+        """Name, base and tip: what an answer about the arm begins with."""
+        return self.name if self.chain is None else f"{self.name} ({self.chain})"
+
+    @property
+    def provenance(self) -> str:
+        """Source, base and tip, for reports."""
+        return "; ".join([self.source or "no source given", *([] if self.chain is None else [str(self.chain)])])
+
+    def entry(self) -> dict[str, Any]:
+        """``arm``, ``base`` and ``tip`` by name, and the joints ``held``: what a JSON answer about the arm begins with."""
+        base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
+        return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
 
     # ---- joints ------------------------------------------------------------------------------------------------
 
@@ -334,10 +383,7 @@ class Arm:
         Raises:
             InputError: Wrong number of joint values, or not numbers.
         """
-        try:
-            a = np.asarray(q, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"q for '{self.name}' must be numbers, {self.n} per configuration") from error
+        a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
         if a.ndim not in (1, 2) or a.shape[-1] != self.n:
             got = a.shape[-1] if a.ndim else 0
             raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
@@ -347,42 +393,47 @@ class Arm:
 
     def _compiled(self, name: str, expression: Callable[[Arm, SX], SX]) -> Kernel:
         from holdfast.arm import kinematics
-        from holdfast.kernels import Kernel
 
         q = kinematics.joint_symbols(self)
         return Kernel(name, [q], [expression(self, q)])
 
     @cached_property
+    @recalled
     def _pose_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("pose", kinematics.tool_pose)
 
     @cached_property
+    @recalled
     def _jacobian_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("jacobian", kinematics.jacobian)
 
     @cached_property
+    @recalled
     def _jacobian_derivative_kernel(self) -> Kernel:
         from holdfast.arm import kinematics
 
         return self._compiled("jacobian derivative", kinematics.jacobian_derivative)
 
     @cached_property
+    @recalled
     def _gravity_torque_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
         return self._compiled("gravity torque", lambda arm, q: statics.gravity_torques(arm, statics.composite(arm, q)))
 
     @cached_property
+    @recalled
     def _inertia_diagonal_kernel(self) -> Kernel:
         from holdfast.arm import statics
 
         return self._compiled("inertia diagonal", lambda arm, q: statics.inertia_diagonal(arm, statics.composite(arm, q)))
 
     @cached_property
+    @recalled
     def _dynamics_kernel(self) -> Kernel:
         from holdfast.arm import dynamics
 
@@ -484,6 +535,8 @@ def _transform(value: ArrayLike, what: str) -> Array:
     t = _numbers(value, what)
     if t.shape != (4, 4) or not np.isfinite(t).all():
         raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
+    if np.abs(t).max() > _MOST:
+        raise ArmError(f"{what} is beyond {_MOST:g} m; give lengths in metres")
     rotation = t[:3, :3]
     if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
         raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")

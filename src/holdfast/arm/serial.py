@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.arm.model import Arm, Joint, Link
+from holdfast.arm.model import Arm, Chain, Joint, Link
 from holdfast.errors import ArmError
 
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
@@ -33,6 +33,7 @@ def to_dict(arm: Arm) -> dict[str, Any]:
         ],
         "links": [_link_to_dict(x) for x in arm.links],
         "payload": _link_to_dict(arm.payload),
+        **({} if arm.chain is None else {"chain": [arm.chain.base, arm.chain.tip, dict(arm.chain.held)]}),
     }
 
 
@@ -57,11 +58,19 @@ def from_dict(data: dict[str, Any]) -> Arm:
             payload=_link_from_dict(data["payload"]),
             source=data["source"],
             flange=np.array(data["flange"]),
+            chain=_chain(data.get("chain")),
         )
     except ArmError:
         raise
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise ArmError(f"this is not an arm description written by holdfast: {error!r} is missing or malformed") from error
+
+
+def _chain(data: list[Any] | None) -> Chain | None:
+    if data is None:
+        return None
+    base, tip, held = data
+    return Chain(base, tip, tuple(held.items()))
 
 
 def _link_to_dict(link: Link | None) -> dict[str, Any] | None:

@@ -9,12 +9,14 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm, Joint, JointType, Link
+from holdfast.arm.model import Arm, Chain, Joint, JointType, Link
+from holdfast.arm.tip import bases as possible_bases
+from holdfast.arm.tip import guess, listed, only_tip
+from holdfast.arm.tip import tips as possible_tips
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
 MOVING = get_args(JointType)
-MOST_NAMES = 12  # in a sentence
 LIMITED = ("revolute", "prismatic")
 QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
 
@@ -61,6 +63,7 @@ class Tree:
     bodies: dict[str, Link | None]
     joints: dict[str, TreeJoint]
     limits_required: bool = True  # the format wants limits of every revolute and prismatic joint
+    tied: frozenset[str] = frozenset()  # joints that move together with others, as fingers do
     above: dict[str, TreeJoint] = field(default_factory=dict)  # link -> joint that carries it
     below: dict[str, list[TreeJoint]] = field(default_factory=dict)  # link -> joints that hang on it
 
@@ -81,11 +84,11 @@ class Tree:
             self.below[joint.parent].append(joint)
         roots = [link for link in self.bodies if link not in self.above]
         if len(roots) > 1:
-            raise ArmError(f"the links {quoted(roots)} have no parent; a tree has one root, so connect them with joints")
+            raise ArmError(f"the links {listed(roots)} have no parent; a tree has one root, so connect them with joints")
         reached = {link for root in roots for link in self.links_from(root)}
         loop = [link for link in self.bodies if link not in reached]
         if loop:
-            raise ArmError(f"the links {quoted(loop)} are joined in a loop; a URDF must be a tree")
+            raise ArmError(f"the links {listed(loop)} are joined in a loop; a URDF must be a tree")
         self.root = roots[0]
 
     def links_from(self, link: str) -> Iterator[str]:
@@ -106,20 +109,25 @@ class Tree:
         link = tip
         while link != base:
             if link not in self.above:
-                raise ArmError(f"tip link '{tip}' does not hang on base link '{base}'; choose a base on the way to the root")
+                standing = possible_bases(self, tip)
+                where = f", which is {listed(standing)}" if standing else ""
+                raise ArmError(
+                    f"tip link '{tip}' does not hang on base link '{base}'; choose a base on the way from the root to the tip"
+                    f"{where}"
+                )
             joints.insert(0, self.above[link])
             link = joints[0].parent
         return joints
 
-    def leaves(self, link: str) -> list[str]:
-        """The links from here on that carry nothing."""
-        return [x for x in self.links_from(link) if not self.below[x]]
-
-
-def quoted(names: Sequence[str]) -> str:
-    """Names for a sentence, not too many of them."""
-    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    return ", ".join(f"'{x}'" for x in names[:MOST_NAMES]) + more
+    def stands(self, joint: TreeJoint, hold: Mapping[str, float]) -> bool:
+        """The joint is fixed or held, or mimics one that is: its value never changes."""
+        followers: set[str] = set()
+        while joint.moving and joint.name not in hold and joint.name not in followers:
+            followers.add(joint.name)
+            if joint.mimic is None or joint.mimic[0] not in self.joints:
+                return False
+            joint = self.joints[joint.mimic[0]]
+        return not joint.moving or joint.name in hold
 
 
 def cos_sin(angle: float) -> tuple[float, float]:
@@ -148,11 +156,14 @@ def check_ends(tree: Tree, base: str | None, tip: str | None) -> tuple[str, str]
     Raises:
         ArmError: There is no such link, or more than one end.
     """
-    for role, link in (("base", base), ("tip", tip)):
-        if link is not None and link not in tree.bodies:
-            raise ArmError(f"there is no {role} link '{link}'; the links are {quoted(list(tree.bodies))}")
-    base = base or tree.root
-    return base, tip or _only_tip(tree, base)
+    if base is not None and base not in tree.bodies:
+        known = possible_bases(tree, tip if tip in tree.bodies else None)
+        raise ArmError(f"there is no base link '{base}'; {guess(base, tree.bodies)}an arm could stand on {listed(known)}")
+    base = tree.root if base is None else base
+    if tip is not None and tip not in tree.bodies:
+        known = possible_tips(tree, base)
+        raise ArmError(f"there is no tip link '{tip}'; {guess(tip, tree.bodies)}the arm could end at {listed(known)}")
+    return base, only_tip(tree, base) if tip is None else tip
 
 
 def chain(
@@ -171,7 +182,7 @@ def chain(
         tree: The links and joints of the file.
         base: The root if not given.
         tip: May be left out if there is only one end.
-        hold: Value, rad or m, at which joints beside the chain stand.
+        hold: Value, rad or m, at which joints stand, on the chain or beside it; those are then no joints of the arm.
         name: Name of the arm.
         gravity: (3,) acceleration in the world, m/s^2.
         source: Where the tree comes from.
@@ -182,9 +193,14 @@ def chain(
     """
     base, tip = check_ends(tree, base, tip)
     path = tree.path(base, tip)
-    moving = [joint for joint in path if joint.moving]
+    moving = [joint for joint in path if not tree.stands(joint, hold)]
     if not moving:
-        raise ArmError(f"no moving joint lies between '{base}' and '{tip}'; choose a base and tip with joints in between")
+        ends = [x for x in possible_tips(tree, base) if x != tip]
+        where = f", such as the tip {listed(ends)}" if ends else ""
+        raise ArmError(
+            f"no moving joint lies between '{base}' and '{tip}'; choose a base and tip with joints in between that are not "
+            f"held{where}"
+        )
     for joint in moving:
         if joint.type not in MOVING:
             raise ArmError(f"joint '{joint.name}' on the chain is {joint.type}; a serial arm needs {', '.join(MOVING)}")
@@ -197,18 +213,19 @@ def chain(
         if tree.limits_required and joint.type in LIMITED and not np.isfinite(joint.lower):
             remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
             raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
-    still = _Held(tree, {joint.name for joint in moving}, hold)
+    still = Held(tree, {joint.name for joint in moving}, hold)
 
     joints: list[Joint] = []
     links: list[Link | None] = []
     pending = np.eye(4)  # frame of the link reached so far, in the last joint's moving frame
     on_path = {joint.name for joint in moving}
     for joint in path:
-        pending = pending @ joint.origin
-        if joint.moving:
-            joints.append(_model_joint(joint, pending))
-            links.append(_folded(tree, joint.child, on_path, still))
-            pending = np.eye(4)
+        if joint.name not in on_path:
+            pending = pending @ joint.at(still.value(joint))
+            continue
+        joints.append(_model_joint(joint, pending @ joint.origin))
+        links.append(_folded(tree, joint.child, on_path, still))
+        pending = np.eye(4)
     return Arm(
         name,
         tuple(joints),
@@ -217,6 +234,7 @@ def chain(
         tool=pending,
         gravity=np.array(gravity, dtype=np.float64),
         source=source,
+        chain=Chain(base, tip, tuple(sorted((name, float(value)) for name, value in hold.items()))),
     )
 
 
@@ -226,29 +244,7 @@ def _model_joint(joint: TreeJoint, origin: Array) -> Joint:
     return Joint(joint.name, kind, origin, joint.axis, *limits, joint.friction, joint.armature)
 
 
-def _only_tip(tree: Tree, base: str) -> str:
-    """The tip, if the arm can have only one."""
-    leaves = tree.leaves(base)
-    if len(leaves) == 1:
-        return leaves[0]
-    ends = [
-        link
-        for link in tree.links_from(base)
-        if link != base
-        and tree.above[link].moving
-        and not any(tree.above[below].moving for below in tree.links_from(link) if below != link)
-    ]
-    if not ends:
-        raise ArmError(f"no moving joint hangs on '{base}'; an arm needs at least one")
-    tips = [leaf for end in ends for leaf in tree.leaves(end)]
-    if len(tips) == 1:
-        return tips[0]
-    # Fixed frames on the way (a flange with a gripper behind it) are as good a tip as the ends.
-    candidates = [x for x in leaves if any(joint.moving for joint in tree.path(base, x))]
-    raise ArmError(f"the arm could end at {quoted(candidates)}; name one link as tip")
-
-
-def _folded(tree: Tree, link: str, on_path: set[str], still: _Held) -> Link | None:
+def _folded(tree: Tree, link: str, on_path: set[str], still: Held) -> Link | None:
     """The link with all that hangs on it and does not move relative to it, in the link's frame."""
     bodies: list[Link] = []
     waiting = [(link, np.eye(4))]
@@ -263,15 +259,14 @@ def _folded(tree: Tree, link: str, on_path: set[str], still: _Held) -> Link | No
     return Link.joined(bodies, link) if bodies else None
 
 
-class _Held:
-    """Where the joints beside the chain stand."""
+class Held:
+    """Where the joints that are not the arm's stand."""
 
     def __init__(self, tree: Tree, on_path: set[str], hold: Mapping[str, float]) -> None:
-        free = [j.name for j in tree.joints.values() if j.type in MOVING and j.name not in on_path]
+        free = [j.name for j in tree.joints.values() if j.type in MOVING]
         for name, value in hold.items():
             if name not in free:
-                listed = f"those are {quoted(free)}" if free else "this file has none"
-                raise ArmError(f"hold names '{name}', which is not a moving joint beside the chain; {listed}")
+                raise ArmError(f"hold names '{name}', which is no moving joint of this file; those are {listed(free)}")
             joint = tree.joints[name]
             if not (np.isfinite(value) and joint.lower <= value <= joint.upper):
                 raise ArmError(
@@ -283,7 +278,7 @@ class _Held:
     def value(self, joint: TreeJoint, followers: tuple[str, ...] = ()) -> float:
         """Value of a joint, rad or m; of no meaning for those that do not slide or turn about one axis."""
         if joint.name in followers:
-            raise ArmError(f"the joints {quoted(followers)} mimic each other in a circle; one of them must be independent")
+            raise ArmError(f"the joints {listed(followers)} mimic each other in a circle; one of them must be independent")
         if joint.name in self.hold:
             return float(self.hold[joint.name])
         if joint.mimic:

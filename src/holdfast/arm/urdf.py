@@ -1,24 +1,31 @@
 """Arms from URDF files: one chain of a tree of links, everything else folded into it.
 
-Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read; meshes, transmissions and simulator tags are skipped,
-so no file other than the URDF itself is ever opened.
+Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read; meshes, transmissions and simulator tags are skipped. The
+only other file that is opened is an SRDF file, for the configurations that it names.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
+_LARGEST = 64 << 20  # bytes
 TYPES = (*MOVING, "fixed", "floating", "planar")
+XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself, so that a leftover does no harm
+XACRO_TERM = re.compile(r"\$[{(]")
 
 
 def load(
@@ -28,6 +35,7 @@ def load(
     hold: Mapping[str, float] | None = None,
     name: str | None = None,
     gravity: Sequence[float] = GRAVITY,
+    srdf: str | Path | None = None,
 ) -> Arm:
     """The serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
@@ -43,11 +51,15 @@ def load(
     Args:
         path: The file.
         base: Name of the link on which the arm stands; the root if not given.
-        tip: Name of the link whose frame is the tool; may be left out if there is only one end.
-        hold: Value, rad or m, at which joints beside the chain stand; by default 0, or the limit nearest to it. A joint
-            with ``<mimic>`` follows its master unless it is named here.
+        tip: Name of the link whose frame is the tool; may be left out if only one link carries nothing, the fingers of a
+            gripper left off.
+        hold: Value, rad or m, at which joints stand, on the chain or beside it; those on the chain are then no joints of the
+            arm. By default all on the chain move, and those beside it stand at 0, or the limit nearest to it. A joint with
+            ``<mimic>`` follows its master unless it is named here; one that mimics a joint that stands, stands too.
         name: Name of the arm; the file's robot name if not given.
         gravity: (3,) acceleration, m/s^2, in the frame of ``base``.
+        srdf: File whose ``<group_state>`` become ``states``, those that name every joint of the arm; if not given, the file of
+            the same name that ends in ``.srdf``, where there is one.
 
     Returns:
         The arm; its ``base`` is the identity, its ``source`` the name of the file.
@@ -58,19 +70,15 @@ def load(
     path = Path(path)
     try:
         tree = read_tree(robot_element(path), path.stem)
-        return chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
+        arm = chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
+        beside = path.with_suffix(".srdf")
+        file = beside if srdf is None and beside.is_file() else None if srdf is None else Path(srdf)
+        return arm if file is None else replace(arm, states=_states(file, arm))
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}") from error
 
 
 # ---- the file ----------------------------------------------------------------------------------------------------
-
-
-class _NoEntities(ElementTree.TreeBuilder):
-    """Stops at a DOCTYPE, the only place where an XML file can define entities that blow up or reach other files."""
-
-    def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
-        raise ArmError("the file has a DOCTYPE, which a URDF never needs and which can hide harmful entities; remove it")
 
 
 def robot_element(path: Path) -> ElementTree.Element:
@@ -79,22 +87,75 @@ def robot_element(path: Path) -> ElementTree.Element:
     Raises:
         ArmError: The file cannot be read, or is no URDF.
     """
+    robot = _element(path, "URDF")
+    left = next(_unexpanded(robot), None)
+    if left is not None:
+        raise ArmError(f"the file has xacro macros that are not expanded ({left}); {expand_first(path)}")
+    return robot
+
+
+def expand_first(path: Path) -> str:
+    """How a file with xacro macros becomes a URDF file, for a sentence."""
+    stem = path.name.partition(".")[0]
+    target = f"{stem}.urdf" if path.suffix == ".xacro" else f"{stem}.expanded.urdf"
+    return f"expand it first: xacro {path.name} > {target} ('xacro' comes with ROS, or by pip install xacro)"
+
+
+def _element(path: Path, kind: str) -> ElementTree.Element:
+    """The ``<robot>`` of a file; prefixes of tags are left as they stand, declared or not, as the readers of ROS do."""
     try:
-        content = path.read_bytes()
+        content = reading.raw(path, _LARGEST)
     except OSError as error:
-        raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a URDF file") from error
+        raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a {kind} file") from error
+    builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()
+    parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = builder.start, builder.end, builder.data
+    # The only place where an XML file can define entities that blow up or reach other files.
+    parser.StartDoctypeDeclHandler = _refuse_doctype
+    parser.buffer_text = True
     try:
-        robot = ElementTree.fromstring(content, ElementTree.XMLParser(target=_NoEntities()))
+        parser.Parse(content, True)
+        robot = builder.close()
     # An unknown encoding in the XML declaration surfaces as LookupError or ValueError.
-    except (ElementTree.ParseError, LookupError, ValueError) as error:
+    except (expat.ExpatError, LookupError, ValueError, AssertionError) as error:
         if isinstance(error, ArmError):
             raise
-        raise ArmError(f"this is not sound XML ({error}); give a URDF file") from error
+        raise ArmError(f"this is not sound XML ({error}); give a {kind} file") from error
     if robot.tag != "robot":
-        raise ArmError(f"the outermost element is <{robot.tag}>; a URDF file has <robot>")
-    if any("/xacro}" in element.tag for element in robot.iter()):
-        raise ArmError("the file still has xacro macros; expand it with the xacro tool first")
+        raise ArmError(f"the outermost element is <{robot.tag}>; a {kind} file has <robot>")
     return robot
+
+
+def _refuse_doctype(*_: object) -> None:
+    raise ArmError("the file has a DOCTYPE, which a URDF never needs and which can hide harmful entities; remove it")
+
+
+def _unexpanded(robot: ElementTree.Element) -> Iterator[str]:
+    """Calls of xacro macros and terms that xacro would replace; definitions that nobody uses any more are none."""
+    prefixes = {"xacro"} | {key.partition(":")[2] for key, value in robot.attrib.items() if "xacro" in value}
+    waiting = [(robot, False)]
+    while waiting:
+        element, kept = waiting.pop()
+        prefix, colon, local = element.tag.rpartition(":")
+        if colon and prefix in prefixes:
+            if local not in XACRO_DEFINITIONS:
+                yield f"<{element.tag}>"
+            continue
+        kept = kept or element.tag in ("link", "joint")
+        if kept:
+            yield from (value for value in element.attrib.values() if XACRO_TERM.search(value))
+        waiting += [(child, kept) for child in reversed(element)]
+
+
+def _states(path: Path, arm: Arm) -> dict[str, Array]:
+    """Configurations of an SRDF file that name every joint of the arm."""
+    found: dict[str, Array] = {}
+    for state in _element(path, "SRDF").iter("group_state"):
+        where = f"{path.name}: state '{state.get('name', '')}'"
+        values = {joint.get("name"): joint.get("value", "") for joint in state.findall("joint")}
+        if all(name in values for name in arm.joint_names) and state.get("name"):
+            q = [_numbers(values[name], 1, f"{where}: {name}")[0] for name in arm.joint_names]
+            found.setdefault(state.get("name", ""), np.array(q))
+    return found
 
 
 def read_tree(robot: ElementTree.Element, stem: str) -> Tree:
@@ -115,7 +176,8 @@ def read_tree(robot: ElementTree.Element, stem: str) -> Tree:
         if joint.name in joints:
             raise ArmError(f"the joint name '{joint.name}' is used more than once; names must be unique")
         joints[joint.name] = joint
-    return Tree(robot.get("name") or stem, bodies, joints)
+    tied = {name for joint in joints.values() if joint.mimic for name in (joint.name, joint.mimic[0])}
+    return Tree(robot.get("name") or stem, bodies, joints, tied=frozenset(tied))
 
 
 def _body(element: ElementTree.Element, label: str) -> Link | None:

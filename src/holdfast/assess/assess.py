@@ -19,6 +19,7 @@ from holdfast.assess.plan import Plan, Rows, make_plan
 from holdfast.assess.region import Region, Sampling
 from holdfast.assess.run import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
 from holdfast.assess.upgrade import Upgrade, if_never_fails, upgrades
+from holdfast.checked import checked
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
@@ -134,11 +135,11 @@ class Assessment:
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
-        """That probability with its Wilson score interval."""
+        """That probability with its exact (Clopper-Pearson) interval."""
         return self.of(optimised).interval(at_least, at_most, reachable_only, confidence)
 
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
-        """Share of all poses of the region that can still be reached once a joint has locked, with its Wilson interval.
+        """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
 
         The joint stands at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
@@ -200,7 +201,8 @@ class Assessment:
     def gap(self, optimised: bool = False) -> float | None:
         """What the median over the reached poses lacks to the bound that no configuration can exceed, or None if unknown.
 
-        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``, for other failures see the index.
+        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
+        the bound for several failures at a time, ``index.bound_note`` says.
         """
         d = self.of(optimised)
         if self.index.bound is None or not d.reached:
@@ -301,6 +303,7 @@ class Assessment:
         return write(self, Path(path), threshold)
 
 
+@checked
 def assess(
     arm: Arm,
     region: Region,
@@ -397,6 +400,7 @@ def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
     return weights
 
 
+@checked
 def load(path: str | Path) -> Assessment:
     """The assessment in a results folder; of a run that was stopped, what is there.
 
@@ -406,10 +410,7 @@ def load(path: str | Path) -> Assessment:
     store = Store.open(path)
     if store.plan.get("kind") != "assess":
         raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
-    try:
-        plan = Plan.from_dict(store.plan, store.rows)
-    except (KeyError, TypeError) as error:
-        raise StoreError(f"'{path}' is damaged: its plan lacks {error}; start the run again in a new folder") from error
+    plan = Plan.stored(store, store.rows)
     tally = Tally(plan)
     for rows in stored(store, plan):
         tally.add(rows)

@@ -14,6 +14,7 @@ from holdfast.assess.assess import Assessment
 from holdfast.assess.region import Region
 from holdfast.assess.structure import structure
 from holdfast.assess.upgrade import Upgrade
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.failures import failure_sets
 from holdfast.interval import Interval
@@ -153,7 +154,7 @@ class Comparison:
         bounds = sorted({a.index.bound for a in runs if a.index.bound is not None})
         if len(bounds) > 1:
             values = ", ".join(f"{x:.3f}" for x in bounds)
-            found.append(f"The largest possible values differ ({values}): one threshold asks more of some than of others.")
+            found.append(f"The upper bounds of the index differ ({values}): one threshold asks more of some than of others.")
         if len({(a.seed, a.sampling) for a in runs}) > 1:
             found.append("Seeds or sampling differ, so the candidates were tried at different poses of the region.")
         if len({a.restarts for a in runs}) > 1:
@@ -176,6 +177,7 @@ class Comparison:
         return write(self, Path(path))
 
 
+@checked
 def compare(
     assessments: Sequence[Assessment], names: Sequence[str] | None = None, threshold: float | None = None
 ) -> Comparison:

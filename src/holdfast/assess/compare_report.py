@@ -71,6 +71,7 @@ def _headline(c: Comparison, f: Facts) -> str:
     best, second = (c.interval(name) for name in ranked[:2])
     if best.value == 0:
         text = f"No candidate keeps {article(wanted)} {wanted} at any {f.noun} of the region."
+        text += _nearest(c)
     else:
         text = f"{ranked[0]} keeps {article(wanted)} {wanted} with the largest probability, {interval(best)}; next is "
         text += f"{ranked[1]} with {interval(second)}."
@@ -82,6 +83,16 @@ def _headline(c: Comparison, f: Facts) -> str:
         if p.value > 0:
             text += f" After optimisation the largest probability is that of {chosen}, {interval(p)}."
     return text
+
+
+def _nearest(c: Comparison) -> str:
+    """Of several that keep nothing the one with the best median: why it is so, and what it has."""
+    there = [(r["median"], r["name"], a) for r, a in zip(c.table, c.assessments, strict=True) if r["median"] is not None]
+    if not there:
+        return ""
+    sign = 1.0 if c.assessments[0].index.better == "larger" else -1.0
+    _, name, a = max(there, key=lambda entry: sign * entry[0])
+    return f" Nearest is {name}. {Facts(a, c.threshold).why}"
 
 
 def _leader(c: Comparison, task: str) -> str:
@@ -215,7 +226,10 @@ def _candidates(c: Comparison) -> Table:
         gaps = [number(x) for x in (a.gap(), a.gap(True) if a.optimised is not None else None) if x is not None]
         code = Markup("<code>{}</code>").format(a.arm.fingerprint[:10])
         source = a.arm.source if len(a.arm.source) <= 60 else a.arm.source[:59] + "…"
-        rows.append([name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", source or "no source given", code])
+        ends = "" if a.arm.chain is None else f"; {a.arm.chain}"
+        rows.append(
+            [name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", (source or "no source given") + ends, code]
+        )
     head = [
         "Candidate",
         "arm",
@@ -253,7 +267,7 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
         ("Index", f"worst-case {f.index.name}{f.unit and f', unit{f.unit}'}; {'larger' if f.larger else 'smaller'} is better"),
         ("Threshold", f"{as_given(c.threshold)}{f.unit}: {why}"),
         ("Not found", f"a pose without a configuration counts as {'0' if f.larger else 'infinite'}"),
-        ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         (
             "Ranking",
             "by the probability of meeting the threshold as inverse kinematics found the configurations; then the median",

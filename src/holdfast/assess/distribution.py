@@ -63,6 +63,7 @@ class Distribution:
         singular: int = 0,
         weights: ArrayLike | None = None,
         unreached_weights: ArrayLike = (),
+        heaviest: float = 0.0,
     ) -> Distribution:
         """The distribution of values at hand.
 
@@ -73,9 +74,10 @@ class Distribution:
             singular: How many of the values are at singular configurations.
             weights: (N,) of the values, 0 or more; all count alike if not given.
             unreached_weights: (unreached,) of the poses without a configuration, if ``weights`` are given.
+            heaviest: The largest weight that a sample can have, if known: see :meth:`effective`.
         """
         if weights is not None:
-            lost = Sums()
+            lost = Sums(largest=heaviest)
             lost.add(np.asarray(unreached_weights, dtype=np.float64))
             v, w = np.asarray(values, dtype=np.float64), np.asarray(weights, dtype=np.float64)
             return cls._weighted(v, w, better, unreached, singular, lost)
@@ -147,15 +149,18 @@ class Distribution:
         return self._lost_weight / self._size(False)
 
     def effective(self, reachable_only: bool = False) -> float:
-        """Effective sample size, ``(sum w)^2 / sum w^2``: so many equal samples say as much as these; all of them if equal.
+        """Effective sample size, ``sum w / max w``: so many equal samples say no more than these; all of them if equal.
 
-        Source: Kish 1965, section 11.7.
+        ``max w`` is the largest weight that a sample can have where that is known (densities of a region), else the largest of
+        these: weights that are rare and heavier than any of these make error bars too narrow.
+
+        Source: Martino, Elvira, Louzada 2017; ``(sum w)^2 / sum w^2`` of Kish is larger, and
+        its intervals need not cover (:doc:`/intervals`).
         """
         size = self._size(reachable_only)
         if self._found is None or self._lost is None:
             return float(size)
-        squares = self._found.squares + (0.0 if reachable_only else self._lost.squares)
-        return float(size) ** 2 / squares
+        return Sums(size, max(self._found.largest, self._lost.largest)).effective
 
     def total_weight(self, reachable_only: bool = False) -> float:
         """Sum of the weights of the samples; their number if all count alike."""
@@ -234,7 +239,7 @@ class Distribution:
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
-        """The probability with its Wilson score interval; of weighted samples with the :meth:`effective` sample size.
+        """The probability with its exact (Clopper-Pearson) interval; of weighted samples that of :meth:`effective` equal ones.
 
         Raises:
             InputError: Not exactly one threshold, or a confidence outside (0, 1).
@@ -260,10 +265,11 @@ class Distribution:
 
         Source: Dvoretzky, Kiefer, Wolfowitz 1956 with the constant of Massart 1990: ``sqrt(ln(2/delta)/(2N))``.
         It assumes independent samples; for scrambled Sobol points it is conservative in practice, not by theorem. With
-        weights, N is the :meth:`effective` sample size and the band approximate.
+        weights, N is the :meth:`effective` sample size: the theorem then holds for the samples that a fair thinning to equal
+        weights keeps, of which the weighted CDF is about the mean; that the band covers is measured, not proved.
         """
         check_confidence(confidence)
-        return float(np.sqrt(np.log(2 / (1 - confidence)) / (2 * self.effective(reachable_only))))
+        return float(min(np.sqrt(np.log(2 / (1 - confidence)) / (2 * self.effective(reachable_only))), 1.0))
 
     def quantile(self, p: ArrayLike, reachable_only: bool = True) -> Array:
         """Smallest value v with ``share(value <= v) >= p``."""
@@ -329,8 +335,10 @@ class Distribution:
 class Collector:
     """Gathers values chunk by chunk; beyond ``most`` of them keeps fine bins instead, in constant memory."""
 
-    def __init__(self, better: Literal["larger", "smaller"], bound: float | None, most: int = 4_000_000) -> None:
-        self._better, self._bound, self._most = better, bound, most
+    def __init__(
+        self, better: Literal["larger", "smaller"], bound: float | None, most: int = 4_000_000, heaviest: float = 0.0
+    ) -> None:
+        self._better, self._bound, self._most, self._heaviest = better, bound, most, heaviest
         self._parts: list[Array] = []
         self._kept = 0
         self._edges: Array | None = None
@@ -360,7 +368,7 @@ class Collector:
         self._infinite += len(values) - len(finite)
         if weights is not None and unreached_weights is not None:
             if self._sums is None:
-                self._sums = Sums(), Sums(), Sums()
+                self._sums = Sums(), Sums(), Sums(largest=self._heaviest)
             for sums, w in zip(self._sums, (weights[some], weights, unreached_weights), strict=True):
                 sums.add(w)
             self._total += float(finite @ weights[some])

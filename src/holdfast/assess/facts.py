@@ -26,6 +26,7 @@ from holdfast.solve import solver
 
 Array = NDArray[np.float64]
 
+EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
 _MOST_DOTS = 20_000
 
 
@@ -121,10 +122,42 @@ class Facts:
         if self.nothing:
             worst = "0" if self.larger else "infinite"
             verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
-            return f"No {noun} of the region tolerates every failure: {verdict}"
+            return f"No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
         bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
         kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
-        return f"With probability {interval(self.answer)} a {noun} of the region {kept}"
+        text = f"With probability {interval(self.answer)} a {noun} of the region {kept}"
+        return f"{text} {self.why}" if self.answer.value < EMPTY else text
+
+    @cached_property
+    def why(self) -> str:
+        """What keeps the answer at nothing, joint or structure, and the next figures that say something."""
+        a, index, names = self.a, self.index, self.a.arm.joint_names
+        own = self.structures[0]
+        ends = [k for k in own.fatal if any(k in s for s in index.failures)]
+        if own.never:
+            return "The healthy arm itself is singular for this task in every configuration."
+        if ends:
+            text = f"Once {either([names[k] for k in ends])} locks, the task is singular in every configuration."
+            spared = any(ends[0] not in s for s in index.failures)
+            if len(ends) == 1 and spared and a.kept and self.d.reached:
+                median = number(float(a.if_never_fails(ends[0]).quantile(0.5)))
+                text += f" If it never failed, the median of the {self.reached} would be {median}."
+            return text
+        counts = a.worst_counts
+        parts = []
+        if counts.sum() > 0:
+            k = int(counts.argmax())
+            worst = percent(float(counts[k] / counts.sum()))
+            parts.append(f"A lock of {index.failure_names[k]} is the worst failure at {worst} of the {self.reached}.")
+        parts.append(f"The median of the {self.reached} is {number(float(self.d.quantile(0.5)))}")
+        best = a.optimised
+        if best is not None and best.reached:
+            p = a.interval(**{f"at_{'least' if self.larger else 'most'}": self.threshold}, optimised=True)  # type: ignore[arg-type]
+            parts[-1] += f"; at the best configuration of each pose it is {number(float(best.quantile(0.5)))}, "
+            parts[-1] += f"and the probability {interval(p)}"
+        elif a.region.kind != "joints":
+            parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
+        return f"{' '.join(parts)}."
 
     @property
     def drawn(self) -> str:
@@ -143,8 +176,8 @@ class Facts:
         """What weights do to the numbers."""
         return (
             f"poses count by weight: {percent(1 - self.d.unreached_share)} of the weight is reached. Effective sample size "
-            f"{self.d.effective():,.0f} of {self.d.samples:,} (Kish): intervals and bands are those of so many equal poses, "
-            "approximately"
+            f"{self.d.effective():,.0f} of {self.d.samples:,} (total weight over the largest weight): intervals and bands are "
+            "those of so many equal poses"
         )
 
     @property

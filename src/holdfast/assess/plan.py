@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -15,12 +16,12 @@ from holdfast.arm.serial import from_dict, to_dict
 from holdfast.arm.task import Task
 from holdfast.assess.region import Region, Sampling
 from holdfast.clearance import Capsules, Clearance
-from holdfast.errors import InputError
+from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.indices import BY_NAME, Evaluation, Index, WorstCase, by_name
 from holdfast.solve import solver
 from holdfast.solve.optimise import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
-from holdfast.study import Column
+from holdfast.study import Column, Store
 
 Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
@@ -169,6 +170,21 @@ class Plan:
             0.0 if apart is None else apart["margin"],
         )
 
+    @classmethod
+    def stored(cls, store: Store, poses: int) -> Plan:
+        """The plan of a results folder of ``poses`` poses.
+
+        Raises:
+            StoreError: It is not the plan of an assessment.
+        """
+        try:
+            return cls.from_dict(store.plan, poses)
+        except HoldfastError as error:
+            raise StoreError(f"'{store.path}' is damaged: {error}; start the run again in a new folder") from error
+        except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+            reason = f"lacks {error}" if isinstance(error, KeyError) else f"cannot be read ({reprlib.repr(str(error))})"
+            raise StoreError(f"'{store.path}' is damaged: its plan {reason}; start the run again in a new folder") from error
+
     def columns(self) -> list[Column]:
         """What each row holds."""
         n, f, unit, about = self.arm.n, len(self.index.failures), self.index.unit, self.index.describe()
@@ -199,6 +215,7 @@ class Plan:
                 ),
             ]
         survives = _SURVIVES_AT if self.lock_at else _SURVIVES
+        angle = Column("lock_angle", "float64", (("lock", n),), "rad or m", "where each joint locked; NaN where none did")
         return [
             *(pose if self.region.kind != "joints" else []),
             *([Column("weight", "float64", (), "1", "how much the pose counts")] if self.weighted else []),
@@ -209,7 +226,7 @@ class Plan:
             Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
             *(best if self.optimise else []),
             *(apart if self.clearance is not None else []),
-            *([Column("survives", "int8", (("lock", n),), "1", survives)] if self.locks else []),
+            *([Column("survives", "int8", (("lock", n),), "1", survives), angle] if self.locks else []),
         ]
 
     # ---- rows ------------------------------------------------------------------------------------------------------
@@ -284,7 +301,7 @@ class Plan:
         if self.weighted:
             rows["weight"] = self.region.weights(samples)
         if self.locks:
-            rows["survives"] = self._survival(poses, reach.q, reach.success, number)
+            rows["survives"], rows["lock_angle"] = self._survival(poses, reach.q, reach.success, number)
         return rows
 
     def worst_cases(self, configurations: Array) -> Rows:
@@ -292,16 +309,16 @@ class Plan:
         found = self.index.worst_case(configurations)
         return {"status": found.status, "index": found.value, "worst": _worst(found)}
 
-    def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> NDArray[np.int8]:
-        """For each reached pose and each joint asked for: is it still reached once the joint has locked?
+    def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> tuple[NDArray[np.int8], Array]:
+        """For each reached pose and each joint asked for: is it still reached once the joint has locked, and where it locked.
 
         It locks at the angle given, or at one drawn from those in use: where it was at another reached pose of the block.
         """
         n = self.arm.n
-        result = np.full((len(poses), n), -1, dtype=np.int8)
+        result, where = np.full((len(poses), n), -1, dtype=np.int8), np.full((len(poses), n), np.nan)
         rows = np.flatnonzero(reached)
         if not rows.size:
-            return result
+            return result, where
         seed = np.random.SeedSequence(self.seed, spawn_key=(3, number))
         draw, starts = seed.spawn(2)
         generator = np.random.default_rng(draw)
@@ -315,7 +332,8 @@ class Plan:
             poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE
         )
         result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
-        return result
+        where[np.ix_(rows, asked)] = angles[:, asked]
+        return result, where
 
 
 def make_plan(

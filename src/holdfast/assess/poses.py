@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast import reading
 from holdfast.assess.weights import check_weights
 from holdfast.errors import InputError
 
@@ -130,7 +131,7 @@ class PoseList:
             InputError: Unreadable, or a column or number that is missing, unknown or wrong; the message names it.
         """
         try:
-            text = path.read_text(encoding="utf-8-sig")
+            text = reading.text(path)
         except OSError as error:
             raise InputError(f"cannot read poses '{path}': {error.strerror}") from error
         except UnicodeDecodeError as error:

@@ -365,6 +365,13 @@ class Region:
             return check_weights(self.weight(samples), len(samples), f"region '{self.name}': its weight function")
         return np.ones(len(samples))
 
+    @property
+    def heaviest(self) -> float:
+        """The largest weight that a sample can have; 0 where only a function of your own knows."""
+        if self.listed is not None and self.listed.weights is not None:
+            return float(self.listed.weights.max())
+        return self.weight.heaviest if isinstance(self.weight, Density) else 0.0
+
     # ---- files -----------------------------------------------------------------------------------------------------
 
     @property

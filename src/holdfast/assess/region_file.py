@@ -19,31 +19,27 @@ For configurations instead of poses, ``joints:`` with the lists ``lower`` and ``
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
-import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from holdfast.assess.poses import PoseList
 from holdfast.assess.region import Region
 from holdfast.errors import InputError
+from holdfast.yaml_file import content
 
 
 def read(path: str | Path) -> Region:
     """The region in a file; see :meth:`holdfast.Region.load`."""
     file = Path(path)
     try:
-        data = yaml.safe_load(file.read_text())
-    except OSError as error:
-        raise InputError(f"cannot read region file '{file}': {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        reason = " ".join(str(error).split())
-        raise InputError(f"region file '{file}' is not valid YAML: {reason}") from error
-    if not isinstance(data, dict):
-        raise InputError(f"region file '{file}' must hold 'box:', 'joints:' or 'poses:' at its top level")
+        data = content(file, "holdfast.assess.region_file", "box, joints or poses")
+    except InputError as error:
+        raise InputError(f"region file '{file}': {error}") from error
     try:
         model = _RegionFile.model_validate(data)
     except ValidationError as error:
@@ -99,13 +95,13 @@ def _first(error: ValidationError) -> str:
     entry = error.errors()[0]
     place = _place([x for x in entry["loc"] if x not in ("float", "tuple[float, float, float]")])
     if entry["loc"][-1:] == ("float",) and isinstance(entry.get("input"), (list, tuple)):
-        return f"{place}: must be one number or 3, got {entry['input']!r}"
+        return f"{place}: must be one number or 3, got {reprlib.repr(entry['input'])}"
     if entry["type"] == "extra_forbidden":
         known = _known_keys(entry["loc"][:-1])
         return f"key '{place}' is not known; keys there are {', '.join(known)}"
     if entry["type"] == "missing":
         return f"key '{place}' is missing"
-    return f"{place}: {entry['msg'].lower()}, got {entry.get('input')!r}"
+    return f"{place}: {entry['msg'].lower()}, got {reprlib.repr(entry.get('input'))}"
 
 
 def _place(loc: Sequence[int | str]) -> str:

@@ -35,21 +35,15 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     asked = task_option(a.arm, task)
     if asked is None:
         return None, "The task is of your own making, so no command line makes this run again; keep the script."
-    remark = ""
+    spec, words, remark = arms.command_words(a.arm)
     tool = {}
     known_arm = arms.load(a.arm.name) if a.arm.name in arms.names() else None
-    if known_arm is not None and known_arm.fingerprint == a.arm.fingerprint:
-        spec = a.arm.name
-    elif known_arm is not None and replace(a.arm, tool=known_arm.tool).fingerprint == known_arm.fingerprint:
-        spec, text = a.arm.name, attachment_text(a.arm)
+    if known_arm is not None and remark and replace(a.arm, tool=known_arm.tool).fingerprint == known_arm.fingerprint:
+        spec, remark, text = a.arm.name, "", attachment_text(a.arm)
+        words.clear()
         tool = {"tool": f"tool={text}"}
         if known_arm.with_tool(attachment(text.split(","))).fingerprint != a.arm.fingerprint:
             remark = "the tool to 12 digits"
-    else:
-        known = a.arm.source.lower().endswith((*arms.URDF_ENDINGS, *arms.TABLE_ENDINGS)) and "\n" not in a.arm.source
-        spec = a.arm.source if known else "ARM"
-        what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
-        remark = f"{what}; for a URDF file also its --base and --tip, if any"
     options = {**tool, "region": "region.yaml", "index": index.slug, "task": asked}
     if task.length != 1.0:
         options["length"] = repr(task.length)
@@ -61,7 +55,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     apart = _clearance_options(a)
     locks = [f"--lock-at {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
     lines = [f"holdfast assess {shlex.quote(spec)}"]
-    words = [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
+    words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
     flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
     for word in [*words, *flags, *apart, *locks]:
         if len(lines[-1]) + len(word) > 90:

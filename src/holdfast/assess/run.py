@@ -66,7 +66,8 @@ def fill(store: Store, plan: Plan, progress: Progress | None) -> None:
             for k in span:
                 start, stop = chunks[k]
                 parts = [next(stream)[1] for _ in range(-(-(stop - start) // plan.region.block))]
-                store.write(k, {name: np.concatenate([p[name] for p in parts]) for name in parts[0]})
+                kept = [c.name for c in store.columns]
+                store.write(k, {name: np.concatenate([p[name] for p in parts]) for name in parts[0] if name in kept})
                 done += stop - start
                 if progress is not None:
                     progress(done, plan.poses)
@@ -78,7 +79,7 @@ def stored(store: Store, plan: Plan) -> Iterator[Rows]:
     Raises:
         StoreError: A chunk is damaged or lost.
     """
-    names = [c.name for c in plan.columns()]
+    names = [c.name for c in store.columns]  # an older folder may lack one that later ones have
     for k in store.done:
         rows = store.read(k, names)
         lost = _lost(rows, list(plan.locks))
@@ -106,6 +107,8 @@ def _lost(rows: Rows, locks: list[int]) -> str | None:
     for name, values in rows.items():
         if name in ("position", "quaternion", "weight"):
             there = values
+        elif name == "lock_angle":  # joints not asked for have NaN everywhere
+            there = values[reached][:, locks]
         else:
             there = values[best if name.startswith("optimised_") else reached]
         if values.dtype.kind == "f" and np.isnan(there).any():
@@ -123,7 +126,7 @@ class Count:
     """Distribution of one index column and how often each failure is the worst."""
 
     def __init__(self, plan: Plan, index: str, worst: str) -> None:
-        self._collector = Collector(plan.index.better, plan.index.bound)
+        self._collector = Collector(plan.index.better, plan.index.bound, heaviest=plan.region.heaviest)
         self._index, self._worst = index, worst
         self.worst: NDArray[Any] = np.zeros(len(plan.index.failures), dtype=np.float64 if plan.weighted else np.int64)
 

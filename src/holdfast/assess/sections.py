@@ -98,7 +98,9 @@ def key_numbers(f: Facts) -> list[Block]:
                 f"median of the {f.reached} is {percent(median / index.bound)} of it "
                 f"(gap {number(index.bound - median)}), the best one {percent(best / index.bound)}"
             )
-        facts.append(("Largest possible value", "; ".join([f"{index.bound:.4f}", *parts])))
+        what = "Upper bound" if index.bound_note else "Largest possible value"
+        noted = f"{index.bound:.4f}" + (f" ({index.bound_note})" if index.bound_note else "")
+        facts.append((what, "; ".join([noted, *parts])))
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     if d.reached:
         blocks.append(_quantiles(f))
@@ -116,7 +118,7 @@ def _why(f: Facts) -> str:
     if f.chosen:
         return "the threshold was given"
     if f.index.bound is not None:
-        return "the threshold is half of the largest possible value"
+        return f"the threshold is half of the {'upper bound' if f.index.bound_note else 'largest possible value'}"
     return f"the threshold is about the median of the {f.reached}, because this index has no known bound"
 
 
@@ -283,9 +285,9 @@ def method(f: Facts) -> list[Block]:
             f"{'0' if f.larger else 'infinite'} by convention",
         ),
         ("Failures", "a locked joint stands still where it failed"),
-        ("Intervals", "95 %: Wilson score for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
+        ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
-        ("Arm", a.arm.source or "no source given"),
+        ("Arm", a.arm.provenance),
         ("Fingerprint of the arm", Markup("<code>{}</code>").format(a.arm.fingerprint)),
         (
             "Seed, samples",

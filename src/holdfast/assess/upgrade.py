@@ -30,7 +30,7 @@ class Upgrade:
         after: The same if no failure of this joint could happen.
         gain: ``after - before``: share of the poses that fail now and would not then.
         low, high: Interval of the gain. It is paired, because both samples are of the same poses: a failure less never makes
-            a pose worse, so the gain is one share, with its Wilson score interval.
+            a pose worse, so the gain is one share, with its exact interval.
         confidence: Of the interval.
     """
 

@@ -79,6 +79,11 @@ class Density:
             weight *= np.interp(samples[:, COORDINATES.index(name)], at, value)
         return weight
 
+    @property
+    def heaviest(self) -> float:
+        """The largest weight anywhere."""
+        return float(np.prod([max(w for _, w in points) for _, points in self.pieces]))
+
     def to_dict(self) -> dict[str, list[list[float]]]:
         """JSON data that :meth:`of` reads."""
         return {name: [list(p) for p in points] for name, points in self.pieces}

@@ -18,7 +18,7 @@ from holdfast.arm.task import plane_normal
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import Vector, dot, smallest
 from holdfast.sobol import sobol
 
@@ -202,16 +202,19 @@ class Clearance:
         return best, chosen
 
     @cached_property
+    @recalled
     def _value_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("clearance", [q], [smallest(self.distances(q))])
 
     @cached_property
+    @recalled
     def _pairs_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("clearance by pair", [q], [ca.vertcat(*self.distances(q))])
 
     @cached_property
+    @recalled
     def _gradient_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         made = self._segments(q)

@@ -6,7 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from holdfast.cli.options import ArmArgument, BaseOption, JsonOption, TipOption, console, number, print_json, read_arm
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    JsonOption,
+    TipOption,
+    console,
+    number,
+    print_json,
+    read_arm,
+)
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm, Joint
@@ -33,7 +43,13 @@ def arms(json_: JsonOption = False) -> None:
     console().print(table)
 
 
-def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, json_: JsonOption = False) -> None:
+def describe(
+    arm: ArmArgument,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    json_: JsonOption = False,
+) -> None:
     """Show an arm, what is wrong with its data, and which joint is a single point of failure by structure.
 
     Example: holdfast describe pa10-7dof
@@ -41,13 +57,14 @@ def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, j
     from holdfast.arm.check import check
     from holdfast.assess import explain, structures
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     findings = check(model)
     found = structures(model)
     if json_:
         print_json(
             {
                 "name": model.name,
+                **{key: value for key, value in model.entry().items() if key != "arm"},
                 "source": model.source,
                 "fingerprint": model.fingerprint,
                 "gravity_m_s2": model.gravity,
@@ -70,7 +87,7 @@ def describe(arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, j
 
     out = console()
     out.print(
-        f"[bold]{escape(model.name)}[/]: {model.n} joints" + (f". Source: {escape(model.source)}" if model.source else "")
+        f"[bold]{escape(model.title)}[/]: {model.n} joints" + (f". Source: {escape(model.source)}" if model.source else "")
     )
     table = Table("", "joint", "type", "lower", "upper", "speed", "effort", "link mass", box=None, pad_edge=False)
     for k, joint in enumerate(model.joints):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from holdfast import reading
 from holdfast.cli.assess_output import comparison_summary, print_assessment, print_comparison, summary
 from holdfast.cli.candidates import TOOL_HELP, read_candidates
 from holdfast.cli.clearance_options import (
@@ -20,12 +21,15 @@ from holdfast.cli.clearance_options import (
 )
 from holdfast.cli.options import (
     TASK_HELP,
-    BaseOption,
+    BasesOption,
     FailuresOption,
+    HoldsOption,
     IndexOption,
     JsonOption,
     LengthOption,
-    TipOption,
+    NamesOption,
+    TipsOption,
+    each_arm,
     print_json,
     read_by_joint,
     read_failures,
@@ -96,8 +100,10 @@ def assess(
     threads: Annotated[
         int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
     ] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
+    base: BasesOption = None,
+    tip: TipsOption = None,
+    hold: HoldsOption = None,
+    name: NamesOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
@@ -120,7 +126,7 @@ def assess(
     check_clearance(clearance, capsules, radius, margin)
     if threads is not None:
         set_threads(threads)
-    candidates = read_candidates(arm, tool or [], task or [], base, tip)
+    candidates = read_candidates(each_arm(arm, base, tip, hold, name), tool or [], task or [])
     several = len(candidates) > 1
     first = candidates[0]
     chosen = read_region(region, first.spec, first.arm)
@@ -153,7 +159,7 @@ def assess(
         if several:  # what cannot run is said before the first candidate takes its time
             make_plan(c.arm, chosen, measure, **options)
         asked.append((measure, options))
-    if several and out is not None and (out / "run.json").exists():
+    if several and out is not None and reading.exists(out / "run.json"):
         raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
     if several and region is None:
         typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)

@@ -21,12 +21,13 @@ def summary(result: Assessment, at_least: list[float] | None, rates: dict[str | 
     names = result.index.failure_names
     reached = d.reached > 0
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "fingerprint": result.arm.fingerprint,
         "index": result.index.slug,
         "unit": result.index.unit,
         "better": result.index.better,
         "bound": result.index.bound,
+        "bound_note": result.index.bound_note,
         "task": result.index.task.name,
         "characteristic_length_m": result.index.task.length,
         "region": result.region.to_dict(),
@@ -127,7 +128,7 @@ def print_assessment(result: Assessment, at_least: list[float] | None, rates: di
 
     out = console()
     d = result.distribution
-    out.print(f"[bold]{escape(result.arm.name)}[/]: {escape(result.index.describe())}", soft_wrap=True)
+    out.print(f"[bold]{escape(result.arm.title)}[/]: {escape(result.index.describe())}", soft_wrap=True)
     out.print(f"{escape(result.region.name)}: {escape(result.region.describe())}", soft_wrap=True)
     if not result.complete:
         out.print(
@@ -143,7 +144,7 @@ def print_assessment(result: Assessment, at_least: list[float] | None, rates: di
     if not d.samples:
         return
     if d.weighted:
-        text = f"poses count by weight: effective sample size {d.effective():.4g}, from which the intervals are approximated"
+        text = f"poses count by weight: effective sample size {d.effective():.4g} (total over largest), which intervals go by"
         out.print(text, soft_wrap=True)
     both = [(result.distribution, "as inverse kinematics found them")]
     if result.optimised is not None:
@@ -157,7 +158,8 @@ def print_assessment(result: Assessment, at_least: list[float] | None, rates: di
         if result.index.bound is not None:
             gaps = [f"{number(result.index.bound - float(which.quantile(0.5)))} ({name})" for which, name in some]
             below = f"the median is below that by {', '.join(gaps)}"
-            out.print(f"no configuration can beat {number(result.index.bound)}; {below}", soft_wrap=True)
+            note = f" ({result.index.bound_note})" if result.index.bound_note else ""
+            out.print(f"no configuration can beat {number(result.index.bound)}{note}; {below}", soft_wrap=True)
     _print_clearance(result)
     sign = "at least" if result.index.better == "larger" else "at most"
     after = ["optimised", "95 % interval"] if result.optimised is not None else []

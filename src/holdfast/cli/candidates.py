@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.cli.options import default_task, read_arm, read_numbers
+from holdfast.cli.options import default_task, read_numbers
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
+    from holdfast.written import ArmSpec
 
 TOOL_HELP = (
     "Tool attachment NAME=x,y,z,roll,pitch,yaw in the last link's own frame: m, then degrees as in URDF, "
@@ -41,7 +42,7 @@ class Candidate:
     tool: str | None
 
 
-def read_candidates(specs: list[str], tools: list[str], tasks: list[str], base: str | None, tip: str | None) -> list[Candidate]:
+def read_candidates(given: list[ArmSpec], tools: list[str], tasks: list[str]) -> list[Candidate]:
     """Every arm with every tool and every task.
 
     Raises:
@@ -52,12 +53,13 @@ def read_candidates(specs: list[str], tools: list[str], tasks: list[str], base: 
 
     attachments = [read_tool(text) for text in tools]
     found = []
-    for spec in specs:
-        arm = read_arm(spec, base, tip)
+    for one in given:
+        spec, arm = one.spec, one.load()
+        called = one.name or (arm.name if spec == arm.name else Path(spec).stem)
         variants: list[tuple[str | None, Arm]] = [(name, arm.with_tool(pose)) for name, pose in attachments]
         for tool, model in variants or [(None, arm)]:
             for task in tasks or [default_task(spec, model)]:
-                parts = [arm.name if spec == arm.name else Path(spec).stem, tool, task if len(tasks) > 1 else None]
+                parts = [called, tool, task if len(tasks) > 1 else None]
                 name = "-".join(re.sub(r"[^\w.+-]+", "_", part) for part in parts if part)
                 found.append(Candidate(name.lstrip("."), spec, model, task, tool))
     check_names([c.name for c in found])

@@ -13,6 +13,7 @@ from holdfast.cli.law_options import LawsOption, read_labelled_law
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -85,6 +86,7 @@ def compare(
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for report.html and tables (CSV).", show_default=False)
     ] = None,
@@ -98,7 +100,7 @@ def compare(
     """
     from holdfast.simulate import compare_laws
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     chosen = read_task(task, arm, model)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     laws = [read_labelled_law(text, model, chosen, **options) for text in law or ["pseudoinverse", "failure-tolerant"]]
@@ -112,7 +114,7 @@ def compare(
     elif motions is not None or distance is not None or reachable_after:
         raise InputError("--motions, --distance and --reachable-after are about random motions; leave out --start and --target")
     else:
-        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0].task, target)
+        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0].arm, laws[0].task, target)
         about = f"one motion of '{model.name}'"
     result = compare_laws(laws, q0, goal, locked, cycles, time_limit=time_limit, seed=seed)
     files = []
@@ -159,7 +161,7 @@ def _data(c: LawComparison, about: str) -> dict[str, Any]:
     from holdfast.simulate import compare_laws_report as rows
 
     data: dict[str, Any] = {
-        "arm": c.arm.name,
+        **c.arm.entry(),
         "task": c.laws[0].task.name,
         "motions": len(c),
         "about": about,
@@ -182,7 +184,7 @@ def _print(c: LawComparison, about: str, files: list[Path]) -> None:
 
     out = console()
     size = "m and rad" if c.laws[0].task.angular else "m"
-    out.print(f"Arm {escape(c.arm.name)}, task {escape(c.laws[0].task.describe())}; {escape(about)}", soft_wrap=True)
+    out.print(f"Arm {escape(c.arm.title)}, task {escape(c.laws[0].task.describe())}; {escape(about)}", soft_wrap=True)
     out.print(f"[bold]{escape(rows.headline(c))}[/]", soft_wrap=True)
     table = Table(
         "law",

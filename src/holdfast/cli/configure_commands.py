@@ -24,11 +24,13 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     GravityOption,
+    HoldOption,
     JsonOption,
     MountOption,
     PayloadOption,
     TaskOption,
     TipOption,
+    check_unit_of_places,
     console,
     number,
     outside_limits,
@@ -43,6 +45,7 @@ from holdfast.cli.options import (
 )
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.status import Status
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -118,6 +121,7 @@ def configure(
     payload: PayloadOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[
         Path | None, typer.Option("--csv", help="Write the configurations to this file.", show_default=False)
     ] = None,
@@ -132,7 +136,7 @@ def configure(
     from holdfast.solve import optimise
 
     check_clearance(clearance, capsules, radius, margin)
-    model = placed(read_arm(arm, base, tip), mount, gravity, payload)
+    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     chosen = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
         raise InputError("give one of --minimise and --maximise, for example --minimise torque:effort")
@@ -141,7 +145,7 @@ def configure(
     if [x is not None for x in (pose, poses, at)].count(True) != 1:
         raise InputError('give one of --pose "x,y,z,roll,pitch,yaw", --poses FILE.csv and --at "joint values"')
     given = None if at is None else np.array([read_configuration(model, x, degrees, "--at") for x in at])
-    targets = model.forward_kinematics(given) if given is not None else _targets(chosen, pose or [], poses)
+    targets = model.forward_kinematics(given) if given is not None else _targets(model, chosen, pose or [], poses)
     apart = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
     optimum = optimise(model, targets, objective, seed, starts, task=chosen, clearance=apart, margin=margin or 0.0)
     if not optimum.success.any():
@@ -162,15 +166,16 @@ def configure(
         _print(result, csv)
 
 
-def _targets(task: Task, texts: Sequence[str], file: Path | None) -> Array:
+def _targets(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> Array:
     if file is None:
-        option, given = "--pose", [read_pose("--pose", text) for text in texts]
+        option, given = "--pose", [read_pose(arm, "--pose", text) for text in texts]
     else:
         from holdfast.paths.path_file import pose_table
 
         option, given = "--poses", pose_table(file, "--poses")
     if not given:
         raise InputError(f"{option}: '{file}' holds no poses; give at least one row of them")
+    check_unit_of_places(arm, np.array([x[:3, 3] if x.shape == (4, 4) else x for x in given]), option)
     targets = np.tile(np.eye(4), (len(given), 1, 1))
     for target, found in zip(targets, given, strict=True):
         if found.shape == (4, 4):
@@ -279,7 +284,7 @@ def _data(result: _Result, seed: int) -> dict[str, Any]:
         }
 
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "objective": result.wish,
         "better": result.objective.better,
         "unit": result.objective.unit,
@@ -298,7 +303,7 @@ def _print(result: _Result, file: Path | None) -> None:
     out, optimum = console(), result.optimum
     unit = "" if result.objective.unit in ("1", "mixed") else f" {escape(result.objective.unit)}"
     first = "first configuration found" if result.given is None else "configuration given"
-    out.print(f"{escape(result.wish)}, arm {escape(result.arm.name)}, task {escape(result.task.describe())}", soft_wrap=True)
+    out.print(f"{escape(result.wish)}, arm {escape(result.arm.title)}, task {escape(result.task.describe())}", soft_wrap=True)
     if len(result.targets) == 1:
         _print_one(result, out, first, unit)
     else:
@@ -392,7 +397,7 @@ def _write(result: _Result, path: Path) -> None:
     names = [f"{joint.name}_{joint.unit}" for joint in result.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
     try:
-        with path.open("w", encoding="utf-8", newline="") as file:
+        with writing(path) as file:
             table = csv.writer(file)
             table.writerow(columns + names)
             for k in range(len(result.targets)):

@@ -13,6 +13,7 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     FailuresOption,
+    HoldOption,
     JsonOption,
     LengthOption,
     SeedOption,
@@ -83,6 +84,7 @@ def design(
     ] = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Which arm to build: search link lengths, twists, offsets, limits or the tool for the most that is left after a failure.
@@ -98,7 +100,7 @@ def design(
 
     if threads is not None:
         set_threads(threads)
-    given = read_arm(arm, base, tip)
+    given = read_arm(arm, base, tip, hold)
     space = design_space(given, vary)
     if maximise == "convergence":
         from holdfast.cli.design_convergence import converging

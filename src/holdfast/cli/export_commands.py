@@ -11,6 +11,7 @@ from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption,
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -39,6 +40,7 @@ def export(
     pre_failure_error: PreFailureOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Write a control law as code for a robot's own controller.
@@ -47,16 +49,18 @@ def export(
     """
     if language not in LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
-    source, header = made.export_c(out, name)
+    files = made.export_c(out, name)
     if json_:
-        print_json({"arm": model.name, "law": made.slug, "task": made.task.name, "source": str(source), "header": str(header)})
+        written = dict(zip(("source", "header", "example", "test"), map(str, files), strict=True))
+        print_json({**model.entry(), "law": made.slug, "task": made.task.name, **written})
         return
     from rich.markup import escape
 
     console().print(
-        f"{escape(made.phrase())}, arm {escape(model.name)}: wrote {escape(str(source))} and {escape(header.name)}",
+        f"{escape(made.phrase())}, arm {escape(model.title)}: wrote {escape(str(files[0]))} and "
+        f"{escape(', '.join(x.name for x in files[1:]))}",
         soft_wrap=True,
     )
 

@@ -14,10 +14,12 @@ from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     GravityOption,
+    HoldOption,
     JsonOption,
     MountOption,
     PayloadOption,
     TipOption,
+    check_unit_of_places,
     console,
     number,
     placed,
@@ -108,6 +110,7 @@ def follow(
     payload: PayloadOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     out: Annotated[
         Path | None, typer.Option("--out", help="Folder for trajectory.csv and report.html.", show_default=False)
     ] = None,
@@ -128,8 +131,9 @@ def follow(
     for option, file, ending in (("--csv", csv, ".csv"), ("--parquet", parquet, ".parquet")):
         if file is not None and file.suffix.lower() != ending:
             raise InputError(f"{option}: '{file}' does not end in {ending}; give it that ending")
-    model = placed(read_arm(arm, base, tip), mount, gravity, payload)
+    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     timed = _timed(path, duration)
+    check_unit_of_places(model, timed.path.pose(np.linspace(0, 1, 21))[:, :3, 3], f"path '{path}'")
     chosen = read_task(_task(task, timed, model), arm, model)
     wish = ("--minimise", minimise) if minimise is not None else ("--maximise", maximise or "")
     objective = read_objective(model, *wish, chosen)  # the other way round already, if that is meant
@@ -211,7 +215,7 @@ def _facts(values: Any) -> dict[str, float]:
 def _data(result: Trajectory, bound: float | None, slowness: list[SlowMotion] | None) -> dict[str, Any]:
     names = result.arm.joint_names
     data: dict[str, Any] = {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "objective": result.objective.name,
         "better": result.objective.better,
         "unit": result.objective.unit,

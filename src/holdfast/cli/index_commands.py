@@ -12,6 +12,7 @@ from holdfast.cli.options import (
     BaseOption,
     DegreesOption,
     FailuresOption,
+    HoldOption,
     IndexOption,
     JsonOption,
     LengthOption,
@@ -45,6 +46,7 @@ def index(
     degrees: DegreesOption = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Evaluate a fault tolerance index at a configuration: per failed joint, the worst one, and the gradient.
@@ -53,7 +55,7 @@ def index(
     """
     from holdfast.indices import by_name
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     configurations = np.array([read_configuration(model, text, degrees) for text in q])
     measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
     results = [_evaluate(measure, x) for x in configurations]
@@ -68,13 +70,14 @@ def _evaluate(measure: Index, q: NDArray[np.float64]) -> dict[str, Any]:
     singular = bool(result.status == Status.SINGULAR)
     names = measure.failure_names
     return {
-        "arm": measure.arm.name,
+        **measure.arm.entry(),
         "index": measure.slug,
         "task": measure.task.name,
         "characteristic_length_m": measure.task.length,
         "unit": measure.unit,
         "better": measure.better,
         "bound": measure.bound,
+        "bound_note": measure.bound_note,
         "source": measure.source,
         "q": dict(zip(measure.arm.joint_names, q.tolist(), strict=True)),
         "value": result.value,
@@ -92,14 +95,15 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
     out = console()
     unit = "" if measure.unit == "1" else f" {measure.unit}"
     for q, r in zip(configurations, results, strict=True):
-        out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.name)}", soft_wrap=True)
+        out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.title)}", soft_wrap=True)
         if r["singular"]:
             out.print(
                 "[yellow]The arm is singular here: the index is 0 (infinite for a condition number) by convention.[/]",
                 soft_wrap=True,
             )
         else:
-            bound = f"; at most {number(measure.bound)} for any configuration" if measure.bound is not None else ""
+            note = f" ({measure.bound_note})" if measure.bound_note else ""
+            bound = f"; at most {number(measure.bound)} for any configuration{note}" if measure.bound is not None else ""
             out.print(
                 f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}", soft_wrap=True
             )

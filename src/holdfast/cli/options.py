@@ -14,9 +14,13 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.errors import InputError
+from holdfast.written import check_unit_of_joints as check_unit_of_joints
+from holdfast.written import check_unit_of_places as check_unit_of_places
 from holdfast.written import default_task as default_task
-from holdfast.written import is_number
+from holdfast.written import each_arm as each_arm
+from holdfast.written import is_number, read_hold
 from holdfast.written import read_failures as read_failures
 from holdfast.written import read_joint as read_joint
 from holdfast.written import read_numbers as read_numbers
@@ -37,7 +41,18 @@ BaseOption = Annotated[
 ]
 TipOption = Annotated[
     str | None,
-    typer.Option("--tip", help="URDF, MJCF: tip link, body or site. Default: the only end there is.", show_default=False),
+    typer.Option(
+        "--tip", help="URDF, MJCF: tip link, body or site. Default: the only end, no gripper's finger.", show_default=False
+    ),
+]
+HoldOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--hold",
+        help="URDF, MJCF: JOINT=value, rad or m, at which a joint stands for good: a gripper's, or an external axis. May be "
+        "given again.",
+        show_default=False,
+    ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
 TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
@@ -51,6 +66,27 @@ IndexOption = Annotated[
         help="relative-manipulability, manipulability, mean-singular-value, geometric-mean-singular-value, "
         "minimum-singular-value or condition-number.",
     ),
+]
+PER_ARM = "once for all arms, or once for each in order ('-' for none)."
+BasesOption = Annotated[
+    list[str] | None,
+    typer.Option("--base", help=f"URDF, MJCF: base link or body, {PER_ARM} Default: the root.", show_default=False),
+]
+TipsOption = Annotated[
+    list[str] | None,
+    typer.Option("--tip", help=f"URDF, MJCF: tip link, body or site, {PER_ARM} Default: the only end.", show_default=False),
+]
+HoldsOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--hold",
+        help=f"URDF, MJCF: JOINT=value, rad or m, at which joints stand for good, separated by commas, {PER_ARM}",
+        show_default=False,
+    ),
+]
+NamesOption = Annotated[
+    list[str] | None,
+    typer.Option("--name", help="What an arm is called, once for each in order ('-' for its own).", show_default=False),
 ]
 QOption = Annotated[
     list[str],
@@ -89,11 +125,11 @@ PayloadOption = Annotated[
 ]
 
 
-def read_arm(spec: str, base: str | None, tip: str | None) -> Arm:
-    """The arm that ARM, --base and --tip name."""
+def read_arm(spec: str, base: str | None, tip: str | None, hold: list[str] | None = None) -> Arm:
+    """The arm that ARM, --base, --tip and --hold name."""
     from holdfast import arms
 
-    return arms.resolve(spec, base, tip)
+    return arms.resolve(spec, base, tip, read_hold(",".join(hold)) if hold else None)
 
 
 def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | int, float]:
@@ -116,7 +152,9 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():
         raise InputError(f"{option} holds NaN or infinity; give {arm.n} finite numbers")
-    return np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
+    q = np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
+    check_unit_of_joints(arm, q, option, degrees)
+    return q
 
 
 def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
@@ -147,7 +185,7 @@ def read_weights(option: str, text: str) -> Any:
     if file.suffix.lower() != ".csv":
         return read_numbers(option, text, "effort, worst-case, a .csv file, or one number per joint")
     try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
+        lines = reading.text(file).splitlines()
     except OSError as error:
         raise InputError(f"{option}: cannot read {file}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
@@ -233,7 +271,7 @@ def _listed(names: Iterable[str]) -> str:
     return f"{', '.join(most)} and {last}"
 
 
-def read_pose(option: str, text: str) -> NDArray[np.float64]:
+def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
     """``x,y,z,roll,pitch,yaw`` in m and degrees as (4, 4); ``x,y,z`` alone as (3,)."""
     from scipy.spatial.transform import Rotation
 
@@ -242,6 +280,7 @@ def read_pose(option: str, text: str) -> NDArray[np.float64]:
         raise InputError(f"{option} has {numbers.size} numbers; give x,y,z,roll,pitch,yaw (m and degrees), or x,y,z alone")
     if not np.isfinite(numbers).all():
         raise InputError(f"{option} holds NaN or infinity; give finite numbers")
+    check_unit_of_places(arm, numbers[:3], option)
     if numbers.size == 3:
         return numbers
     pose = np.eye(4)
@@ -250,13 +289,16 @@ def read_pose(option: str, text: str) -> NDArray[np.float64]:
     return pose
 
 
-def read_target(task: Task, text: str) -> NDArray[np.float64]:
+def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
     """--target as the library takes it: the task's rows of the tool point, or position and quaternion as a pose (4, 4)."""
     values = read_numbers("--target", text, "numbers")
+    if not np.isfinite(values).all():
+        raise InputError("--target holds NaN or infinity; give finite numbers")
     if values.size == 7:
         from holdfast.arm.poses import pose_of
 
-        if not (np.isfinite(values).all() and np.linalg.norm(values[3:]) > 1e-9):
+        check_unit_of_places(arm, values[:3], "--target")
+        if not np.linalg.norm(values[3:]) > 1e-9:
             raise InputError("--target: the last four numbers are a quaternion x,y,z,w and must not all be 0")
         return pose_of(values[:3], values[3:])
     if task.angular or task.frame != "base":
@@ -266,6 +308,7 @@ def read_target(task: Task, text: str) -> NDArray[np.float64]:
         )
     if values.size != task.m:
         raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
+    check_unit_of_places(arm, values @ task.rows[:, :3], "--target")
     return values
 
 

@@ -23,8 +23,10 @@ from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TipOption,
+    check_unit_of_places,
     console,
     number,
     plain,
@@ -38,6 +40,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -111,6 +114,7 @@ def recover(
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the waypoints to this file.", show_default=False)] = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """My joint is stuck now: what is left of the workspace, can the task be finished, and which is the shortest way home?
@@ -120,7 +124,7 @@ def recover(
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
     check_clearance(clearance, capsules, radius, margin)
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
     if check is not None:
         _replay(model, check, _locks(model, lock or [], degrees), shape, margin or 0.0, json_)
@@ -139,13 +143,16 @@ def recover(
     chosen = None if task is None else read_task(task, arm, model)
     if positions:
         chosen = _position_task(model, chosen)
+    hand_path = None if path is None else HandPath.load(path)
+    if hand_path is not None:
+        check_unit_of_places(model, hand_path.pose(np.linspace(0, 1, 21))[:, :3, 3], "--path")
     result = converge.recover(
         model,
         {name: float(stands[model.joint_index(name)]) if value is None else value for name, value in locked.items()},
         stands,
         aim,
         chosen,
-        path=None if path is None else HandPath.load(path),
+        path=hand_path,
         clearance=shape or False,
         margin=margin or 0.0,
         metric=metric,  # type: ignore[arg-type]
@@ -190,7 +197,7 @@ def _locks(arm: Arm, texts: list[str], degrees: bool) -> dict[str, float | None]
 
 def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
     """--goal as the library takes it, and whether it is a position alone."""
-    if text in ("", "home"):
+    if text in ("", "home") or text in arm.states:
         return text or None, False
     kind, colon, rest = text.partition(":")
     if not colon:
@@ -201,8 +208,11 @@ def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
     if kind == "q":
         return read_configuration(arm, rest, degrees, "--goal"), False
     if kind != "pose":
-        raise InputError(f"--goal '{text}' is not known; write home, 'q:...' with {arm.n} joint values, or 'pose:...'")
-    pose = read_pose("--goal", rest)
+        raise InputError(
+            f"--goal '{text}' is not known; write {', '.join({'home': 0, **arm.states})}, "
+            f"'q:...' with {arm.n} joint values, or 'pose:...'"
+        )
+    pose = read_pose(arm, "--goal", rest)
     if pose.shape == (4, 4):
         return pose, False
     whole = np.eye(4)
@@ -263,7 +273,7 @@ def _folder(result: Recovery, out: Path) -> list[Path]:
     try:
         out.mkdir(parents=True, exist_ok=True)
         file = out / "recovery.json"
-        file.write_text(json.dumps(plain(_data(result)), indent=2) + "\n", encoding="utf-8")
+        replaced(file, json.dumps(plain(_data(result)), indent=2) + "\n")
     except OSError as error:
         raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
     files = [file, save_png(result.figure(), out / "motion.png", 150)]
@@ -289,7 +299,7 @@ def _data(result: Recovery) -> dict[str, Any]:
     replay = result.check() if len(result.q) else None
     left, rest = result.left, result.rest
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "fingerprint": result.arm.fingerprint,
         "locked": result.locked,
         "goal": result.goal,

@@ -13,6 +13,7 @@ from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     PlotOption,
     SeedOption,
@@ -30,6 +31,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm, Joint
@@ -59,6 +61,7 @@ def self_motion(
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write all points to this file.", show_default=False)] = None,
     plot: PlotOption = None,
     json_: JsonOption = False,
@@ -74,11 +77,11 @@ def self_motion(
     from holdfast.converge import joint_bounds
     from holdfast.solve import self_motion as trace
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     rows = as_task(model, read_task(task, arm, model))
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
-    wanted = read_target(rows, target) if target is not None else _pose(rows, str(pose))
+    wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
     motion = trace(model, wanted, rows, spacing, seed)
     arcs = joint_bounds(model, wanted, rows, seed) if bounds or plot is not None else None
     if csv is not None:
@@ -91,8 +94,8 @@ def self_motion(
         _print(model, motion, arcs, [file for file in (csv, plot) if file is not None])
 
 
-def _pose(task: Task, text: str) -> NDArray[np.float64]:
-    values = read_pose("--pose", text)
+def _pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
+    values = read_pose(arm, "--pose", text)
     if values.shape == (4, 4):
         return values
     if task.angular:
@@ -112,7 +115,7 @@ def _component(arm: Arm, motion: SelfMotion, k: int) -> str:
 
 def _data(arm: Arm, motion: SelfMotion, arcs: list[Arcs] | None) -> dict[str, Any]:
     data: dict[str, Any] = {
-        "arm": arm.name,
+        **arm.entry(),
         "task": motion.task.name,
         "status": motion.status.name.lower(),
         "redundancy": motion.redundancy,
@@ -138,7 +141,7 @@ def _print(arm: Arm, motion: SelfMotion, arcs: list[Arcs] | None, files: list[Pa
     from rich.table import Table
 
     out = console()
-    out.print(f"[bold]{escape(arm.name)}[/bold], task {escape(motion.task.name)}: {motion.describe()}", soft_wrap=True)
+    out.print(f"[bold]{escape(arm.title)}[/bold], task {escape(motion.task.name)}: {motion.describe()}", soft_wrap=True)
     if motion.components:
         table = Table("curve", "length", "points", "", box=None, pad_edge=False)
         for k, c in enumerate(motion.components):
@@ -179,7 +182,7 @@ def _write(arm: Arm, motion: SelfMotion, degrees: bool, file: Path) -> None:
     rows = np.column_stack([curve, np.where(turning, np.rad2deg(motion.q), motion.q)])
     header = ",".join(["curve", *(f"{j.name}_{u}" for j, u in zip(arm.joints, units, strict=True))])
     try:
-        with file.open("w", encoding="utf-8") as stream:
+        with writing(file) as stream:
             np.savetxt(stream, rows, fmt=["%d", *["%.12g"] * arm.n], delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write points '{file}': {error.strerror or error}; choose another path") from error
@@ -221,6 +224,7 @@ def tolerant_workspace(
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -231,7 +235,7 @@ def tolerant_workspace(
     from holdfast.arm.task import plane_normal
     from holdfast.converge import tolerant_workspace as compute
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     rows = read_task(task, arm, model) if task else "planar" if plane_normal(model) is not None else "position"
     limits = {read_joint(model, text.partition("=")[0]): _limit(model, text) for text in limit or []}
     turn = None
@@ -267,7 +271,7 @@ def _region_data(region: TolerantWorkspace) -> dict[str, Any]:
     names = region.arm.joint_names
     unit = region.unit.replace("^", "")
     return {
-        "arm": region.arm.name,
+        **region.arm.entry(),
         "task": region.task.name,
         "exact": region.exact,
         "optimised": region.optimised,
@@ -288,7 +292,7 @@ def _print_region(region: TolerantWorkspace, plot: Path | None) -> None:
     from rich.table import Table
 
     out = console()
-    out.print(f"[bold]{escape(region.arm.name)}[/bold], task {escape(region.task.name)}: {region.describe()}", soft_wrap=True)
+    out.print(f"[bold]{escape(region.arm.title)}[/bold], task {escape(region.task.name)}: {region.describe()}", soft_wrap=True)
     table = Table("joint", "artificial limits", "points its locks lose", box=None, pad_edge=False)
     for joint, (low, high), lost in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
         table.add_row(escape(joint.name), _arcs([(low, high)], joint), f"{lost:.1%}")

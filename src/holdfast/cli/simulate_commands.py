@@ -21,6 +21,7 @@ from holdfast.cli.law_options import (
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -37,6 +38,7 @@ from holdfast.cli.options import (
 )
 from holdfast.cli.physics_output import physics_data, print_physics, run_physics
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -80,6 +82,7 @@ def simulate(
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     out: Annotated[
@@ -94,10 +97,10 @@ def simulate(
     """
     from holdfast.simulate import simulate as run
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
-    goal, locks = read_target(made.task, target), [_lock(model, text) for text in lock or []]
+    goal, locks = read_target(made.arm, made.task, target), [_lock(model, text) for text in lock or []]
     runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
     physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None
     files: list[Path] = []
@@ -135,7 +138,7 @@ def _data(runs: Runs) -> dict[str, Any]:
 
     unit = "cycles" if runs.cycles else "s"
     return {
-        "arm": runs.law.arm.name,
+        **runs.law.arm.entry(),
         "law": runs.law.slug,
         "task": runs.law.task.name,
         "locked": {name: t for name, t in by_name(runs.lock_time).items() if np.isfinite(t)},
@@ -152,6 +155,7 @@ def _data(runs: Runs) -> dict[str, Any]:
         "q_low": by_name(runs.q_low),
         "q_high": by_name(runs.q_high),
         "limits_passed": [name for name, passed in by_name(runs.limits_passed).items() if passed],
+        "limits": {j.name: [x if np.isfinite(x) else None for x in (j.lower, j.upper)] for j in runs.law.arm.joints},
     }
 
 
@@ -166,9 +170,11 @@ def _print(runs: Runs, files: list[Path]) -> None:
     unit = "cycles" if runs.cycles else "s"
     locked = [f"{name} at {t:g} {unit}" for name, t in zip(arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)]
     standing = f"locked: {', '.join(locked)}" if locked else "no joint locked"
-    out.print(f"Arm {escape(arm.name)}, {escape(runs.law.describe())}; {escape(standing)}", soft_wrap=True)
+    out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(standing)}", soft_wrap=True)
     reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
     out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
+    if limits := escape(runs.limits_sentence()):
+        out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"
     facts = Table.grid(padding=(0, 2))
     facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
@@ -224,7 +230,7 @@ def _write(runs: Runs, path: MotionPath, file: Path) -> None:
     header = ",".join(["time_cycles" if runs.cycles else "time_s", *joints, "tool_x_m", "tool_y_m", "tool_z_m", "error"])
     rows = np.column_stack([path.time, path.q, path.x, path.error])
     try:
-        with file.open("w", encoding="utf-8") as stream:
+        with writing(file) as stream:
             np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error

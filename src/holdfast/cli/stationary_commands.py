@@ -19,6 +19,7 @@ from holdfast.cli.law_options import (
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     PlotOption,
     SeedOption,
@@ -66,6 +67,7 @@ def stationary(
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -75,9 +77,9 @@ def stationary(
     """
     from holdfast.converge import stationary as find
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
-    joints, goal = [read_joint(model, text) for text in lock], read_target(made.task, target)
+    joints, goal = [read_joint(model, text) for text in lock], read_target(made.arm, made.task, target)
     if at is None:
         curves = find(made, goal, joints, seed=seed)
         if plot is not None:
@@ -118,6 +120,7 @@ def basins(
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
@@ -127,10 +130,10 @@ def basins(
     """
     from holdfast.converge import basins as find
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
     joints = [read_joint(model, text) for text in lock]
-    found = find(made, read_target(made.task, target), joints, _at(model, joints, at, degrees), starts, grid, seed)
+    found = find(made, read_target(made.arm, made.task, target), joints, _at(model, joints, at, degrees), starts, grid, seed)
     if plot is not None:
         from holdfast.converge.pictures import basins_figure
         from holdfast.report.figures import save_png
@@ -155,7 +158,7 @@ def _at(arm: Arm, joints: list[int], text: str, degrees: bool) -> np.ndarray[Any
 def _points_data(points: RestPoints) -> dict[str, Any]:
     arm = points.law.arm
     return {
-        "arm": arm.name,
+        **arm.entry(),
         "law": points.law.slug,
         "task": points.law.task.name,
         "locked": {arm.joint_names[k]: x for k, x in zip(points.locked, points.at, strict=True)},
@@ -187,7 +190,7 @@ def _points_data(points: RestPoints) -> dict[str, Any]:
 def _curves_data(curves: Curves) -> dict[str, Any]:
     arm = curves.law.arm
     return {
-        "arm": arm.name,
+        **arm.entry(),
         "law": curves.law.slug,
         "task": curves.law.task.name,
         "locked": arm.joint_names[curves.joint],

@@ -11,6 +11,7 @@ from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
     BaseOption,
+    HoldOption,
     TaskOption,
     TipOption,
     default_task,
@@ -81,6 +82,7 @@ def studio(
     ] = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
 ) -> None:
     """Open a page in which an arm is moved, fails, and shows what that takes (needs the extra 'view').
 
@@ -91,7 +93,7 @@ def studio(
     from holdfast.arm.task import as_task
     from holdfast.studio import serve
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     state = read_state(
         model,
         arm,
@@ -185,7 +187,7 @@ def read_state(
             raise InputError(f"{option}: there is no file or folder '{path}'")
     goal = None
     if target is not None:
-        goal = pose_numbers(target_pose(rows, read_target(rows, target)))
+        goal = pose_numbers(target_pose(rows, read_target(model, rows, target)))
     return State(
         arm=arm,
         names=model.joint_names,
@@ -193,6 +195,7 @@ def read_state(
         task=text,
         base=base,
         tip=tip,
+        hold=() if model.chain is None else model.chain.held,
         conditions=tuple(conditions),  # type: ignore[arg-type]
         index=index,
         susceptibility=susceptibility,

@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import BaseOption, JsonOption, TipOption, console, print_json
+from holdfast.cli.options import (
+    BasesOption,
+    HoldsOption,
+    JsonOption,
+    NamesOption,
+    TipsOption,
+    console,
+    each_arm,
+    print_json,
+)
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
 
@@ -49,8 +58,10 @@ def new(
         typer.Option("--law", help="Also maps of convergence under this control law; may be given again.", show_default=False),
     ] = None,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
-    base: BaseOption = None,
-    tip: TipOption = None,
+    base: BasesOption = None,
+    tip: TipsOption = None,
+    hold: HoldsOption = None,
+    name: NamesOption = None,
 ) -> None:
     """Write a study file with comments, to edit and run.
 
@@ -59,7 +70,9 @@ def new(
     from holdfast.studies.template import write
 
     usual = ["relative-manipulability"]
-    written = write(file, arm, poses, chunk, seed, usual if index is None else index, law or [], optimise, base, tip)
+    indices = usual if index is None else index
+    files = each_arm(arm, base, tip, hold, name)
+    written = write(file, files, poses, chunk, seed, indices, law or [], optimise)
     typer.echo(f"written: {written}")
 
 
@@ -153,18 +166,35 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
         study = Study.open(folder)
         with progress_bar(json_, "chunks") as progress:
             damage = study.verify(None if progress is None else lambda done, total, _: progress(done, total))
-        found += [{"folder": str(folder), "cell": d.cell, "chunk": d.chunk + 1, "what": d.what} for d in damage]
+        number = {d: None if d.chunk is None else d.chunk + 1 for d in damage}
+        found += [{"folder": str(folder), "cell": d.cell, "chunk": number[d], "what": d.what} for d in damage]
         if not json_ and not damage:
-            typer.echo(f"{folder}: {sum(s.chunks_done for s in study.status())} chunks, all sound")
+            _print_sound(folder, study)
     if json_:
         print_json({"damaged": found})
     if found:
         for d in found:
-            typer.echo(f"{d['folder']}: chunk {d['chunk']} of cell '{d['cell']}' is damaged: {d['what']}", err=True)
+            which = (
+                f"cell '{d['cell']}' is lost" if d["chunk"] is None else f"chunk {d['chunk']} of cell '{d['cell']}' is damaged"
+            )
+            typer.echo(f"{d['folder']}: {which}: {d['what']}", err=True)
         raise StoreError(
             f"{len(found)} damaged chunk{'' if len(found) == 1 else 's'}, missing from now on; 'holdfast study run' computes "
             "them again"
         )
+
+
+def _print_sound(folder: Path, study: Study) -> None:
+    """What verify found, and what was not there to be looked at."""
+    cells = study.status()
+    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+    typer.echo(
+        f"{folder}: {done} chunks, all sound" + ("" if done == total else f"; {total - done} of {total} are not computed")
+    )
+    empty = [s.name for s in cells if not s.chunks_done]
+    if empty:
+        more = f" and {len(empty) - 3} more" if len(empty) > 3 else ""
+        typer.echo(f"nothing is there of {len(empty)} cell{'s' * (len(empty) > 1)}: {', '.join(empty[:3])}{more}")
 
 
 @group.command()

@@ -12,6 +12,7 @@ from holdfast.cli.options import (
     BaseOption,
     DegreesOption,
     GravityOption,
+    HoldOption,
     JsonOption,
     MountOption,
     PayloadOption,
@@ -54,6 +55,7 @@ def susceptibility(
     degrees: DegreesOption = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Evaluate what a free-swinging failure of each joint would do at a configuration; smaller is better.
@@ -62,7 +64,7 @@ def susceptibility(
     """
     from holdfast.indices.susceptibility import by_name
 
-    model = placed(read_arm(arm, base, tip), mount, gravity, payload)
+    model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     configurations = np.array([read_configuration(model, text, degrees) for text in q])
     chosen = by_name(measure, model, None if weights is None else read_weights("--weights", weights))
     results = [_evaluate(chosen, x) for x in configurations]
@@ -78,7 +80,7 @@ def _evaluate(measure: Susceptibility, q: Array) -> dict[str, Any]:
     result = measure.evaluate(q)
     arm = measure.arm
     return {
-        "arm": arm.name,
+        **arm.entry(),
         "measure": measure.slug,
         "unit": measure.unit,
         "better": measure.better,
@@ -105,7 +107,7 @@ def _print(measure: Susceptibility, configurations: Array, results: list[dict[st
     out = console()
     unit = "" if measure.unit == "1" else f" {measure.unit}"
     for q, r in zip(configurations, results, strict=True):
-        out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.name)}", soft_wrap=True)
+        out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.title)}", soft_wrap=True)
         out.print(f"[bold]{number(r['value'], 6)}{escape(unit)}[/], smaller is better", soft_wrap=True)
         outside = outside_limits(measure.arm, q)
         if outside:

@@ -11,6 +11,7 @@ import typer
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TipOption,
     console,
@@ -22,6 +23,7 @@ from holdfast.cli.options import (
     read_joint,
 )
 from holdfast.errors import StoreError
+from holdfast.whole_file import writing
 
 if TYPE_CHECKING:
     from holdfast.simulate import FreeSwing
@@ -62,6 +64,7 @@ def swing(
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
@@ -74,7 +77,7 @@ def swing(
     """
     from holdfast.simulate.free_swing import BRAKES, free_swing
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     result = free_swing(
         model,
         read_configuration(model, q, degrees),
@@ -98,7 +101,7 @@ def _data(result: FreeSwing) -> dict[str, Any]:
     failed = result.arm.joints[result.joint]
     unit = failed.unit
     return {
-        "arm": result.arm.name,
+        **result.arm.entry(),
         "joint": failed.name,
         "q": dict(zip(result.arm.joint_names, result.q.tolist(), strict=True)),
         "unit": unit,
@@ -135,7 +138,7 @@ def _print(result: FreeSwing, files: list[Path]) -> None:
     unit = failed.unit
     friction = "N s/m" if unit == "m" else "N m s/rad"
     out.print(
-        f"Free swing of [bold]{escape(failed.name)}[/], arm {escape(result.arm.name)}, all other joints held", soft_wrap=True
+        f"Free swing of [bold]{escape(failed.name)}[/], arm {escape(result.arm.title)}, all other joints held", soft_wrap=True
     )
     out.print(f"It {ENDS[result.outcome]}.", soft_wrap=True)
     facts = Table.grid(padding=(0, 2))
@@ -167,7 +170,7 @@ def _write(result: FreeSwing, path: Path) -> None:
     header = f"time_s,moved_{unit},speed_{unit}_s,tool_x_m,tool_y_m,tool_z_m"
     rows = np.column_stack([result.time, result.angle, result.velocity, result.tool_position])
     try:
-        with path.open("w", encoding="utf-8") as file:
+        with writing(path) as file:
             np.savetxt(file, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     except OSError as error:
         raise StoreError(f"cannot write motion '{path}': {error.strerror or error}; choose another path") from error

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from holdfast import reading
 from holdfast.cli import teleop_serve, teleop_tasks
 from holdfast.cli.options import console
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import HoldfastError, InputError, StoreError
 
 if TYPE_CHECKING:
     from holdfast.teleop.entries import Subject
@@ -49,7 +50,7 @@ def run(
     from holdfast.teleop.experiment import simulate_experiment
     from holdfast.teleop.protocol import read
 
-    if out.exists() and (not out.is_dir() or any(out.iterdir())):
+    if reading.exists(out) and (not out.is_dir() or any(out.iterdir())):
         raise StoreError(f"--out: '{out}' exists and is not an empty folder; give a new one")
     with (
         working(f"compiling the laws of {protocol}") as say,
@@ -109,6 +110,46 @@ def replay(folder: FolderArgument) -> None:
         )
     if result.differs:
         raise typer.Exit(DIFFERS)
+
+
+@app.command()
+def verify(folder: FolderArgument) -> None:
+    """Is every trial, rating, answer and event as it was written? Compares the records with their digests.
+
+    Exit code 0 if all is; 3 if something is not, and then the first damaged trial is named first.
+    """
+    from holdfast.teleop.verify import verify as checked
+
+    with working("comparing"):
+        found = checked(folder)
+    if found.without:
+        typer.echo(
+            f"{len(found.without)} trials have no digest, as they were recorded before there were any: "
+            f"{', '.join(map(str, found.without))}"
+        )
+    for sentence in found.damaged[:20]:
+        typer.echo(f"damaged: {sentence}")
+    if len(found.damaged) > 20:
+        typer.echo(f"damaged: {len(found.damaged) - 20} more")
+    if found.damaged:
+        raise typer.Exit(DIFFERS)
+    typer.echo(f"sound: {found.trials} trials, {found.links} digests; all together {found.whole or 'none'}")
+
+
+@app.command()
+def backup(
+    folder: FolderArgument,
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.", show_default=False)],
+) -> None:
+    """Copy the folder of an experiment, also while it is served, and verify the copy.
+
+    Example: holdfast teleop backup study /mnt/safe/study-2026-11-22
+    """
+    from holdfast.teleop.backup import backup as copy
+
+    with working("copying"):
+        found = copy(folder, out)
+    typer.echo(f"written: {out}; sound: {found.trials} trials, {found.links} digests")
 
 
 @app.command()
@@ -197,7 +238,7 @@ def protocol_(
     from holdfast.teleop.protocol import read
 
     chosen = read(protocol)
-    if write is not None and write.exists():
+    if write is not None and reading.exists(write):
         raise StoreError(f"--write: '{write}' exists already; choose another name")
     _print_protocol(chosen)
     if write is not None:
@@ -222,10 +263,24 @@ def working(text: str) -> Iterator[Callable[[str], None]]:
         yield lambda now: status.update(escape(now))
 
 
-def _opened(folder: Path) -> Records:
-    from holdfast.teleop.records import Records
+@contextmanager
+def _opened(folder: Path) -> Iterator[Records]:
+    """The records; where damage makes them impossible to read, a sentence says what is damaged."""
+    import sqlite3
 
-    return Records.open(folder)
+    from holdfast.teleop.records import Records
+    from holdfast.teleop.verify import verify
+
+    try:
+        with Records.open(folder) as records:
+            yield records
+    except HoldfastError:
+        raise
+    except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError) as error:
+        damaged = verify(folder).damaged
+        if not damaged:
+            raise
+        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup") from error
 
 
 def _table(*head: str) -> Any:

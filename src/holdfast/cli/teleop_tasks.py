@@ -11,6 +11,7 @@ import typer
 
 from holdfast.cli.options import JsonOption, console, number, print_json, read_arm, read_task
 from holdfast.errors import StoreError
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,7 +76,7 @@ def tasks(
         files = [] if out is None else _folder(out, arm, model, rows, bank, cells, chosen, apart, seed)
     if json_:
         data = {
-            "arm": model.name,
+            **model.entry(),
             "tasks": len(bank),
             "cells_occupied": len(cells.occupied),
             "chosen": chosen + 1,
@@ -116,7 +117,7 @@ def _folder(
     file = out / "bank.csv"
     try:
         out.mkdir(parents=True, exist_ok=True)
-        bank_table(bank, arm, cells).to_csv(file, index=False)
+        replaced(file, bank_table(bank, arm, cells).to_csv(index=False))
     except OSError as error:
         raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
     protocol = _protocol(spec, arm, rows, bank, every, seed)
@@ -178,7 +179,7 @@ def _print(
     out = console()
     count = (len(cells.difficulty) - 1) * (len(cells.ratio) - 1)
     out.print(
-        f"Arm {escape(arm.name)}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers", soft_wrap=True
+        f"Arm {escape(arm.title)}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers", soft_wrap=True
     )
     table = Table(
         "scenario",

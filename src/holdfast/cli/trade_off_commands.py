@@ -11,6 +11,7 @@ import typer
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -35,6 +36,7 @@ def trade_off(
     seed: Annotated[int, typer.Option("--seed", help="Of the samples.", min=0)] = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the curves into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
 ) -> None:
@@ -44,7 +46,7 @@ def trade_off(
     """
     from holdfast.control import trade_off as run
 
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     errors = read_numbers("--allowed", allowed, "numbers from 0 to below 1")
     curve = run(model, read_task(task, arm, model), samples, errors, seed)
     if plot is not None:
@@ -66,7 +68,7 @@ def _data(curve: TradeOff, seed: int) -> dict[str, Any]:
         told[name] = {f"q{round(100 * level):02d}": row.tolist() for level, row in zip(QUANTILES, quantiles, strict=True)}
         told[name]["median_95_percent_interval"] = interval.T.tolist()
     return {
-        "arm": curve.arm.name,
+        **curve.arm.entry(),
         "task": curve.task.name,
         "characteristic_length_m": curve.task.length,
         "samples": len(curve.gain),
@@ -82,7 +84,7 @@ def _print(curve: TradeOff, plot: Path | None) -> None:
 
     out = console()
     out.print(
-        f"Arm {escape(curve.arm.name)}, task {escape(curve.task.describe())}: {len(curve.gain)} random configurations and "
+        f"Arm {escape(curve.arm.title)}, task {escape(curve.task.describe())}: {len(curve.gain)} random configurations and "
         "directions",
         soft_wrap=True,
     )

@@ -12,6 +12,7 @@ from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
     BaseOption,
+    HoldOption,
     JsonOption,
     TaskOption,
     TipOption,
@@ -105,6 +106,7 @@ def workspace(
     seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
     base: BaseOption = None,
     tip: TipOption = None,
+    hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
     """From where does the hand still come to a target when a joint locks on the way and nobody knows?
@@ -116,7 +118,7 @@ def workspace(
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
-    model = read_arm(arm, base, tip)
+    model = read_arm(arm, base, tip, hold)
     wanted = read_task(task, arm, model)
     if laws is None:
         made = [read_law(law, model, wanted, weights, damping, pre_failure_error)]
@@ -144,7 +146,9 @@ def workspace(
             "--procedure, --sampled, --whole and --points belong to the measures; leave them out, or --map and --laws"
         )
     options = {
-        "targets": _places(target) if target.startswith(("grid", "random:")) else read_target(made[0].task, target),
+        "targets": _places(target)
+        if target.startswith(("grid", "random:"))
+        else read_target(made[0].arm, made[0].task, target),
         "starts": _places(starts or "1000"),
         "configurations": 20 if configurations is None else configurations,
         "over": over,
@@ -163,7 +167,7 @@ def _measures(law: Law, target: str, options: dict[str, Any], out: Path | None, 
     from holdfast.converge import workspace as run
     from holdfast.converge.workspace_output import save, summary
 
-    goal = read_target(law.task, target)
+    goal = read_target(law.arm, law.task, target)
     with progress_bar(json_, "starts") as progress:
         w = run(law, goal, store=None if out is None else out / "run", progress=progress, **options)
     files = [] if out is None else save(w, out)

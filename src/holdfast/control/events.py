@@ -26,7 +26,7 @@ from holdfast.arm.task import Task
 from holdfast.control.resolution import slope_along
 from holdfast.control.trajectory import Event
 from holdfast.indices import Objective
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -53,6 +53,7 @@ class Curvature:
         self.free = objective.arm.n - task.m
 
     @cached_property
+    @recalled
     def _kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.objective.arm)
         null, slope = slope_along(self.objective, self.task, q)

@@ -7,12 +7,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.configurations import finite_limits
 from holdfast.errors import InputError, StoreError
+from holdfast.versions import versions
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
+
+Array = NDArray[np.float64]
+CASES, TRIES = 5, 1000
+WELL_CONDITIONED = 100.0  # then a sine that differs in its last digit does not matter
+TOLERANCE = 1e-9  # of the largest rate
 
 _KEYWORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
@@ -31,70 +41,242 @@ def check_name(name: str) -> str:
     return name
 
 
-def c_source(law: Law, name: str) -> tuple[str, str]:
-    """Text of ``NAME.c`` and ``NAME.h``; see :meth:`holdfast.control.Law.export_c`."""
+def c_files(law: Law, name: str) -> dict[str, str]:
+    """Text of ``NAME.c``, ``NAME.h``, ``NAME_example.c`` and ``NAME_test.c``; see :meth:`holdfast.control.Law.export_c`."""
     check_name(name)
-    n, m = law.arm.n, law.task.m
-    q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", m)
+    q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m)
     told = law.outputs(q, v)
-    results = [ca.densify(x) for x in told.values()]
-    inner = ca.Function(f"{name}_law", [q, v], results, ["q", "v"], list(told), {"cse": True})
+    function = ca.Function(f"{name}_law", [q, v], [ca.densify(x) for x in told.values()], ["q", "v"], list(told), {"cse": True})
+    about = _about(law, name, list(told)[1:])
+    return {
+        f"{name}.c": f'{about}\n#include "{name}.h"\n\n{_source(law, name, function)}',
+        f"{name}.h": f"{about}\n{_header(law, name, function)}",
+        f"{name}_example.c": _example(law, name, function),
+        f"{name}_test.c": _test(law, name, function),
+    }
+
+
+def _signature(law: Law, name: str, function: ca.Function) -> str:
+    arguments = [f"const double q[{law.arm.n}]", f"const double v[{law.task.m}]", f"double rates[{law.arm.n}]"]
+    return f"int {name}({', '.join(arguments + [f'double *{x}' for x in function.name_out()[1:]])})"
+
+
+def _source(law: Law, name: str, function: ca.Function) -> str:
+    n, m, others = law.arm.n, law.task.m, function.name_out()[1:]
     generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
-    generator.add(inner)
-    others = list(told)[1:]
-    arguments = ", ".join(
-        [f"const double q[{n}]", f"const double v[{m}]", f"double rates[{n}]"] + [f"double *{x}" for x in others]
-    )
-    signature = f"int {name}({arguments})"
-    guard = f"{name.upper()}_H"
-    header = f"{_about(law, name, others)}\n#ifndef {guard}\n#define {guard}\n\n{signature};\n\n#endif\n"
+    generator.add(function)
     copies = "".join(f"    if ({x}) *{x} = fine ? out_{x} : 0;\n" for x in others)
+    declared = f"    int iw[{max(function.sz_iw(), 1)}];\n    double w[{max(function.sz_w(), 1)}];\n"
+    declared += "".join(f"    double out_{x} = 0;\n" for x in others)
+    names = ", ".join(_quoted(x) for x in law.arm.joint_names)
     # Zero rates stop an arm; NaN would go on to its drives.
-    body = f"""
-{signature} {{
-    const double *arg[{max(inner.sz_arg(), 2)}] = {{q, v}};
-    double *res[{max(inner.sz_res(), len(told))}] = {{rates{"".join(f", &out_{x}" for x in others)}}};
+    return f"""{generator.dump()}
+const char *const {name}_joints[{n}] = {{{names}}};
+
+int {name}_check_joints(const char *const names[], int count) {{
+    int k, i;
+    for (k = 0; k < {n}; ++k) {{
+        if (k >= count || !names[k]) return k + 1;
+        for (i = 0; names[k][i] && names[k][i] == {name}_joints[k][i]; ++i) {{}}
+        if (names[k][i] != {name}_joints[k][i]) return k + 1;
+    }}
+    return count > {n} ? {n + 1} : 0;
+}}
+
+{_signature(law, name, function)} {{
+{declared}    const double *arg[{max(function.sz_arg(), 2)}] = {{q, v}};
+    double *res[{max(function.sz_res(), len(others) + 1)}] = {{rates{"".join(f", &out_{x}" for x in others)}}};
     int fine = 1, k;
     for (k = 0; k < {n}; ++k) fine = fine && q[k] - q[k] == 0;
     for (k = 0; k < {m}; ++k) fine = fine && v[k] - v[k] == 0;
     if (fine) {{
-        {inner.name()}(arg, res, iw, w, 0);
+        {function.name()}(arg, res, iw, w, 0);
         for (k = 0; k < {n}; ++k) fine = fine && rates[k] - rates[k] == 0;
     }}
     for (k = 0; k < {n} && !fine; ++k) rates[k] = 0;
 {copies}    return fine ? 0 : 1;
 }}
 """
-    declared = f"    int iw[{max(inner.sz_iw(), 1)}];\n    double w[{max(inner.sz_w(), 1)}];\n"
-    declared += "".join(f"    double out_{x} = 0;\n" for x in others)
-    body = body.replace("{\n", "{\n" + declared, 1)
-    return f'{_about(law, name, others)}\n#include "{name}.h"\n\n{generator.dump()}{body}', header
 
 
-def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path]:
-    """Write both files.
+def _header(law: Law, name: str, function: ca.Function) -> str:
+    guard = f"{name.upper()}_H"
+    return f"""#ifndef {guard}
+#define {guard}
+
+#define {name.upper()}_JOINTS {law.arm.n}
+#define {name.upper()}_ROWS {law.task.m}
+/* What made this file, and of which arm: Arm.fingerprint in Python, "fingerprint" in 'holdfast describe --json'. */
+#define {name.upper()}_HOLDFAST "{_version()}"
+#define {name.upper()}_ARM "{law.arm.fingerprint}"
+
+#ifdef __cplusplus
+extern "C" {{
+#endif
+
+/* The joints in the order of q and rates. */
+extern const char *const {name}_joints[{law.arm.n}];
+
+/* 0 if the joints of a driver are these, in this order; else the place, from 1, of the first that is not. */
+int {name}_check_joints(const char *const names[], int count);
+
+{_signature(law, name, function)};
+
+#ifdef __cplusplus
+}}
+#endif
+
+#endif
+"""
+
+
+def _example(law: Law, name: str, function: ca.Function) -> str:
+    n, m = law.arm.n, law.task.m
+    start = law.arm.states.get("home", np.mean(finite_limits(law.arm), axis=0))
+    names = ", ".join(_quoted(x) for x in law.arm.joint_names)
+    nulls = ", 0" * (function.n_out() - 1)
+    return f"""/*
+ * A control loop around {name}: an arm without dynamics follows the rates for one second.
+ * cc -std=c99 {name}.c {name}_example.c -lm -o {name}_example
+ */
+#include "{name}.h"
+
+#include <stdio.h>
+
+/* The joints as your driver orders them: fill this from the driver, not from {name}_joints. */
+static const char *const driver[] = {{{names}}};
+
+int main(void) {{
+    double q[{n}] = {{{_numbers(start)}}}; /* rad, m; read it from the drives */
+    double v[{m}] = {{{_numbers([0.01] + [0.0] * (m - 1))}}}; /* {law.task.name}, {law.task.frame} frame, m/s and rad/s */
+    double rates[{n}];
+    const double cycle = 0.01; /* s */
+    int wrong = {name}_check_joints(driver, {n}), k, i;
+    if (wrong) {{
+        fprintf(stderr, "joint %d of the driver is not the arm's\\n", wrong);
+        return 2;
+    }}
+    for (k = 0; k < 100; ++k) {{
+        if ({name}(q, v, rates{nulls})) {{
+            fprintf(stderr, "no answer in cycle %d: the arm stands still\\n", k);
+            return 1;
+        }}
+        for (i = 0; i < {n}; ++i) q[i] += cycle * rates[i]; /* send the rates to the drives */
+    }}
+    for (i = 0; i < {n}; ++i) printf("%s %.9f\\n", {name}_joints[i], q[i]);
+    return 0;
+}}
+"""
+
+
+def _test(law: Law, name: str, function: ca.Function) -> str:
+    n, m = law.arm.n, law.task.m
+    cases = _cases(law, function)
+    nulls = ", 0" * (function.n_out() - 1)
+    rows = ",\n".join(
+        f"    {{{{{_numbers(q)}}},\n     {{{_numbers(v)}}},\n     {{{_numbers(rates)}}}}}" for q, v, rates in cases
+    )
+    return f"""/*
+ * Does {name} compute here what holdfast {_version()} computed where it was written? Returns 0 if so.
+ * cc -std=c99 {name}.c {name}_test.c -lm -o {name}_test
+ */
+#include "{name}.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const struct {{ double q[{n}], v[{m}], rates[{n}]; }} cases[{len(cases)}] = {{
+{rows}}};
+
+int main(void) {{
+    double rates[{n}], q[{n}], size, off;
+    volatile double zero = 0;
+    int bad = 0, k, i;
+    for (k = 0; k < {len(cases)}; ++k) {{
+        int code = {name}(cases[k].q, cases[k].v, rates{nulls});
+        for (size = off = 0, i = 0; i < {n}; ++i) {{
+            size = fmax(size, fabs(cases[k].rates[i]));
+            off = fmax(off, fabs(rates[i] - cases[k].rates[i]));
+        }}
+        if (code || !(off <= {TOLERANCE:g} * size)) {{
+            printf("case %d: returned %d, rates differ by %g of their size\\n", k + 1, code, off / size);
+            bad = 1;
+        }}
+    }}
+    for (i = 0; i < {n}; ++i) q[i] = zero / zero;
+    if ({name}(q, cases[0].v, rates{nulls}) != 1 || rates[0] != 0) {{
+        printf("NaN in q must return 1 and zero rates; was this compiled with -ffast-math?\\n");
+        bad = 1;
+    }}
+    if ({name}_check_joints({name}_joints, {n}) != 0 || {name}_check_joints({name}_joints, {n - 1}) != {n}) {{
+        printf("the check of the joints is broken\\n");
+        bad = 1;
+    }}
+    puts(bad ? "failed" : "passed");
+    return bad;
+}}
+"""
+
+
+def _cases(law: Law, function: ca.Function) -> list[tuple[Array, Array, Array]]:
+    """Configurations away from singular ones, commands, and the rates that holdfast gives them."""
+    rng, found = np.random.default_rng(0), []
+    jacobian = ca.Function("jacobian", [q := kinematics.joint_symbols(law.arm)], [law.jacobian(q)])
+    low, high = finite_limits(law.arm)
+    for _ in range(TRIES):
+        at, v = rng.uniform(low, high), rng.normal(size=law.task.m)
+        rates = np.asarray(function(at, v)[0] if function.n_out() > 1 else function(at, v)).ravel()
+        if np.linalg.cond(np.asarray(jacobian(at))) < WELL_CONDITIONED and np.isfinite(rates).all():
+            found.append((at, v, rates))
+        if len(found) == CASES:
+            return found
+    if found:
+        return found
+    raise InputError(
+        f"'{law.arm.name}' is close to singular for task '{law.task.name}' everywhere, so its law cannot be tested; choose "
+        "another task"
+    )
+
+
+def _version() -> str:
+    return versions("holdfast")["holdfast"]
+
+
+def _numbers(values: ArrayLike) -> str:
+    return ", ".join(repr(float(x) + 0.0) for x in np.asarray(values))
+
+
+def _quoted(text: str) -> str:
+    """A C string; bytes that are not plain ASCII in octal."""
+    plain = "".join(chr(b) if 32 <= b < 127 and b not in b'"\\?' else f"\\{b:03o}" for b in text.encode())
+    return f'"{plain}"'
+
+
+def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Path]:
+    """Write all four files.
 
     Raises:
         StoreError: They cannot be written.
     """
-    source, header = c_source(law, name)
+    texts = c_files(law, name)
     target = Path(folder)
-    files = target / f"{name}.c", target / f"{name}.h"
+    source, header, example, test = (target / file for file in texts)
     try:
         target.mkdir(parents=True, exist_ok=True)
-        for file, text in zip(files, (source, header), strict=True):
-            file.write_text(text, encoding="utf-8")
+        for file, text in texts.items():
+            replaced(target / file, text)
     except OSError as error:
         raise StoreError(
             f"cannot write '{name}.c' into '{target}': {error.strerror or error}; choose another folder"
         ) from error
-    return files
+    return source, header, example, test
 
 
 def _about(law: Law, name: str, others: list[str]) -> str:
     units = ", ".join(f"{j.name} [{j.unit}]" for j in law.arm.joints)
     lines = [
-        f"{name}: {law.phrase()}, for the arm '{law.arm.name}'. Made by holdfast; C99, needs only math.h.",
+        f"{name}: {law.phrase()}, for the arm {law.arm.title}.",
+        f"Made by holdfast {_version()} of the arm {law.arm.fingerprint}; C99, needs only math.h.",
         "",
         f"q      joint positions: {units}",
         f"v      velocity of the task's rows ({law.task.name}, {law.task.frame} frame), m/s and rad/s",

@@ -25,8 +25,9 @@ class FailureTolerant(Law):
     PKE may have several minima as a function of lambda for m >= 3, and the search is global: a grid in lambda^2, even near 0
     and logarithmic beyond, and a refinement of its best cells, all of fixed length. Measured against the exact
     optimum from polynomial roots on 8,000 random cases each of a 3R arm (m = 2) and a 7R arm (m = 3), and against a dense
-    grid on 20,000 each, none was worse by more than 1e-9; for the 7R
-    arm's pose (m = 6) 1 in 20,000 was, by more than 1e-6: a narrow minimum was missed, and PKE was 6e-4 of itself too large.
+    grid on 20,000 each, none was worse by more than 1e-9. Of full poses
+    (m = 6) about 1 in 3,000 was (an iiwa14, by 2e-6; of an earlier 20,000 of a 7R arm the worst missed a narrow minimum, and
+    PKE was 6e-4 of itself too large).
 
     Where the arm is singular and the part of the command that it cannot produce is the allowed error or more, no damping
     meets (9): :meth:`feasible` is False, and lambda is 1e-3 in the unit of the scaled Jacobian (m for a position task). A

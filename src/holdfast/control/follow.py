@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked
 from holdfast.control.events import Course, Curvature, events
 from holdfast.control.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.control.resolution import Resolution, chosen_task
 from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices import Objective
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.paths import TimedPath
 from holdfast.solve import optimise, solve_ik, solver
 from holdfast.solve.fibre_path import best_path
@@ -39,6 +40,7 @@ _AT = 1e-6  # rad and m from a limit
 _GRID = 101  # poses whose whole manifold is traced
 
 
+@checked
 def follow(
     arm: Arm,
     path: TimedPath,
@@ -274,6 +276,7 @@ def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Arr
     return joints, rates, shares
 
 
+@recalled
 def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) -> Kernel:
     """From q and a target pose to the next q, the rates that lead there, and the shares."""
     arm = law.arm

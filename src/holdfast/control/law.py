@@ -26,7 +26,7 @@ from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
 from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]
 
@@ -106,11 +106,13 @@ class Law(ABC):
     # ---- numbers -----------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _velocity_kernel(self) -> Kernel:
         q, v = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m)
         return Kernel(self.name, [q, v], list(self.outputs(q, v).values()))
 
     @cached_property
+    @recalled
     def _deviation_kernel(self) -> Kernel:
         q, v, rates = kinematics.joint_symbols(self.arm), ca.SX.sym("v", self.task.m), ca.SX.sym("rates", self.arm.n)
         return Kernel(
@@ -215,19 +217,24 @@ class Law(ABC):
         count = max(len(np.atleast_2d(a)), len(np.atleast_2d(b)))
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
 
-    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path]:
-        """Write the law as a C99 file that needs nothing but ``math.h``, and its header.
+    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path, Path, Path]:
+        """Write the law as a C99 file that needs nothing but ``math.h``, its header, an example and a test.
 
         The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0; or 1 and zero rates
         where an input is not finite or the law has no answer. What else the law computes (:meth:`outputs`) follows the rates.
-        The same inputs give what :meth:`velocity` gives, to rounding.
+        The same inputs give what :meth:`velocity` gives, to rounding. ``NAME_check_joints`` compares the joints of a driver, by
+        name, with the order of q. The header, which C++ takes too, holds holdfast's version and the arm's fingerprint.
 
         Args:
-            folder: Where ``NAME.c`` and ``NAME.h`` go; made if it is not there.
+            folder: Where the files go; made if it is not there.
             name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
 
+        Returns:
+            ``NAME.c``, ``NAME.h``, ``NAME_example.c`` (a control loop) and ``NAME_test.c`` (returns 0 if the compiled function
+            gives what holdfast computed for five configurations).
+
         Raises:
-            InputError: A name that C does not take.
+            InputError: A name that C does not take, or an arm that is close to singular everywhere.
             StoreError: The files cannot be written.
         """
         return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)

@@ -32,7 +32,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.control.step import Step
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import Cholesky, gram, householder, lowest
 from holdfast.status import Status
 
@@ -252,6 +252,7 @@ class Resolution(ABC):
     # ---- calls -------------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _kernel(self) -> Kernel:
         q, twist = kinematics.joint_symbols(self.arm), ca.SX.sym("twist", 6)
         return Kernel(self.name, [q, twist], [self.expression(q, twist)])

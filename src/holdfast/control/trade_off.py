@@ -18,7 +18,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.control import damping_search, deviation
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +65,7 @@ class TradeOff:
         """A few sentences for people."""
         middle, paid = np.median(self.gain, axis=0), np.median(self.healthy_error, axis=0)
         low, high = self.median_interval()
-        lines = [f"'{self.arm.name}', task {self.task.describe()}, {len(self.gain)} configurations and directions"]
+        lines = [f"{self.arm.title}, task {self.task.describe()}, {len(self.gain)} configurations and directions"]
         for k, e in enumerate(self.allowed):
             lines.append(
                 f"pre-failure error up to {e:.2f}: median peak error after a failure {middle[k]:.3f} of the pseudoinverse's "
@@ -159,6 +159,7 @@ def trade_off(
     return TradeOff(arm, chosen, e, peak / none[:, None], healthy, peak)
 
 
+@recalled
 def _kernel(arm: Arm, task: Task) -> Kernel:
     """Peak and healthy error of a configuration, a scaled direction and the allowed error."""
     q, u, e = kinematics.joint_symbols(arm), ca.SX.sym("u", task.m), ca.SX.sym("allowed")

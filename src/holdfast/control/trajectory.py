@@ -15,6 +15,7 @@ from holdfast.control.slow_motion import SlowMotion, slow_enough
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility import Susceptibility
+from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
 
@@ -182,7 +183,7 @@ class Trajectory:
 
                 parquet.write_table(pyarrow.table(table), target)
             else:
-                with target.open("w", newline="", encoding="utf-8") as file:
+                with writing(target) as file:
                     writer = csv.writer(file)
                     writer.writerow(table)
                     writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
@@ -223,7 +224,7 @@ class Trajectory:
     def describe(self) -> list[str]:
         """A few sentences for people: how far, how well, and what happened."""
         lines = [
-            f"{self.headline}; {self.method} on '{self.arm.name}', {self.time[-1]:.4g} s, {len(self.time)} samples",
+            f"{self.headline}; {self.method} on {self.arm.title}, {self.time[-1]:.4g} s, {len(self.time)} samples",
             f"{self.objective.name}: {self.value[0]:.4g} at the start, {self.value[-1]:.4g} at the end, "
             f"mean {self.value.mean():.4g}, range {self.value.min():.4g} to {self.value.max():.4g}",
             f"largest norm of the joint rates {self.peak_rate:.4g} rad/s at {self.peak_time:.4g} s",

@@ -308,7 +308,7 @@ class _Facts:
             ("Rate cap", "none" if t.rate_cap is None else f"{t.rate_cap:g} rad/s"),
             ("Steps", f"{t.steps:,} of {t.time[-1] / t.steps:.3g} s; {len(t.time):,} samples of them are kept"),
             ("Seed", str(t.seed)),
-            ("Arm", t.arm.source or "no source given"),
+            ("Arm", t.arm.provenance),
             ("Fingerprint of the arm", Markup("<code>{}</code>").format(t.arm.fingerprint)),
             ("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {platform.python_version()}"])),
         ]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import finite_limits, without_limits
 from holdfast.arm.targets import target_pose
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind
 from holdfast.converge.rest_system import RestSystem, distinct
@@ -61,7 +62,7 @@ class Basins:
 
     @property
     def shares(self) -> list[tuple[str, Interval]]:
-        """What was arrived at, solutions and sinks always, and the share of starts with its Wilson interval."""
+        """What was arrived at, solutions and sinks always, and the share of starts with its exact interval."""
         always = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
         codes = sorted({*self.end.tolist(), *np.flatnonzero(always).tolist()}, key=lambda k: (k < 0, abs(k)))
         return [(self.name(k), Interval.of(int((self.end == k).sum()), len(self.end), self.confidence)) for k in codes]
@@ -87,6 +88,7 @@ class Basins:
         return lines + [f"{name}: {share}" for name, share in self.shares]
 
 
+@checked
 def basins(
     law: Law,
     target: ArrayLike,

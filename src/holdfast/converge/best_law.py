@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.convergence_map import ConvergenceMap, convergence_map, shared
 from holdfast.converge.starts import Places
@@ -48,22 +49,24 @@ class LawChoice:
         """
         check_confidence(confidence)
         one = self.map_of(name)
-        return shared(self._by_place(name, joint), int(one.known.sum()), confidence)
+        each = int(one.known.sum(axis=1).max(initial=0)) * (one.law.arm.n if joint is None else 1)
+        return shared(self._by_place(name, joint), each, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, confidence: float = 0.95) -> Difference:
         """How much more often the hand arrives under a law than under another, on the same failures.
 
-        The interval is Student's over the differences of the places, which are independent; the motions of one are not.
+        The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
+        (:meth:`holdfast.interval.Difference.of_fractions`).
 
         Raises:
-            InputError: No such law or joint, or fewer than two places.
+            InputError: No such law or joint, or no place with a motion.
         """
         check_confidence(confidence)
         apart = self._by_place(name, joint) - self._by_place(other, joint)
         apart = apart[~np.isnan(apart)]
-        if apart.size < 2:
-            raise InputError(f"{apart.size} places have motions; an interval needs 2 or more")
-        return Difference.of_means(apart, confidence)
+        if not apart.size:
+            raise InputError("no place has a motion; choose places within reach")
+        return Difference.of_fractions(apart, confidence)
 
     @property
     def ranking(self) -> list[str]:
@@ -79,13 +82,13 @@ class LawChoice:
         """A few sentences for people."""
         first, best = self.maps[0], self.best
         lines = [
-            f"{len(self.names)} laws on '{first.law.arm.name}', task {first.law.task.describe()}: the same "
+            f"{len(self.names)} laws on {first.law.arm.title}, task {first.law.task.describe()}: the same "
             f"{int(first.known.sum()) * first.law.arm.n} failures, {int(first.known.any(axis=1).sum())} {first.over}"
         ]
         for name in self.ranking:
             s = self.share(name)
             line = f"{name}: arrives after {100 * s.value:.1f} % of the failures ({100 * s.low:.1f} to {100 * s.high:.1f} %)"
-            if name != best and int(first.known.any(axis=1).sum()) > 1:
+            if name != best:
                 d = self.difference(name, best)
                 line += f", {100 * d.value:+.1f} points against the best ({100 * d.low:+.1f} to {100 * d.high:+.1f})"
             lines.append(line)
@@ -97,6 +100,7 @@ class LawChoice:
         return values.mean(axis=1) if joint is None else values[:, one.law.arm.joint_index(joint)]
 
 
+@checked
 def best_law(
     laws: Mapping[str, Law] | Sequence[Law],
     targets: ArrayLike | str | int | Places,

@@ -12,6 +12,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_pose
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.converge.critical import CriticalPoints, critical_points
 from holdfast.errors import InputError, TaskError
 from holdfast.solve import joint_space
@@ -28,6 +29,7 @@ _SAME = 1e-6  # rad and m: critical values nearer than this are one
 _INSIDE = 1e-4  # rad and m: nearer to a cut, a value says nothing: at the edge of the workspace it may be that wrong
 
 
+@checked
 def joint_bounds(
     arm: Arm,
     target: ArrayLike,

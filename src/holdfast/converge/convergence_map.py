@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations as as_configurations
 from holdfast.arm.configurations import without_idle_limits
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.starts import Places, picked_at, read_places
 from holdfast.errors import InputError
@@ -97,18 +98,19 @@ class ConvergenceMap:
     def shares(self, outcome: str = "converged", confidence: float = 0.95) -> dict[str, Interval]:
         """Share of the places' motions that ended so, for each locked joint by name and for ``none``.
 
-        Every place counts alike. The interval is Wilson's for as many independent runs as would be as uncertain: the motions
-        of one place resemble each other, so that they count for less than their number and for more than one.
+        Every place counts alike. The motions of one place resemble each other, so the unit is the place: with one motion each
+        the interval is that of a share (:meth:`holdfast.assess.Interval.of`), with several that of a mean of fractions
+        (:meth:`holdfast.assess.Interval.of_fractions`). Both always cover, for places that are a random sample.
         """
         check_confidence(confidence)
-        values = self.values(outcome)
-        return {name: shared(values[:, k], int(self.known.sum()), confidence) for k, name in enumerate(self.columns)}
+        values, each = self.values(outcome), int(self.known.sum(axis=1).max(initial=0))
+        return {name: shared(values[:, k], each, confidence) for k, name in enumerate(self.columns)}
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         runs = int(self.known.sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {int(self.known.any(axis=1).sum())} of {len(self.places)} "
+            f"{self.law.describe()} on {self.law.arm.title}: {int(self.known.any(axis=1).sum())} of {len(self.places)} "
             f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
         every = {outcome: self.shares(outcome) for outcome in (*_OUTCOMES, "trapped")} if runs else {}
@@ -130,22 +132,21 @@ class ConvergenceMap:
         return {r.name.lower(): int((self.reason == r).sum()) for r in Reason if r}
 
 
-def shared(values: Array, runs: int, confidence: float) -> Interval:
-    """Mean of the shares (P,) of places, NaN left out, with the interval that their spread says; of ``runs`` in all.
+def shared(values: Array, each: int, confidence: float) -> Interval:
+    """Mean of the shares (P,) of independent places, NaN left out, with its interval; of one motion each, or of several.
 
     Raises:
         InputError: No place has a share.
     """
     values = values[~np.isnan(values)]
-    count = values.size
-    if not count:
+    if not values.size:
         raise InputError("no configuration was found at any place, so there are no shares; choose places within reach")
-    mean = float(values.mean())
-    spread = float(values.var(ddof=1)) / count if count > 1 else 0.0
-    effective = mean * (1 - mean) / spread if spread > 0 else count
-    return Interval.of_share(mean, min(max(effective, count), max(runs, 1)), confidence)
+    if each == 1:
+        return Interval.of(int(values.sum()), values.size, confidence)
+    return Interval.of_fractions(values, confidence)
 
 
+@checked
 def convergence_map(
     law: Law,
     targets: ArrayLike | str | int | Places,

@@ -162,7 +162,7 @@ class Curves:
         factor, unit = arm.joints[self.joint].shown
         name = arm.joint_names[self.joint]
         lines = [
-            f"'{arm.name}' under {self.law.describe()}, {name} locked at any value: {len(self)} curves, {self.starts} starts"
+            f"{arm.title} under {self.law.describe()}, {name} locked at any value: {len(self)} curves, {self.starts} starts"
         ]
         arcs = ", ".join(f"{factor * a:.3f} to {factor * b:.3f}" for a, b in self.sink_arcs)
         lines.append(f"it gets stuck with {name} at {arcs} {unit}" if arcs else "no sinks were found")

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.scale import length_unit
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
-from holdfast.kernels import Kernel, Loop
+from holdfast.kernels import Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
 
@@ -75,15 +75,18 @@ class RestEquations:
         self._slopes = ca.jacobian(self._equations, self._z)
 
     @cached_property
+    @recalled
     def _kernel(self) -> Kernel:
         inputs, outputs = [self._z, *self.system.parameters], [self._equations, self._slopes]
         return Kernel("rest", inputs, outputs)
 
     @cached_property
+    @recalled
     def _pulls(self) -> Kernel:
         return Kernel("pull of rest", [self._z, *self.system.parameters], [self._pull])
 
     @cached_property
+    @recalled
     def _search(self) -> Loop:
         """Levenberg and Marquardt: a step is kept if it lowers the norm."""
         free, damping = ca.SX.sym("free", self.size), ca.SX.sym("damping")

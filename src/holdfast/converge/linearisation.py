@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.motion import System
 
 Array = NDArray[np.float64]
@@ -66,6 +66,7 @@ class Linearisation:
         self.law, self._system = law, System(law)
 
     @cached_property
+    @recalled
     def _rates(self) -> Kernel:
         s = self._system
         e, _ = s.error(s.q)
@@ -73,6 +74,7 @@ class Linearisation:
         return Kernel("rest rates", [s.q, s.target, s.rotation], [ca.vertcat(self.law.rates(s.q, e), *sizes)])
 
     @cached_property
+    @recalled
     def _slopes(self) -> Kernel:
         s = self._system
         e, j = s.error(s.q)

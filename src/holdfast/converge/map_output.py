@@ -24,7 +24,7 @@ def summary(m: ConvergenceMap) -> dict[str, Any]:
     for word in _WORDS:
         shares[word] = {name: {"share": s.value, "low": s.low, "high": s.high} for name, s in m.shares(word).items()}
     return {
-        "arm": m.law.arm.name,
+        **m.law.arm.entry(),
         "law": m.law.describe(),
         "task": m.law.task.name,
         "over": m.over,
@@ -107,4 +107,4 @@ def _means(m: ConvergenceMap, word: str) -> list[Any]:
     count = m.known.sum(axis=1)
     with np.errstate(invalid="ignore"):
         values = (m.happened(word) & ~m.in_reach).sum(axis=1) / np.where(count > 0, count, np.nan)[:, None]
-    return [shared(values[:, k], int(m.known.sum()), 0.95) for k in range(values.shape[1])]
+    return [shared(values[:, k], int(count.max()), 0.95) for k in range(values.shape[1])]

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.converge.starts import Places
 from holdfast.errors import StoreError
+from holdfast.whole_file import replaced, writing
 
 
 def axis_label(direction: NDArray[np.float64]) -> str:
@@ -40,12 +41,12 @@ def save_places(
     files = [place / f"{name}.csv", place / f"{name}.json"]
     try:
         place.mkdir(parents=True, exist_ok=True)
-        with files[0].open("w", encoding="utf-8", newline="") as stream:
+        with writing(files[0]) as stream:
             writer = csv.writer(stream)
             writer.writerow(["x_m", "y_m", "z_m", *columns])
             for row in np.column_stack([places.points, *values]):
                 writer.writerow(["" if np.isnan(x) else f"{x:.9g}" for x in row])
-        files[1].write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+        replaced(files[1], json.dumps(summary, indent=2) + "\n")
     except OSError as error:
         raise StoreError(f"cannot write to '{place}': {error.strerror or error}; choose another folder") from error
     return files

@@ -10,10 +10,12 @@ from numpy.typing import ArrayLike
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.solve.inverse import Reach, solver
 
 
+@checked
 def reachable_when_locked(
     arm: Arm,
     target: ArrayLike,

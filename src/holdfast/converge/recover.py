@@ -13,7 +13,9 @@ from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
+from holdfast.arm.tip import listed
 from holdfast.assess.region import Region
+from holdfast.checked import checked
 from holdfast.clearance import Clearance, too_close
 from holdfast.converge.recover_bounds import out_of_reach
 from holdfast.converge.recover_goal import Relaxed, RowsGivenUp, configurations_of, rows_to_give_up
@@ -50,11 +52,12 @@ class _Goal:
     lost: RowsGivenUp | None = None
 
 
+@checked
 def recover(
     arm: Arm,
     locked: Locked,
     at: ArrayLike,
-    goal: ArrayLike | Literal["home"] | None = "home",
+    goal: ArrayLike | str | None = "home",
     task: str | Task | Sequence[str] | None = None,
     *,
     path: Path | None = None,
@@ -79,10 +82,11 @@ def recover(
         locked: Where each locked joint stands, rad or m, by name or index from 0; or just the joints, which then stand as in
             ``at``.
         at: (n,) where the arm stands, rad and m.
-        goal: (4, 4) pose of the hand in the world, m; (n,) a configuration; ``"home"``: that of a built-in arm, of others the
-            middle of the limits; None, with a path: where that ends. A configuration means all its joints, unless a task is
-            given: then it means the hand's pose there. Where a locked joint stands elsewhere than a configuration asks, that
-            joint is given up and the hand's pose is aimed at.
+        goal: (4, 4) pose of the hand in the world, m; (n,) a configuration; the name of one of ``arm.states`` (a built-in arm's
+            home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of an arm without a state of this name:
+            all joints at 0, or at the limit nearest to it; None, with a path: where that ends. A configuration means all its
+            joints, unless a task is given: then it means the hand's pose there. Where a locked joint stands elsewhere than a
+            configuration asks, that joint is given up and the hand's pose is aimed at.
         task: Rows of the hand's pose that matter; if not given, the pose, or position for an arm that moves in a plane or for
             a path without orientations.
         path: The rest of a hand path, to be finished before going to the goal.
@@ -164,15 +168,13 @@ def recover(
     )
 
 
-def home_of(arm: Arm) -> Array:
-    """(n,) the home of a built-in arm, else the middle of the limits (0 where there are none), rad and m."""
-    from holdfast import arms
-
-    if arm.name in arms.names() and arms.about(arm.name).n == arm.n:
-        return np.array(arms.about(arm.name).home)
-    bounded = np.isfinite(arm.lower) & np.isfinite(arm.upper)
-    middle = np.where(bounded, (np.where(bounded, arm.lower, 0.0) + np.where(bounded, arm.upper, 0.0)) / 2, 0.0)
-    return np.clip(middle, arm.lower, arm.upper)
+def home_of(arm: Arm) -> tuple[Array, str]:
+    """Where home is, (n,), rad and m, and in words: the arm's state of this name, or every joint as near to 0 as it may be."""
+    if "home" in arm.states:
+        return arm.states["home"], "home"
+    q = np.clip(np.zeros(arm.n), arm.lower, arm.upper)
+    others = [name for name, value in zip(arm.joint_names, q, strict=True) if value]
+    return q, "all joints at 0" + (f", {', '.join(others)} at the limit nearest to it" if others else "")
 
 
 # ---- what was asked ------------------------------------------------------------------------------------------------------
@@ -211,7 +213,7 @@ def _task(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None) 
 
 def _goal(
     arm: Arm,
-    goal: ArrayLike | Literal["home"] | None,
+    goal: ArrayLike | str | None,
     by_hand: bool,
     standing: Array,
     free: Flags,
@@ -224,9 +226,10 @@ def _goal(
             raise InputError("there is neither a goal nor a path; give goal='home', a pose, a configuration, or a path")
         return None
     if isinstance(goal, str):
-        if goal != "home":
-            raise InputError(f"goal '{goal}' is not known; give 'home', a pose (4, 4) or a configuration ({arm.n},)")
-        text, q = "home", home_of(arm)
+        if goal != "home" and goal not in arm.states:
+            known = listed(list({"home": 0, **arm.states}))
+            raise InputError(f"goal '{goal}' is not known; give {known}, a pose (4, 4) or a configuration ({arm.n},)")
+        q, text = (arm.states[goal], goal) if goal in arm.states else home_of(arm)
     else:
         given = np.asarray(goal, dtype=np.float64)
         if given.ndim == 2 and given.shape == (4, 4):

@@ -25,7 +25,7 @@ class WhatIsLeft:
     A target counts as left if a configuration is found in ``starts`` random starts, so the share is a lower bound.
 
     Attributes:
-        left: Share of the targets that the healthy arm reaches, with its 95 % Wilson interval; None if it reaches none.
+        left: Share of the targets that the healthy arm reaches, with its exact 95 % interval; None if it reaches none.
         of_region: Share of all poses of the region that are left; None without a region.
         healthy_of_region: The same of the healthy arm; None without a region.
         region: What was sampled, for people.
@@ -80,7 +80,7 @@ def what_is_left(
     """
     arm = solver.arm
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
-    weights = np.ones(samples)
+    weights, heaviest = np.ones(samples), 0.0 if region is None else region.heaviest
     if region is None:
         poses = arm.forward_kinematics(_healthy(solver, clearance, margin, samples, rng))
         healthy, name = np.ones(len(poses), dtype=bool), "poses of random configurations"
@@ -96,9 +96,9 @@ def what_is_left(
     locked = healthy.copy()
     locked[healthy] = _reached(solver, poses[healthy], at, free, clearance, margin, rng)
     return WhatIsLeft(
-        _share(weights[healthy], locked[healthy]) if healthy.any() else None,
-        None if region is None else _share(weights, locked),
-        None if region is None else _share(weights, healthy),
+        _share(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
+        None if region is None else _share(weights, locked, heaviest),
+        None if region is None else _share(weights, healthy, heaviest),
         name,
         solver.rows.names,
         poses[:, :3, 3],
@@ -108,13 +108,13 @@ def what_is_left(
     )
 
 
-def _share(weights: Array, hits: Flags) -> Interval:
+def _share(weights: Array, hits: Flags, heaviest: float) -> Interval:
     if (weights == weights[0]).all():
         return Interval.of(int(hits.sum()), len(hits))
-    sums = Sums()
+    sums = Sums(largest=heaviest)
     sums.add(weights)
     share = min(float(weights[hits].sum() / sums.weight), 1.0)
-    return Interval.of_share(share, sums.weight**2 / sums.squares)
+    return Interval.of_share(share, sums.effective)
 
 
 def _healthy(solver: RowSolver, clearance: Clearance | None, margin: float, samples: int, rng: np.random.Generator) -> Array:

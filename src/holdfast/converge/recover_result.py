@@ -198,7 +198,7 @@ class Recovery:
             else f"{name} at {np.rad2deg(value):.4g} deg"
             for name, value in self.locked.items()
         )
-        lines = [f"'{self.arm.name}', locked: {stands}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
+        lines = [f"{self.arm.title}, locked: {stands}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
         if self.reason:
             lines.append(self.reason)
         if self.given_up is not None:

@@ -15,7 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.kernels import SX, Kernel, Loop
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.solve.inverse import damped_step, pose_error
 
 Array = NDArray[np.float64]
@@ -133,6 +133,7 @@ class RowSolver:
         return self._errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
 
     @cached_property
+    @recalled
     def _slopes(self) -> Kernel:
         q, p, r, slope = self._symbols
         return Kernel("slopes of the rows", [q, p, r], [ca.densify(-slope)])

@@ -20,6 +20,7 @@ from holdfast.arm.joint_table import joint_columns, read_joint_table
 from holdfast.arm.model import Arm
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
 
@@ -48,7 +49,7 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
     file = Path(path)
     name, values = parameter(arm, q)
     try:
-        with file.open("w", newline="", encoding="utf-8") as stream:
+        with writing(file) as stream:
             writer = csv.writer(stream)
             writer.writerow([name, *joint_columns(arm)])
             writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.targets import target_pose
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind, Kinds, attracts, kinds
 from holdfast.converge.rest_system import RestSystem, distinct, idle_joints, wrapped
@@ -95,7 +96,7 @@ class RestPoints:
         """A few sentences for people."""
         arm = self.law.arm
         where = ", ".join(f"{arm.joint_names[k]} at {_shown(arm, k, x)}" for k, x in zip(self.locked, self.at, strict=True))
-        lines = [f"'{arm.name}' under {self.law.describe()}, locked: {where}; {self.starts} starts"]
+        lines = [f"{arm.title} under {self.law.describe()}, locked: {where}; {self.starts} starts"]
         idle = [arm.joint_names[k] for k in idle_joints(self.law) if k not in self.locked]
         if idle:
             lines.append(f"the task does not notice {', '.join(idle)}, shown at 0")
@@ -118,6 +119,7 @@ class RestPoints:
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> RestPoints: ...
 @overload
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
+@checked
 def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0) -> RestPoints | Curves:
     """Where the arm can come to rest while its controller does not know that joints have locked.
 

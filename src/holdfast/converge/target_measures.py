@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.measures import NAMES
 from holdfast.converge.place_panels import measure_maps
@@ -62,8 +63,7 @@ class TargetMeasures:
         The unit is the target. NaN where no target has a value.
         """
         check_confidence(confidence)
-        runs = int(self.configurations.sum())
-        return {name: mean_intervals(v, runs, confidence) for name, v in self.measures.items()}
+        return {name: mean_intervals(v, confidence) for name, v in self.measures.items()}
 
     def target_intervals(self, confidence: float = 0.95) -> dict[str, Array]:
         """How sure the ``measures`` of each target are for starts that are a random sample: (T, n + 1, 2) each, percent.
@@ -71,18 +71,14 @@ class TargetMeasures:
         The unit is the start, as in :meth:`holdfast.Workspace.intervals`.
         """
         check_confidence(confidence)
-        runs = self.configurations.sum(axis=1).tolist()
-        return {
-            name: np.array([mean_intervals(v, count, confidence) for v, count in zip(values, runs, strict=True)])
-            for name, values in self.values.items()
-        }
+        return {name: np.array([mean_intervals(v, confidence) for v in values]) for name, values in self.values.items()}
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
         told = ", ".join(f"{count} {name}" for name, count in zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
         within = int(np.isfinite(self.measures["Ravg"][:, -1]).sum())
         return [
-            f"{self.law.describe()} on '{self.law.arm.name}': {within} of {len(self.targets)} targets within reach of motions "
+            f"{self.law.describe()} on {self.law.arm.title}: {within} of {len(self.targets)} targets within reach of motions "
             f"from {len(self.starts)} starts",
             f"failures: {told}",
         ]
@@ -103,7 +99,7 @@ class TargetMeasures:
         for name, sure in self.target_intervals().items():
             values += [self.measures[name], sure[..., 0], sure[..., 1]]
             columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
-        facts: dict[str, Any] = {"arm": self.law.arm.name, "law": self.law.describe(), "starts": len(self.starts)}
+        facts: dict[str, Any] = {"arm": self.law.arm.title, "law": self.law.describe(), "starts": len(self.starts)}
         files = save_places(folder, "targets", self.targets, columns, values, facts)
         for name, figure in self.figures().items():
             files.append(save_png(figure, Path(folder) / f"targets-{name}.png", 130))
@@ -119,6 +115,7 @@ class TargetMeasures:
         return measure_maps(self.law, self.targets, self.measures, about, f"{count} failures" if count else "")
 
 
+@checked
 def target_measures(
     law: Law,
     targets: ArrayLike | str | int | Places | None = None,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.converge import tolerant_planar, tolerant_sampled
 from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.errors import InputError, TaskError
@@ -94,6 +95,7 @@ class TolerantWorkspace:
         return f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({how})"
 
 
+@checked
 def tolerant_workspace(
     arm: Arm,
     task: str | Task | Sequence[str] = "position",

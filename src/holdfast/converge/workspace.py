@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked
 from holdfast.control.law import Law
-from holdfast.converge.convergence_map import shared
 from holdfast.converge.measures import FINISH, NAMES, REACH, Arcs, Measures
 from holdfast.converge.starts import Places, read_places
 from holdfast.converge.workspace_job import (
@@ -105,17 +105,17 @@ class Workspace:
         """How sure the means are for starts that are a random sample: (n + 1, 2) each, lower and upper end, percent.
 
         The unit is the start: configurations and failures of one start are alike, and however many there are, they only
-        make its own value more exact. NaN where no start has a value.
+        make its own value more exact. The intervals always cover, and are wide for few starts
+        (:meth:`holdfast.assess.Interval.of_fractions`). NaN where no start has a value.
         """
         check_confidence(confidence)
-        runs = int((self.configurations - self.lost).sum())
-        return {name: mean_intervals(values, runs, confidence) for name, values in self.measures.items()}
+        return {name: mean_intervals(values, confidence) for name, values in self.measures.items()}
 
     def throughout(self, name: str = "R100", confidence: float = 0.95) -> tuple[Interval, ...]:
         """Share of the starts, for each column, at which R100 (or F100) is 100: whatever their configuration.
 
         Only the configurations that were looked at are known, so that this is an upper bound of the share of starts at which
-        it holds for every configuration of the self-motion. The interval is Wilson's; NaN where no start has the measure.
+        it holds for every configuration of the self-motion. The interval is exact; NaN where no start has the measure.
 
         Raises:
             InputError: Another name.
@@ -133,7 +133,7 @@ class Workspace:
         """A few sentences for people."""
         reached = int((self.configurations > 0).sum())
         lines = [
-            f"{self.law.describe()} on '{self.law.arm.name}': {reached} of {len(self.places)} starts in reach, "
+            f"{self.law.describe()} on {self.law.arm.title}: {reached} of {len(self.places)} starts in reach, "
             f"{int(self.configurations.sum())} configurations, {int(self.lost.sum())} lost at singular configurations"
         ]
         ends = dict(zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
@@ -152,6 +152,7 @@ class Workspace:
         return lines
 
 
+@checked
 def workspace(
     law: Law,
     target: ArrayLike,
@@ -273,12 +274,12 @@ def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progr
     )
 
 
-def mean_intervals(values: Array, runs: int, confidence: float) -> Array:
+def mean_intervals(values: Array, confidence: float) -> Array:
     """(C, 2) ends of the intervals of the means of the columns of values (P, C), percent, of P independent places."""
     out = np.full((values.shape[1], 2), np.nan)
     for k, column in enumerate(values.T):
         if not np.isnan(column).all():
-            one = shared(column / 100, runs, confidence)
+            one = Interval.of_fractions(np.clip(column[~np.isnan(column)] / 100, 0.0, 1.0), confidence)
             out[k] = 100 * one.low, 100 * one.high
     return out
 

@@ -24,7 +24,7 @@ def summary(w: Workspace) -> dict[str, Any]:
     columns = w.columns
     reached = w.configurations > 0
     return {
-        "arm": w.law.arm.name,
+        **w.law.arm.entry(),
         "law": w.law.describe(),
         "task": w.law.task.name,
         "target": w.target.tolist(),

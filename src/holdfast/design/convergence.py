@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.starts import read_places
 from holdfast.design.arrival import Arrivals, Failures
@@ -80,7 +81,7 @@ class ConvergenceDesigns:
     def describe(self) -> list[str]:
         """A few sentences for people."""
         how = "from its stationary sets" if self.exact else "by simulation"
-        lines = [f"'{self.law.arm.name}' under {self.law.describe()}: {len(self.values)} designs, {how}"]
+        lines = [f"{self.law.arm.title} under {self.law.describe()}: {len(self.values)} designs, {how}"]
         for word, k in (("given", 0), ("best", self.best)):
             numbers = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.space.parameters, self.values[k], strict=True))
             told = ", ".join(f"{name} {100 * m[k]:.1f} %" for name, m in self.measures.items())
@@ -102,7 +103,7 @@ class ConvergenceDesigns:
             return {"values": values, **{name: float(m[k]) for name, m in self.measures.items()}}
 
         out: dict[str, Any] = {
-            "arm": self.law.arm.name,
+            **self.law.arm.entry(),
             "law": self.law.label,
             "task": self.law.task.name,
             "objective": self.objective,
@@ -141,6 +142,7 @@ class ConvergenceDesigns:
         return files
 
 
+@checked
 def design_for_convergence(
     law: Law,
     vary: Vary,
@@ -309,10 +311,8 @@ def _sampled(
 
 def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:
     """Of two designs: mean shares over the targets with their intervals, and of the difference."""
-    from holdfast.converge.convergence_map import shared
-
     shares = np.nan_to_num(arrivals.by_target)
     if shares.shape[1] < 2:
         return None
-    given, best = (shared(x, arrivals.arrived[0].size, 0.95) for x in shares)
-    return given, best, Difference.of_means(shares[1] - shares[0], 0.95)
+    given, best = (Interval.of_fractions(x) for x in shares)
+    return given, best, Difference.of_fractions(shares[1] - shares[0])

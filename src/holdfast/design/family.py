@@ -22,7 +22,7 @@ from holdfast.design.space import OF_TOOL, DesignSpace
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices import Index, by_name
-from holdfast.kernels import SX, Kernel, Loop
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import householder
 from holdfast.solve.inverse import damped_step, smooth_error, task_error
 from holdfast.solve.optimise import ascent_step
@@ -194,6 +194,7 @@ class Family:
         return kinematics.joint_symbols(self.arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
 
     @cached_property
+    @recalled
     def inverse(self) -> Loop:
         """State q; parameters position (3), rotation (9), design (k)."""
         q, p, r = self._pose
@@ -202,6 +203,7 @@ class Family:
         return Loop("inverse kinematics of designs", q, [p, r, self.x], step, residual)
 
     @cached_property
+    @recalled
     def errors(self) -> Kernel:
         """(q, p, r, x) to position error, m, and rotation error, rad."""
         q, p, r = self._pose
@@ -210,6 +212,7 @@ class Family:
         return Kernel("task error of designs", [q, p, r, self.x], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
 
     @cached_property
+    @recalled
     def misses(self) -> Kernel:
         """(q, p, r, x) to the error e (m,), ``J' e`` (n,) and ``d (e' e) / 2 / dx`` (k,): for poses out of reach."""
         q, p, r = self._pose
@@ -218,6 +221,7 @@ class Family:
         return Kernel("miss of designs", [q, p, r, self.x], [ca.vertcat(e, j.T @ e, by_design)])
 
     @cached_property
+    @recalled
     def ascent(self) -> Kernel:
         """(q, radius, last, p, r, x) to the next (q, radius, last): :func:`holdfast.solve.optimise.ascent_step`."""
         inputs, step = ascent_step(self.index, self.task)
@@ -232,12 +236,14 @@ class Family:
         return q, *self.index.scores(q, j, householder(j), units)
 
     @cached_property
+    @recalled
     def value(self) -> Kernel:
         """(q, x) to the index."""
         q, scores, _ = self._scored
         return Kernel("value of designs", [q, self.x], [ca.vertcat(*[self.index.value_of_score(s) for s in scores])])
 
     @cached_property
+    @recalled
     def conditions(self) -> Kernel:
         """(q, p, r, x) to what the conditions of an optimum are made of.
 
@@ -250,6 +256,7 @@ class Family:
         return Kernel("conditions of designs", [q, p, r, self.x], [ca.vertcat(*scores), table, c, ca.jacobian(c, q)])
 
     @cached_property
+    @recalled
     def by_design(self) -> Kernel:
         """(q, p, r, x, u, w) to the index, its slope by the score, and ``d (u' scores - w' error) / dx``."""
         q, p, r = self._pose

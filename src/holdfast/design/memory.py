@@ -68,7 +68,7 @@ class Memory:
         whole, _, rest = self.path.read_bytes().rpartition(b"\n")
         try:
             first, *lines = [json.loads(x) for x in whole.split(b"\n") if x]
-            plan = first["search"]
+            plan = dict(first["search"])
             for line in lines:
                 self._parts[line["part"]] = {
                     key: np.array(values, dtype=kind).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()

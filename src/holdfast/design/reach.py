@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.design.family import Family
-from holdfast.kernels import SX, Kernel, Loop
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import dot
 
 Array = NDArray[np.float64]
@@ -65,6 +65,7 @@ class Reaches:
         return added
 
     @cached_property
+    @recalled
     def _distance(self) -> Kernel:
         """(q, x) to the distance, its gradient by the design, and by the joints."""
         q = kinematics.joint_symbols(self._family.arm)
@@ -79,6 +80,7 @@ class Reaches:
         return c.position - base, c.axes, [x - base for x in c.points]
 
     @cached_property
+    @recalled
     def _sweep(self) -> Loop:
         arm = self._family.arm
         start = kinematics.joint_symbols(arm)

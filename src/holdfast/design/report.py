@@ -14,9 +14,10 @@ from holdfast import arms
 from holdfast.arm.table import text as table_text
 from holdfast.assess.rerun import failures_option, region_files, task_option
 from holdfast.assess.run import provenance
+from holdfast.design.choice import SAME, farther
 from holdfast.design.pictures import arms_figure, front_figure
 from holdfast.design.result import Checked, Designs
-from holdfast.design.space import DesignSpace, Parameter
+from holdfast.design.space import Parameter
 from holdfast.failures import failure_sets
 from holdfast.interval import Interval
 from holdfast.report import figures, page
@@ -84,11 +85,19 @@ def headline(d: Designs) -> str:
             f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses are "
             "not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or level."
         )
+    more = farther(d.guaranteed, d.reach, d.best)
     if d.best_is_start:
-        return (
-            f"Nothing better than the given arm was found: for {share} of the poses of the region its {name} is at least "
-            f"{_interval(given.guaranteed)}, {_failures(d)}."
+        text = (
+            f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} is "
+            f"at least {_interval(given.guaranteed)}, {_failures(d)}."
         )
+        return f"{text} {more}".rstrip()
+    if d.guaranteed[d.best] <= (1 + SAME) * d.start_guaranteed:
+        return (
+            f"No design guarantees more than the given arm, but the best one guarantees as much, {_interval(best.guaranteed)} "
+            f"for {share} of the poses (the given arm {_interval(given.guaranteed)}), and reaches {d.reach[d.best]:.3f} m "
+            f"instead of {d.start_reach:.3f} m. {more}"
+        ).rstrip()
     if best.guaranteed.value <= given.guaranteed.value:
         return (
             f"No gain that lasts was found: on the {counted(d.poses, 'pose')} of the search the best design guarantees a "
@@ -98,8 +107,8 @@ def headline(d: Designs) -> str:
     reaches = f"The reach goes from {d.start_reach:.3f} m to {d.reach[d.best]:.3f} m."
     return (
         f"For {share} of the poses of the region the best design keeps {article(name)} {name} of at least "
-        f"{_interval(best.guaranteed)}, {_failures(d)}; the given arm {_interval(given.guaranteed)}. {reaches}"
-    )
+        f"{_interval(best.guaranteed)}, {_failures(d)}; the given arm {_interval(given.guaranteed)}. {reaches} {more}"
+    ).rstrip()
 
 
 # ---- what to build -------------------------------------------------------------------------------------------------------
@@ -303,8 +312,8 @@ def _task(d: Designs) -> str:
 def command(d: Designs) -> tuple[str, str]:
     """The command that makes the search again, and a remark."""
     space = d.space
-    spec, remark = arm_spec(space)
-    words = [f"--vary {shlex.quote(p.written)}" for p in space.parameters]
+    spec, words, remark = arms.command_words(space.arm)
+    words += [f"--vary {shlex.quote(p.written)}" for p in space.parameters]
     words += [f"--maximise {d.index.slug}", "--region region.yaml", f"--task {_task(d)}"]
     if d.index.task.length != 1.0:
         words.append(f"--length {d.index.task.length!r}")
@@ -322,20 +331,10 @@ def command(d: Designs) -> tuple[str, str]:
     return "\n".join(lines), remark
 
 
-def arm_spec(space: DesignSpace) -> tuple[str, str]:
-    """How a command names the given arm, and a remark."""
-    arm = space.arm
-    if arm.name in arms.names() and arms.load(arm.name).fingerprint == arm.fingerprint:
-        return arm.name, ""
-    known = arm.source.lower().endswith((*arms.URDF_ENDINGS, *arms.TABLE_ENDINGS)) and "\n" not in arm.source
-    what = "the file of the arm where you have it" if known else "ARM is the file of the arm"
-    return arm.source if known else "ARM", f"{what}; for a URDF file also its --base and --tip, if any"
-
-
 def _method(d: Designs) -> list[Block]:
     joints = either([d.space.arm.joint_names[k] for k in sorted({k for f in d.index.failures for k in f})])
     facts: list[tuple[str, Cell]] = [
-        ("Given arm", f"{d.space.arm.name}: {d.space.arm.source or 'no source given'}"),
+        ("Given arm", f"{d.space.arm.name}: {d.space.arm.provenance}"),
         ("Index", f"worst-case {d.index.name} over the lock of {joints}; larger is better"),
         ("Task", d.index.task.name),
         ("Region", f"{d.region.name}: {d.region.describe()}; the same for all designs"),

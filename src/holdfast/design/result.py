@@ -61,7 +61,7 @@ class Designs:
         reach: (D,) largest distance of the tool point from the arm's base within the limits, m.
         reached: (D,) share of the poses with a configuration.
         front: Numbers of the designs that no other one beats in both reach and guaranteed value, by reach.
-        best: Number of the design with the greatest guaranteed value.
+        best: Number of the design with the greatest guaranteed value; of several within 0.1 % of it the farthest-reaching one.
         checked: The given arm and the best design on fresh poses.
         index: Of the given arm.
         region: The poses; the same for all designs.
@@ -176,7 +176,7 @@ class Designs:
             }
 
         return {
-            "arm": self.space.arm.name,
+            **self.space.arm.entry(),
             "index": self.index.slug,
             "task": self.index.task.name,
             "region": self.region.name,

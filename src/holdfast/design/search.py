@@ -15,6 +15,8 @@ from holdfast.arm.serial import to_dict
 from holdfast.arm.task import Task
 from holdfast.assess.distribution import Distribution
 from holdfast.assess.region import Region, default_region
+from holdfast.checked import checked
+from holdfast.design.choice import best_design
 from holdfast.design.evaluate import Evaluated, Evaluator
 from holdfast.design.family import Family
 from holdfast.design.gradient import sensitivity
@@ -36,10 +38,10 @@ _NEGLIGIBLE = 1e-7  # share of a pose in the smooth quantile below which its gra
 _ITERATIONS = 30  # of a climb
 _TRAIL = 12  # designs of a climb that the next ones may begin from
 _CLIMB_FRESH = 2  # random starts of each pose in every step of a climb
-_SAME = 1e-6  # of the index: no gain that anybody would build an arm for
 _CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
 
 
+@checked
 def design(
     arm: Arm,
     vary: Vary,
@@ -153,11 +155,11 @@ def design(
     # The given arm takes the place it had, looked at as closely as the ends of the climbs.
     merged = {name: np.concatenate([deep[name][:1], table[name][1:], deep[name][1:]]) for name in table}
     every = np.concatenate([values, ended[1:]])
-    best = int(np.lexsort((merged["smooth"], merged["guaranteed"]))[-1])
-    if merged["guaranteed"][best] <= merged["guaranteed"][0] + _SAME:
-        best = 0  # what is there already
-    checks = part("check", lambda: search.fresh(every[[0, best]], fresh))
-    given, chosen = (_checked(checks["value"][i], checks["reached"][i], checks["weights"], level) for i in (0, 1))
+    best = best_design(merged["guaranteed"], merged["reach"])
+    checks = part(f"check {best}", lambda: search.fresh(every[[0, best]], fresh))
+    given, chosen = (
+        _checked(checks["value"][i], checks["reached"][i], checks["weights"], level, region.heaviest) for i in (0, 1)
+    )
     return Designs(
         space,
         every,
@@ -241,8 +243,10 @@ def _beginnings(smooth: Array, reach: Array, values: Array, space: DesignSpace, 
     return found
 
 
-def _checked(value: Array, reached: NDArray[Any], weights: Array, level: float) -> Checked:
+def _checked(value: Array, reached: NDArray[Any], weights: Array, level: float, heaviest: float) -> Checked:
     """The distribution on fresh poses, and its quantile with the order statistics that enclose it.
+
+    Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
 
     Source: David and Nagaraja 2003, section 7.1, for the interval.
     """
@@ -250,13 +254,13 @@ def _checked(value: Array, reached: NDArray[Any], weights: Array, level: float) 
 
     there = reached.astype(bool)
     if weights.size:
-        d = Distribution.of(value[there], "larger", int((~there).sum()), 0, weights[there], weights[~there])
+        d = Distribution.of(value[there], "larger", int((~there).sum()), 0, weights[there], weights[~there], heaviest)
     else:
         d = Distribution.of(value[there], "larger", int((~there).sum()))
-    size, share, confidence = round(d.effective()), 1 - level, 0.95
+    size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
     ends = np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share)) / size
     low, middle, high = d.quantile(np.clip([ends[0], share, ends[1] + 1 / size], 0, 1), reachable_only=False).tolist()
-    return Checked(d, Interval(middle, low, high, confidence))
+    return Checked(d, Interval(middle, low if ends[0] > 0 else 0.0, high, confidence))
 
 
 class _Search:

@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm import Arm
+from holdfast.arm import Arm, Link
 from holdfast.arm.dh_table import DHTable, dh_table
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
@@ -239,7 +239,10 @@ class DesignSpace:
         return DHTable(tuple(rows), self.table.base, tool)
 
     def arm_of(self, values: ArrayLike, name: str | None = None) -> Arm:
-        """The arm of a design (k,): geometry, limits and gravity. It has no masses: those of other links are not known.
+        """The arm of a design (k,): geometry, limits, gravity, and the masses that are known.
+
+        A link of which neither ``a``, ``alpha`` nor ``d`` is varied is the given arm's, and so is the payload. The mass of a
+        link of another shape is not known: None.
 
         Args:
             values: (k,) rad or m, within the bounds.
@@ -250,9 +253,22 @@ class DesignSpace:
         """
         table = self.table_of(values)
         told = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.parameters, np.asarray(values).tolist(), strict=True))
-        return table.arm(
+        made = table.arm(
             name=name or f"{self.arm.name}-design", gravity=self.arm.gravity, source=f"design of {self.arm.name}: {told}"
         )
+        reshaped = {p.row for p in self.parameters if p.kind in ("a", "alpha", "d")}
+        moved, payload = self._bodies
+        links = tuple(None if k in reshaped else link for k, link in enumerate(moved))
+        return replace(made, links=links).with_payload(payload)
+
+    @cached_property
+    def _bodies(self) -> tuple[list[Link | None], Link | None]:
+        """The given arm's links, each in the moving frame of its joint of the table, and its payload in the last row's."""
+        same = self.table.arm()
+        frames = [np.linalg.inv(a) @ b for a, b in zip(_moving_frames(same), _moving_frames(self.arm), strict=True)]
+        links = [None if link is None else link.moved(frame) for link, frame in zip(self.arm.links, frames, strict=True)]
+        held = self.arm.payload
+        return links, None if held is None else held.moved(np.linalg.inv(same.flange) @ frames[-1])
 
     def draw(self, count: int, seed: int = 0) -> Array:
         """Designs spread over the bounds, (count, k): a scrambled Sobol sequence; more of them begin with the same ones."""
@@ -263,6 +279,15 @@ class DesignSpace:
         engine = qmc.Sobol(len(self.parameters), scramble=True, rng=np.random.default_rng(seed))
         unit = engine.random_base2(max(0, int(np.ceil(np.log2(count)))))[:count]
         return np.asarray(self.lower + unit * (self.upper - self.lower))
+
+
+def _moving_frames(arm: Arm) -> list[Array]:
+    """(4, 4) of each joint's moving frame in the world, all joints at 0."""
+    frames, pose = [], arm.base
+    for joint in arm.joints:
+        pose = pose @ joint.origin
+        frames.append(pose)
+    return frames
 
 
 Vary = DesignSpace | Iterable["Parameter | str"] | Mapping[str, Any]

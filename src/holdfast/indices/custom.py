@@ -16,7 +16,7 @@ from holdfast.arm.task import Task
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, slopes_along
 
 Array = NDArray[np.float64]
@@ -71,11 +71,13 @@ class CustomIndex(Index):
         return q, values
 
     @cached_property
+    @recalled
     def _values_kernel(self) -> Kernel:
         q, values = self._symbols()
         return Kernel(self.name, [q], [ca.vertcat(*values)])
 
     @cached_property
+    @recalled
     def _gradient_kernel(self) -> Kernel:
         q, values = self._symbols()
         worst = values[0]

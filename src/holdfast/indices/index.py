@@ -18,7 +18,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status
 
@@ -69,11 +69,13 @@ class Index(Objective):
         failures: Sets of joints, indices from 0, that fail together.
         source: Paper and equation.
         bound: The value no configuration can beat, or None if there is none.
+        bound_note: What is known of how near one can come to it, a phrase; empty where some Jacobian of this size attains it.
     """
 
     better: Better = "larger"
     source = ""
     bound: float | None = None
+    bound_note = ""
 
     def __init__(
         self,
@@ -233,6 +235,7 @@ class Index(Objective):
     # ---- shared machinery --------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [self.task.jacobian(self.arm, q)])

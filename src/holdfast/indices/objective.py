@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX
 from holdfast.linalg import HouseholderQR, lowest
 from holdfast.status import Status
@@ -53,6 +54,11 @@ class Objective(ABC):
     arm: Arm
     better: Better
     unit: str = "1"
+
+    @cached_property
+    def ascents(self) -> dict[object, Any]:
+        """Compiled ascents of this objective, for :func:`holdfast.solve.optimise.objective_ascent`."""
+        return {}
 
     @abstractmethod
     def __call__(self, q: ArrayLike) -> Array:

@@ -20,7 +20,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index, WorstCase
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
 from holdfast.status import Status
 
@@ -30,13 +30,28 @@ _FLAT_SCORE = 1e-12  # below this square a root is drawn as a straight line, who
 _FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
 
 
+def _bound_note(n: int, m: int, size: int) -> str:
+    """How near a Jacobian of m rows and n columns can come to the Cauchy-Binet bound of ``size`` failures at a time."""
+    if size == 1 or m == 1 or size > n - m or (n, m, size) in ((6, 3, 2), (10, 5, 2)):
+        return ""
+    if (size == 2 and n - m == 2) or (m == 2 and size == n - 2):
+        # The least minor of n lines in a plane is at most that of a regular star: 2/n sin(pi/n).
+        return f"an upper bound, not attained: the best possible is {2 / n * np.sin(np.pi / n):.4f}"
+    return "an upper bound, not attained" if n <= 10 else "an upper bound; whether it is attained is not known"
+
+
 class RelativeManipulability(Index):
     r"""Share of the manipulability that is left when joints S lock.
 
     :math:`\rho_S = \sqrt{\det({}^SJ\,{}^SJ^\top)/\det(JJ^\top)} = \sqrt{\det(N_S N_S^\top)}`, where :math:`{}^SJ` is the
     task Jacobian without the columns S and :math:`N_S` the rows S of an orthonormal null-space basis of J.
 
-    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma.
+    The bound of one failure at a time is attained by some Jacobian of any size. That of several at a time holds always, but is
+    attained only where the rows of the null-space basis are equiangular lines that form a tight frame: for up to ten joints
+    and tasks of two rows or more those of 6 joints, 3 rows, 2 failures, and of 10, 5, 2. ``bound_note`` says so.
+
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma; bound by
+    Cauchy and Binet.
     """
 
     source = "Abdi et al. 2012, eq. (3), (4)"
@@ -54,6 +69,7 @@ class RelativeManipulability(Index):
         if len(self.failures) == every and all(len(s) == size for s in self.failures):
             # The squares over all sets of s joints sum to C(n - m, s) (Cauchy-Binet), so the smallest is at most their mean.
             self.bound = float(np.sqrt(comb(arm.n - self.task.m, size) / every))
+            self.bound_note = _bound_note(arm.n, self.task.m, size)
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
@@ -177,10 +193,12 @@ class RelativeManipulability(Index):
     # ---- kernels -----------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _worst_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=True)
 
     @cached_property
+    @recalled
     def _which_kernel(self) -> Kernel:
         """The worst value, and which failure it is of: the first of those with exactly this value."""
         q, _, qr = self._symbols
@@ -193,18 +211,22 @@ class RelativeManipulability(Index):
         return Kernel(f"worst {self.name}", [q], [self._mark(qr, [least, which], marked=True)])
 
     @cached_property
+    @recalled
     def _values_kernel(self) -> Kernel:
         return self._build_values(marked=True, worst_only=False)
 
     @cached_property
+    @recalled
     def _plain_values_kernel(self) -> Kernel:
         return self._build_values(marked=False, worst_only=False)
 
     @cached_property
+    @recalled
     def _gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=True)
 
     @cached_property
+    @recalled
     def _plain_gradient_kernel(self) -> Kernel:
         return self._build_gradient(marked=False)
 

@@ -21,7 +21,7 @@ from holdfast.failures import FailureSpec
 from holdfast.indices import secular
 from holdfast.indices.index import SINGULAR_RATIO, Index
 from holdfast.indices.relative import Manipulability
-from holdfast.kernels import SX, Kernel, Loop
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import HouseholderQR, dot, jacobi_sweep
 
 Array = NDArray[np.float64]
@@ -49,9 +49,13 @@ class Rotator:
 
     def __init__(self, m: int, c: int) -> None:
         self.m, self.c = m, c
-        a = ca.SX.sym("a", m * c)
-        rows, off = jacobi_sweep([[a[i * c + k] for k in range(c)] for i in range(m)])
-        self._loop = Loop("Jacobi sweep", a, [], ca.vertcat(*[x for row in rows for x in row]), off)
+
+    @cached_property
+    @recalled
+    def _loop(self) -> Loop:
+        a = ca.SX.sym("a", self.m * self.c)
+        rows, off = jacobi_sweep([[a[i * self.c + k] for k in range(self.c)] for i in range(self.m)])
+        return Loop("Jacobi sweep", a, [], ca.vertcat(*[x for row in rows for x in row]), off)
 
     def rotate(self, a: Array) -> Array:
         """Rows made orthogonal by rotations: their lengths are the singular values, their directions the right vectors."""
@@ -92,6 +96,7 @@ class SpectralIndex(Index):
         return Rotator(self.task.m, self.arm.n)
 
     @cached_property
+    @recalled
     def _pull_back(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)

@@ -55,9 +55,17 @@ class Kernel:
     """
 
     def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], backend: str | None = None) -> None:
-        self.program = Program(name, inputs, outputs)
-        self.name = name
-        self.backend = backend or default_backend()
+        self._take(Program(name, inputs, outputs), backend or default_backend())
+
+    @classmethod
+    def of(cls, program: Program) -> Kernel:
+        """The kernel of a program, on the default backend."""
+        kernel = cls.__new__(cls)
+        kernel._take(program, default_backend())
+        return kernel
+
+    def _take(self, program: Program, backend: str) -> None:
+        self.program, self.name, self.backend = program, program.name, backend
         if self.backend not in BACKENDS:
             raise KernelError(f"backend '{self.backend}' is not known; use one of {', '.join(BACKENDS)}")
         self.lanes = llvm_backend.host().machine.lanes if self.backend == "llvm" else 1
@@ -67,6 +75,11 @@ class Kernel:
         self._scratch = threading.local()
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
+
+    @property
+    def made_of(self) -> str | None:
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
+        return self.program.recipe
 
     def __call__(self, *inputs: ArrayLike) -> Any:
         """Evaluate.

@@ -51,6 +51,10 @@ class Loop:
         residual: Scalar expression of the present state, not negative; NaN never ends a row.
         backend: As for :class:`Kernel`.
         ahead: The residual is that of the next state, so that a row which arrives needs no further step to notice.
+        times: How many steps of the caller's one step of the loop takes; only kept for the caller.
+
+    Attributes:
+        step: The kernel ``(state, parameters) -> (next state, residual)``.
     """
 
     def __init__(
@@ -62,13 +66,29 @@ class Loop:
         residual: SX,
         backend: str | None = None,
         ahead: bool = False,
+        times: int = 1,
     ) -> None:
-        self._size, self._ahead = int(state.numel()), ahead
-        self._step = Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend)
-        program, lanes = self._step.program, self._step.lanes
+        self._take(Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend), ahead, times)
+
+    @classmethod
+    def of(cls, step: Kernel, ahead: bool, times: int) -> Loop:
+        """The loop of a step kernel that another loop had."""
+        loop = cls.__new__(cls)
+        loop._take(step, ahead, times)
+        return loop
+
+    def _take(self, step: Kernel, ahead: bool, times: int) -> None:
+        self.step, self.ahead, self.times = step, ahead, times
+        self._size = step.program.n_out - 1
+        program, lanes = step.program, step.lanes
         fits = min(_MOST, max(_LEAST, _BYTES // (8 * (program.n_in + program.n_out))))
         # Columns a power of two apart would fall on the same places of the cache.
         self._width = (fits // lanes | 1) * lanes
+
+    @property
+    def made_of(self) -> str | None:
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
+        return self.step.made_of
 
     def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> LoopResult:
         """Iterate.
@@ -96,7 +116,7 @@ class Loop:
 
     def _iterate(self, batch: _Batch, most: int) -> None:
         """Take rows, step them all, put those that are done back and others in their place, until there are none."""
-        result, size, ahead, tolerance = batch.result, self._size, self._ahead, batch.tolerance
+        result, size, ahead, tolerance = batch.result, self._size, self.ahead, batch.tolerance
         left = batch.take(most)
         if not left.size:
             return
@@ -105,7 +125,7 @@ class Loop:
         begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
         now, last = int(ahead), batch.most_steps  # steps taken where a residual is measured; when a row gives up
         while True:
-            self._step.evaluate_columns(columns, out)
+            self.step.evaluate_columns(columns, out)
             residual = out[-1, : left.size]
             small = residual <= tolerance
             if now < last and not small.any():  # a few rows may take many steps: nothing else is done for them
@@ -142,7 +162,7 @@ class Loop:
     def _columns(self, values: Array) -> Array:
         """Contiguous (s + p, W) with W a multiple of the SIMD width, padded with the last column."""
         used = values.shape[1]
-        width = -(-used // self._step.lanes) * self._step.lanes
+        width = -(-used // self.step.lanes) * self.step.lanes
         padded = np.empty((values.shape[0], width))
         padded[:, :used] = values
         padded[:, used:] = values[:, used - 1 : used]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import struct
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -44,11 +44,32 @@ class Program:
         self.name = name
         self.input_shapes = [tuple(x.shape) for x in inputs]
         self.output_shapes = [tuple(y.shape) for y in outputs]
-        flat_in = ca.vertcat(*[_row_major(x) for x in inputs])
-        flat_out = ca.vertcat(*[_row_major(y) for y in outputs])
-        self.function = ca.Function("program", [flat_in], [flat_out], {"cse": True})
-        self.n_in = int(flat_in.numel())
-        self.n_out = int(flat_out.numel())
+        self._build: Callable[[], Program] | None = None
+        self.n_in, self.n_out = _count(self.input_shapes), _count(self.output_shapes)
+        self.function = _function(inputs, outputs)
+        self.size = int(self.function.n_instructions())
+
+    @classmethod
+    def known(cls, facts: list[Any], build: Callable[[], Program]) -> Program:
+        """A program of which :meth:`facts` are known; it is built if its operations are asked for."""
+        program = cls.__new__(cls)
+        program.name, shapes_in, shapes_out, program.size, program.digest = facts
+        program.input_shapes, program.output_shapes = [tuple(x) for x in shapes_in], [tuple(y) for y in shapes_out]
+        program.n_in, program.n_out = _count(program.input_shapes), _count(program.output_shapes)
+        program._build = build
+        return program
+
+    def facts(self) -> list[Any]:
+        """What there is to know without the operations."""
+        return [self.name, self.input_shapes, self.output_shapes, self.size, self.digest]
+
+    recipe: str | None = None  # digest of what it is made of, if it has one
+
+    @cached_property
+    def function(self) -> Any:
+        """The CasADi function of all inputs in a column to all outputs in a column."""
+        assert self._build is not None
+        return self._build().function
 
     @cached_property
     def instructions(self) -> list[Instruction]:
@@ -79,11 +100,6 @@ class Program:
         uses = Counter(divisor.values())
         return {k: d for k, d in divisor.items() if uses[d] > 1}
 
-    @property
-    def size(self) -> int:
-        """Number of scalar instructions."""
-        return int(self.function.n_instructions())
-
     @cached_property
     def digest(self) -> str:
         """SHA-256 of the operations, names and constants (bit for bit): the identity of the computation."""
@@ -93,6 +109,15 @@ class Program:
             if row.op == ca.OP_CONST:
                 h.update(struct.pack("<d", row.constant))
         return h.hexdigest()
+
+
+def _function(inputs: Sequence[SX], outputs: Sequence[SX]) -> Any:
+    flat_in = ca.vertcat(*[_row_major(x) for x in inputs])
+    return ca.Function("program", [flat_in], [ca.vertcat(*[_row_major(y) for y in outputs])], {"cse": True})
+
+
+def _count(shapes: list[tuple[int, int]]) -> int:
+    return sum(rows * columns for rows, columns in shapes)
 
 
 def _row_major(x: SX) -> SX:

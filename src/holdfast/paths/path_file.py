@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
+from holdfast import reading
 from holdfast.errors import InputError
 from holdfast.paths.path import Path, arc, line, sequence
 from holdfast.paths.timing import Trapezoid
@@ -170,8 +171,7 @@ def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
         InputError: What is wrong with which row.
     """
     try:
-        with file.open(encoding="utf-8", newline="") as stream:
-            lines = [[cell.strip() for cell in row] for row in csv.reader(stream) if row]
+        lines = [[cell.strip() for cell in row] for row in csv.reader(reading.text(file).splitlines()) if row]
     except OSError as error:
         raise InputError(f"{option}: '{file.name}' cannot be read ({error.strerror}); give a CSV file that exists") from error
     except (UnicodeDecodeError, csv.Error) as error:

@@ -40,6 +40,7 @@ from holdfast.palette import PURPLE as PURPLE
 from holdfast.palette import SKY as SKY
 from holdfast.palette import SOFT as SOFT
 from holdfast.report.words import percent
+from holdfast.whole_file import replaced
 
 Array = NDArray[np.float64]
 
@@ -136,7 +137,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
         FigureCanvasAgg(figure)
         figure.savefig(data, format="png", dpi=dpi)
     try:
-        file.write_bytes(data.getvalue())
+        replaced(file, data.getvalue())
     except OSError as error:
         raise StoreError(f"cannot write picture '{file}': {error.strerror or error}; choose another path") from error
     return file

@@ -15,6 +15,7 @@ from holdfast.errors import StoreError
 from holdfast.whole_file import replaced
 
 Cell = str | Markup
+_LONG = 15  # letters of a cell that is broken where need be
 
 
 @dataclass(frozen=True)
@@ -112,15 +113,22 @@ class Page:
     footer: Cell = ""
 
 
+def _breakable(cell: Cell) -> Markup:
+    """A cell whose long names may be broken behind an underscore, so that those of a file do not push a table off the page."""
+    return cell if isinstance(cell, Markup) or len(cell) < _LONG else Markup("_<wbr>").join(cell.split("_"))
+
+
 @cache
 def _environment() -> Environment:
-    return Environment(
+    environment = Environment(
         loader=PackageLoader("holdfast.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["breakable"] = _breakable
+    return environment
 
 
 def render(page: Page) -> str:

@@ -6,7 +6,6 @@ import math
 from typing import Protocol
 
 import numpy as np
-from scipy import stats
 
 _ZERO = 1e-9
 
@@ -76,11 +75,13 @@ def interval(p: Probability) -> str:
 
 
 def share(count: int, whole: int) -> str:
-    """A count with its share of the whole and the 95 % Wilson interval of that."""
+    """A count with its share of the whole and the exact 95 % interval of that."""
     if not whole:
         return f"{count:,}"
-    limits = stats.binomtest(count, whole).proportion_ci(confidence_level=0.95, method="wilson")
-    low, high = (percent(round(float(x), 9)) for x in (limits.low, limits.high))
+    from holdfast.interval import Interval
+
+    limits = Interval.of(count, whole)
+    low, high = (percent(round(x, 9)) for x in (limits.low, limits.high))
     return f"{count:,} ({percent(count / whole)}, 95 % interval {low.removesuffix(' %')} to {high})"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import configurations
 from holdfast.arm.targets import target_poses
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.simulate.compiled import Setting, motion_of
@@ -26,6 +27,7 @@ RADIUS = 0.1  # m
 TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
 
 
+@checked
 def simulate(
     law: Law,
     q0: ArrayLike,
@@ -51,7 +53,9 @@ def simulate(
       arm of about 1 m: lengths count in units of the arm's own, its links end to end rounded to a power of two, so that an arm
       and its copy in another size end alike);
     * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
-      its greatest value in the last tenth is at least 0.99 of that in the tenth before;
+      its greatest value in the last tenth is at least 0.99 of that in the tenth before; or if after 100,000 steps, before the
+      limit, it circles faster than that, and comes back to where it was, modulo whole turns, so nearly that until the limit it
+      would drift by less than a hundredth of the motion's extent;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
       nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with the hand
       half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
@@ -149,6 +153,11 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
         rows = np.flatnonzero(locked >= 0)
         times[rows, locked[rows]] = 0.0
         return times, False
+    if isinstance(locked, Mapping):
+        raise InputError(
+            f"locked is {dict(locked)!r}; a joint locks where it is, so give joints, or (joint, time) pairs, and "
+            "its angle in q0"
+        )
     if isinstance(locked, (str, int)):
         raise InputError(f"locked is {locked!r}; give a list, for example [{locked!r}]")
     times = np.full((1, arm.n), np.inf)

@@ -15,6 +15,7 @@ from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.scale import length_unit
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
@@ -77,7 +78,7 @@ class Case:
         return np.asarray(self.code == Outcome[outcome.upper()])
 
     def share(self, outcome: str = "converged", among_reachable: bool = False) -> Interval | None:
-        """Share of the runs that ended so, with its 95 % Wilson interval; None of no runs.
+        """Share of the runs that ended so, with its exact 95 % interval; None of no runs.
 
         Args:
             outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
@@ -185,13 +186,10 @@ class LawComparison:
     def share_any(self, law: str, outcome: str = "converged") -> Interval:
         """Share of an outcome where each of the joints is as likely to lock as any other, with its 95 % interval.
 
-        The runs of one motion with different joints locked are no independent samples: the interval is the Wilson score of as
-        many independent ones as would scatter as much, and no more than there are.
+        The runs of one motion with different joints locked are no independent samples: the unit is the motion, and the interval
+        that of a mean of fractions, which always covers (:meth:`holdfast.assess.Interval.of_fractions`).
         """
-        hits = (self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0)
-        share, spread = float(hits.mean()), float(hits.var(ddof=1)) if len(hits) > 1 else 0.0
-        effective = share * (1 - share) / spread * len(hits) if spread > 0 else np.inf
-        return Interval.of_share(share, min(effective, float(hits.size * len(self.joints))))
+        return Interval.of_fractions((self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0))
 
     def gain(
         self,
@@ -203,9 +201,9 @@ class LawComparison:
     ) -> Difference:
         """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
 
-        Paired: for one joint by the method of Newcombe. For ``any joint`` the interval holds two: that of Student's t of the
-        mean over the joints of each motion, which knows that the runs of a motion go together, and Newcombe's over all runs,
-        which knows that no difference in few motions is no proof of none.
+        Paired: for one joint by the method of Newcombe with exact limits (:meth:`holdfast.interval.Difference.of_pairs`, which
+        says how well it covers). For ``any joint`` it is the mean over the joints of each motion, because the runs of a motion
+        go together, with the interval of fractions, which always covers.
 
         Args:
             law: Its name.
@@ -221,16 +219,13 @@ class LawComparison:
         other = self.names[0] if than is None else than
         generous = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
         if failure == ANY:
-            if len(self) < 2 or not self.joints:
-                raise InputError("a mean over the joints takes two motions or more, and a locked joint; name one joint")
+            if not self.joints:
+                raise InputError("a mean over the joints takes a locked joint; give locked='each' or name one joint")
             one, two = (
                 np.array([_arrived(self.case(x, joint), kind) for joint in self.joints])
                 for x, kind in zip((other, law), generous, strict=True)
             )
-            means = Difference.of_means(two.mean(axis=0) - one.mean(axis=0))
-            runs = Difference.of_pairs(one.ravel(), two.ravel())
-            p = max(means.p_value, runs.p_value)
-            return Difference(means.value, min(means.low, runs.low), max(means.high, runs.high), runs.confidence, p)
+            return Difference.of_fractions(two.mean(axis=0) - one.mean(axis=0))
         before, after = self.case(other, failure), self.case(law, failure)
         some = before.reachable if among_reachable else np.ones(len(self), dtype=bool)
         if not some.any():
@@ -242,8 +237,9 @@ class LawComparison:
     ) -> Difference:
         """Mean change of an error at the end of the same motions under a law and under another, with its 95 % interval.
 
-        Paired, from the differences of each motion, for ``any joint`` from their means over the joints (Student's t). Runs that
-        are still moving count as they stood when time was up.
+        Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
+        moving count as they stood when time was up. Errors have no bound, so the interval is Student's t, which may cover too
+        little for few motions of which a few differ much (:meth:`holdfast.interval.Difference.of_means`).
 
         Args:
             law: Its name.
@@ -343,7 +339,7 @@ class LawComparison:
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        lines = [f"{len(self)} motions of '{self.arm.name}', task {self.laws[0].task.describe()}"]
+        lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
         for name in self.names:
             healthy = self.case(name).share()
             assert healthy is not None
@@ -355,6 +351,7 @@ class LawComparison:
         return lines
 
 
+@checked
 def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,

@@ -21,6 +21,7 @@ from holdfast.report.words import counted, fixed, number, percent
 from holdfast.simulate.compare_laws import ANY, HEALTHY, LawComparison
 from holdfast.simulate.runs import Outcome
 from holdfast.versions import versions
+from holdfast.whole_file import writing
 
 Array = NDArray[np.float64]
 
@@ -221,7 +222,7 @@ def _outcomes(c: LawComparison) -> list[Block]:
         "past a limit",
     ]
     caption = (
-        f"{counted(len(c), 'motion')} each; intervals by Wilson. Within reach: some configuration of the failed arm has the "
+        f"{counted(len(c), 'motion')} each; exact intervals. Within reach: some configuration of the failed arm has the "
         "hand at the target (found by search, joint limits aside). Past a limit: a joint left its range on the way."
     )
     image = figures.svg(outcome_figure(c), "outcomes", "Stacked bars of how the runs ended, by joint and law")
@@ -253,8 +254,10 @@ def _gains(c: LawComparison) -> list[Block]:
         )
     head = ["law", "locked", "arrive, percentage points", "p", f"mean end error, {size}", f"mean excess error, {size}"]
     caption = (
-        f"Differences to {c.names[0]} over the same motions, with 95 % intervals: paired by Newcombe's method and McNemar's "
-        "exact test for a joint; for any joint also from the mean over the joints of each motion (Student's t). Excess: above "
+        f"Differences to {c.names[0]} over the same motions, with 95 % intervals: paired by Newcombe's method with exact "
+        "limits and McNemar's test for a joint; for any joint from the mean over the joints of each motion, by betting, "
+        "which always covers. "
+        "Of errors by Student's t, which may cover less than 95 % of few motions when a few of them differ much. Excess: above "
         "the least error that the failed arm could have. Undecided runs count as not arrived. Many comparisons at once: one in "
         "twenty looks significant by chance."
     )
@@ -319,7 +322,7 @@ def _method(c: LawComparison, command: str, about: str) -> list[Block]:
         ),
         ("Arrived", f"error at most {c.arrives:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
         ("Undecided", "; ".join(f"{n}: {_reasons(c, n)}" for n in c.names)),
-        ("Arm", c.arm.source or "no source given"),
+        ("Arm", c.arm.provenance),
         ("Fingerprint of the arm", c.arm.fingerprint),
         ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
     ]
@@ -401,7 +404,7 @@ def save(c: LawComparison, folder: Path) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name, rows in tables.items():
             file = folder / f"{name}.csv"
-            with file.open("w", encoding="utf-8", newline="") as stream:
+            with writing(file) as stream:
                 writer = csv.DictWriter(stream, list(rows[0]))
                 writer.writeheader()
                 writer.writerows(rows)

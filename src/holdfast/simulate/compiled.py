@@ -15,8 +15,9 @@ from holdfast.arm import kinematics
 from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.errors import InputError
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
+from holdfast.simulate.circling import circling
 from holdfast.simulate.cycles import SUBSTEPS, Cycles
 from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, prescribed_way
 from holdfast.simulate.nearest import Nearest
@@ -73,12 +74,14 @@ class Motion:
         return Nearest(self._system)
 
     @cached_property
+    @recalled
     def _hand(self) -> Kernel:
         """What the task prescribes of the tool point."""
         place = kinematics.chain(self.law.arm, self._system.q).position
         return Kernel("hand", [self._system.q], [ca.SX(ca.DM(self.law.task.rows[:, :3])) @ place])
 
     @cached_property
+    @recalled
     def _turn(self) -> Kernel:
         """The angle of the shortest turn that the task asks for, rad."""
         s, law = self._system, self.law
@@ -87,6 +90,7 @@ class Motion:
         return Kernel("turn", [s.q, s.target, s.rotation], [ca.norm_2(error[3:])])
 
     @cached_property
+    @recalled
     def _single(self) -> Kernel:
         steps = self._steps
         symbol = ca.SX.sym("state", steps.state.size)
@@ -149,6 +153,12 @@ class Motion:
             # A tight tolerance shrinks the steps to nothing there, as a singular configuration does.
             rows = np.flatnonzero(np.isin(reason, (Reason.STEPS, Reason.SINGULAR)))
             reason[rows[self._half_turn(q[rows], target[rows, :3, 3], target[rows, :3, :3])]] = Reason.HALF_TURN
+        if isinstance(self._steps, Steps):
+            rows = np.flatnonzero(reason == Reason.STEPS)
+            given = self._parameters(numbers[rows], setting)
+            given[:, -self.law.arm.n - 3 : -3] = lock_time[rows] * self._unit > parts["time"][rows]
+            circles = rows[circling(self._steps, states[rows], given, ~self.law.arm.prismatic, MOVES)]
+            code[circles], reason[circles] = Outcome.MOVING, Reason.NONE
         return {
             "code": code,
             "reason": reason,
@@ -228,8 +238,7 @@ class Motion:
         parts["slowest"][:] = parts["closest"][:] = FAR
         if not self.cycles:
             parts["h"][:] = setting.step * unit if self.fixed else FIRST
-        parameters = np.empty((rows, target.shape[1] + n + 3))
-        parameters[:, : -n - 3], parameters[:, -2], parameters[:, -1] = target, setting.limit * unit, setting.accuracy
+        parameters = self._parameters(target, setting)
         mask, until, limit = parameters[:, -n - 3 : -3], parameters[:, -3], setting.limit * unit
         # Time and clock are the same where nothing slows the command: then the last step ends at the limit exactly.
         last = FAR if self.law.speed_limit is not None and not self.cycles else limit
@@ -247,6 +256,12 @@ class Motion:
             left = left[done & (codes == PHASE) & ~over]
             now[left] = parts["time"][left, 0] = until[left]
         return states
+
+    def _parameters(self, target: Array, setting: Setting) -> Array:
+        """Parameters of rows; which joints are healthy, and until when, is to be filled in."""
+        parameters, n = np.empty((len(target), target.shape[1] + self.law.arm.n + 3)), self.law.arm.n
+        parameters[:, : -n - 3], parameters[:, -2], parameters[:, -1] = target, setting.limit * self._unit, setting.accuracy
+        return parameters
 
     def _enter(self, states: Array, rows: slice | NDArray[np.int64], parameters: Array) -> None:
         """What is known where a phase begins."""

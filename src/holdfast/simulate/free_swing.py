@@ -9,8 +9,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.mjcf import import_mujoco
+from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm, Joint
+from holdfast.checked import checked
 from holdfast.errors import ArmError, InputError
 from holdfast.simulate.mujoco_model import mujoco_model
 
@@ -98,6 +99,8 @@ class FreeSwing:
         return self.outcome == "stop"
 
 
+@checked
+@quiet()
 def free_swing(
     arm: Arm,
     q: ArrayLike,

@@ -9,8 +9,9 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.mjcf import import_mujoco
+from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel
@@ -32,6 +33,8 @@ BURST = 1e4  # rad/s or m/s: no arm is so fast; MuJoCo itself goes on to 1e10 an
 EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
 
 
+@checked
+@quiet()
 def simulate_physics(
     law: Law,
     q0: ArrayLike,

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.solve.inverse import solver
 
@@ -53,9 +54,10 @@ class PointToPoint:
 
     def describe(self) -> str:
         """One phrase for people."""
-        return f"{len(self)} motions of '{self.arm.name}', {self.wish}; {self.drawn} were drawn"
+        return f"{len(self)} motions of {self.arm.title}, {self.wish}; {self.drawn} were drawn"
 
 
+@checked
 def point_to_point(
     arm: Arm,
     count: int,

@@ -14,7 +14,7 @@ from holdfast.control.stick_figure import corners, projections
 from holdfast.report import figures, page
 from holdfast.report.animation import Motion, animation, shown_seconds
 from holdfast.report.motion import Panel, drawn_motion, motion_figure
-from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table
+from holdfast.report.page import Block, Code, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
 from holdfast.report.words import number
 from holdfast.simulate.runs import ENDS, Path, Reason, Runs
@@ -79,11 +79,12 @@ class RunReport:
 
     @property
     def headline(self) -> str:
-        """How it ended, in one sentence."""
+        """How it ended, and whether joints passed their limits on the way: two facts."""
         reason = int(self._of("reason"))
         why = f": {Reason(reason).sentence}" if reason else ""
         error = f"{number(float(self._of('error')))} {self.size}"
-        return f"The hand {ENDS[str(self._of('outcome'))]}{why}; its error at the end is {error}."
+        ended = f"The hand {ENDS[str(self._of('outcome'))]}{why}; its error at the end is {error}."
+        return f"{ended} {self.runs.limits_sentence(self.k)}".rstrip()
 
     @cached_property
     def motion(self) -> Motion:
@@ -122,7 +123,7 @@ class RunReport:
             if t <= seen.time[-1]:
                 moments.append((float(t), float(np.interp(t, seen.time, seen.error)), f"{name} locks"))
         level = (self.least, "least the failed arm can have") if self.least > 1e-6 else None
-        title = f"Ends {self._of('outcome')}"
+        title = f"Ends {self._of('outcome')}" + ", past a joint limit" * bool(self._of("limits_passed").any())
         return Panel(seen.time, seen.error, f"error of the hand, {self.size}", title, level, tuple(moments), log=True)
 
     @property
@@ -146,13 +147,6 @@ class RunReport:
         Raises:
             StoreError: It cannot be written.
         """
-        past = np.flatnonzero(self._of("limits_passed"))
-        alerts = []
-        if past.size:
-            names = ", ".join(self.arm.joint_names[k] for k in past)
-            alerts.append(
-                Callout(f"{names}: the motion does not heed limits; a real arm would stop there.", title="Past a joint limit")
-            )
         sections = [
             Section("The motion", [self._animation()]),
             Section("The error of the hand", [self._error()]),
@@ -162,7 +156,7 @@ class RunReport:
         subtitle = f"{self.runs.law.describe()}; locked: {', '.join(self.standing) or 'no joint'}"
         title = f"{self.arm.name} after a lock that its controller does not know of"
         footer = "Written by holdfast. This file needs no network and no other file."
-        return page.write(Page(title, self.headline, sections, subtitle, alerts, footer), file)
+        return page.write(Page(title, self.headline, sections, subtitle, footer=footer), file)
 
     def _animation(self) -> Picture:
         motion = self.motion
@@ -210,7 +204,7 @@ class RunReport:
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
             ("Took", f"{number(float(self._of('time')))} {self.unit}"),
             ("Law", self.runs.law.describe()),
-            ("Arm", self.arm.source or "no source given"),
+            ("Arm", self.arm.provenance),
             ("Fingerprint of the arm", Markup("<code>{}</code>").format(self.arm.fingerprint)),
             ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
         ]

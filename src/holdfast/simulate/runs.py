@@ -179,6 +179,24 @@ class Runs:
             raise InputError(f"run {k} has no path: {Reason.BAD_INPUT.sentence}")
         return self._motion.path(self, k, samples, until)
 
+    def limits_sentence(self, k: int = 0) -> str:
+        """Whether the joints of run k stayed within their limits, for people; empty for an arm without limits.
+
+        It goes with the outcome and does not follow from it: the motion does not heed limits.
+        """
+        arm, low, high = self.law.arm, np.atleast_2d(self.q_low)[k], np.atleast_2d(self.q_high)[k]
+        if not np.isfinite([arm.lower, arm.upper]).any():
+            return ""
+        past = []
+        for joint, name, least, most in zip(arm.joints, arm.joint_names, low, high, strict=True):
+            factor, unit = joint.shown
+            for value, end, beyond in ((least, joint.lower, least < joint.lower), (most, joint.upper, most > joint.upper)):
+                if beyond:
+                    past.append(f"{name} goes to {factor * value:.4g} {unit} (limit {factor * end:.4g} {unit})")
+        if not past:
+            return "All joints stay within their limits."
+        return f"On the way {' and '.join(past)}: a real arm would stop there."
+
     def describe(self) -> list[str]:
         """A few sentences for people."""
         counts = self.counts()
@@ -186,6 +204,10 @@ class Runs:
             f"{len(self)} runs of {self.law.describe()} on '{self.law.arm.name}': "
             + ", ".join(f"{count} {name}" for name, count in counts.items())
         ]
+        past = np.atleast_2d(self.limits_passed).any(axis=1)
+        if past.any():
+            there = int((past & (np.atleast_1d(self.code) == Outcome.CONVERGED)).sum())
+            lines.append(f"{int(past.sum())} of them pass a joint limit on the way, {there} of these converge")
         reasons = np.atleast_1d(self.reason)
         lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in Reason if r and (reasons == r).any()]
         return lines

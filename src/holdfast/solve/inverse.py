@@ -17,8 +17,9 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError
-from holdfast.kernels import SX, Kernel, Loop
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.solve import joint_space
 from holdfast.status import Status, require_ok
@@ -160,17 +161,29 @@ class InverseKinematics:
 
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm, self.task = arm, task
-        q = kinematics.joint_symbols(arm)
-        p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        e, j = scaled_error(arm, task, q, p, r)
-        step, residual = damped_step(arm, q, e, j)
-        self._loop = Loop("inverse kinematics", q, [p, r], step, residual)
-        self._symbols = q, p, r, e, j
-        # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
-        back = ca.SX(ca.DM(task.rows)).T @ task_error(arm, task, q, p, r)[0]
-        self._errors = Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
         self._unit = length_unit(arm)
         self._low, self._high = finite_limits(arm)
+
+    @cached_property
+    def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
+        q = kinematics.joint_symbols(self.arm)
+        p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        return q, p, r, *scaled_error(self.arm, self.task, q, p, r)
+
+    @cached_property
+    @recalled
+    def _loop(self) -> Loop:
+        q, p, r, e, j = self._symbols
+        step, residual = damped_step(self.arm, q, e, j)
+        return Loop("inverse kinematics", q, [p, r], step, residual)
+
+    @cached_property
+    @recalled
+    def _errors(self) -> Kernel:
+        # The rows are orthonormal directions of (linear; angular), so the two parts of the error are their projections.
+        q, p, r, _, _ = self._symbols
+        back = ca.SX(ca.DM(self.task.rows)).T @ task_error(self.arm, self.task, q, p, r)[0]
+        return Kernel("task error", [q, p, r], [ca.vertcat(ca.norm_2(back[:3]), ca.norm_2(back[3:]))])
 
     def within(self, tolerance: float) -> float:
         """The tolerance that keeps errors within so many m and rad."""
@@ -186,6 +199,7 @@ class InverseKinematics:
         return run.state, self.verdict(run.state, poses, tolerance)
 
     @cached_property
+    @recalled
     def _loop_with_locks(self) -> Loop:
         q, p, r, e, j = self._symbols
         free = ca.SX.sym("free", self.arm.n)
@@ -369,6 +383,7 @@ def solver(arm: Arm, task: Task) -> InverseKinematics:
     return _solver(arm, tuple(map(tuple, task.rows.tolist())), task.frame)
 
 
+@checked
 def solve_ik(
     arm: Arm,
     poses: ArrayLike,

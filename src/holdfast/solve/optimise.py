@@ -20,9 +20,10 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
-from holdfast.kernels import SX, Kernel, in_pool, pool, thread_count
+from holdfast.kernels import SX, Kernel, in_pool, pool, recalled, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
 from holdfast.solve import joint_space
 from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
@@ -139,19 +140,21 @@ class Ascent:
         self.objective, self.task, self.arm = objective, task, objective.arm
         self.clearance, self.margin = clearance, margin
         self.engine: InverseKinematics = solver(self.arm, task)
-        self._step = self._compiled(None)
 
-    def _compiled(self, clearance: Clearance | None) -> Kernel | None:
-        if self.arm.n <= self.task.m:
-            return None
+    @recalled
+    def _compiled(self, clearance: Clearance | None) -> Kernel:
         inputs, step = ascent_step(self.objective, self.task, clearance, self.margin)
         measured = self.objective.measured
         return Kernel(f"ascent of {self.objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
 
     @cached_property
+    def _step(self) -> Kernel | None:
+        return self._compiled(None) if self.arm.n > self.task.m else None
+
+    @cached_property
     def _clear_step(self) -> Kernel | None:
         """The step that also keeps the arm clear of itself: compiled once it is needed."""
-        return self._compiled(self.clearance)
+        return self._compiled(self.clearance) if self.arm.n > self.task.m else None
 
     def _climb(
         self, step: Kernel | None, q: Array, poses: Array, steps: int, radius: Array | None = None
@@ -301,6 +304,7 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
     return np.asarray(order[rank < most])
 
 
+@checked
 def optimise(
     arm: Arm,
     poses: ArrayLike,
@@ -383,7 +387,7 @@ def objective_ascent(
     if own is not None and task is not None and not own.same_rows(task):
         raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
     chosen = own or task or as_task(objective.arm, "pose")
-    made: dict[object, Ascent] = objective.__dict__.setdefault("_ascents", {})
+    made = objective.ascents
     key = (chosen.rows.tobytes(), chosen.frame, clearance, margin)
     if key not in made:
         made[key] = Ascent(objective, chosen, clearance, margin)

@@ -20,8 +20,10 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.targets import target_pose
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import Kernel
+from holdfast.kept import cached_property
+from holdfast.kernels import Kernel, recalled
 from holdfast.linalg import damped_least_norm, householder
 from holdfast.solve import joint_space
 from holdfast.solve.inverse import scaled_error, solver
@@ -92,6 +94,7 @@ class SelfMotion:
         return f"{len(self.components)} curve{plural} of configurations, {closed} closed, lengths {lengths} rad"
 
 
+@checked
 def self_motion(
     arm: Arm,
     target: ArrayLike,
@@ -209,7 +212,12 @@ class Tracer:
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm = arm
         self.engine = solver(arm, task)
-        self.free = arm.n - task.m
+        self.task, self.free = task, arm.n - task.m
+
+    @cached_property
+    @recalled
+    def _step(self) -> Kernel:
+        arm, task = self.engine.arm, self.task
         q = kinematics.joint_symbols(arm)
         p, r = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         e, j = scaled_error(arm, task, q, p, r)
@@ -217,7 +225,7 @@ class Tracer:
         null = [basis[k][c] for c in range(self.free) for k in range(arm.n)]
         back = damped_least_norm(j, e, 1e-14)
         # The basis is that of q, the residual too: a point that needs no correction brings its own.
-        self._step = Kernel("self-motion", [q, p, r], [ca.vertcat(q + back, ca.norm_2(e), *null)])
+        return Kernel("self-motion", [q, p, r], [ca.vertcat(q + back, ca.norm_2(e), *null)])
 
     def seeds(self, poses: Array, rows: NDArray[np.intp], seed: int, starts: int) -> tuple[NDArray[np.intp], Array]:
         """Configurations (S, n) of poses, and the pose that each belongs to, in order of starts."""

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.serial import from_dict
 from holdfast.arm.task import Task
+from holdfast.design.choice import best_design, farther
 from holdfast.design.pictures import front_figure, parameters_figure
 from holdfast.design.search import pareto
 from holdfast.indices import by_name
@@ -23,13 +24,15 @@ _MOST = 8  # designs of the front in the table
 
 def sentence(s: Swept) -> str:
     """The answer in one sentence."""
-    best = int(s.guaranteed.argmax())
+    best = best_design(s.guaranteed, s.reach)
     share = _share(s)
     text = (
         f"Of {counted(len(s.values), 'design')} of {s.labels['arm']} the best one guarantees a {_index(s)} of "
-        f"{number(float(s.guaranteed[best]))} for {share} of the poses"
+        f"{number(float(s.guaranteed[best]))} for {share} of the poses and reaches {s.reach[best]:.3f} m"
     )
-    return text + ("." if s.start is None else f"; the given arm {number(float(s.guaranteed[s.start]))}.")
+    if s.start is not None:
+        text += f"; the given arm {number(float(s.guaranteed[s.start]))} and {s.reach[s.start]:.3f} m"
+    return f"{text}. {farther(s.guaranteed, s.reach, best)}".rstrip()
 
 
 def sweep(s: Swept, place: int) -> list[Block]:
@@ -39,7 +42,7 @@ def sweep(s: Swept, place: int) -> list[Block]:
     shown = s.values * factors
     names = [f"{p.name}, {p.shown[1]}" for p in space.parameters]
     label = figures.plain(f"guaranteed {_index(s)} ({_share(s)} of the poses)")
-    best, front = int(s.guaranteed.argmax()), pareto(s.reach, s.guaranteed)
+    best, front = best_design(s.guaranteed, s.reach), pareto(s.reach, s.guaranteed)
     start = None if s.start is None else (float(s.reach[s.start]), float(s.guaranteed[s.start]))
     figure = front_figure(s.reach, s.guaranteed, front.tolist(), best, start, label, _bound(s))
     text = (

@@ -9,18 +9,20 @@ from typing import Any, TypeVar
 import numpy as np
 from markupsafe import Markup
 
-from holdfast.assess.structure import explain, structure
+from holdfast.assess.plan import Plan
+from holdfast.assess.structure import Structure, explain, structure
 from holdfast.errors import StoreError
 from holdfast.interval import Interval
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.outcomes import Gains, Stack, share_figure, stack_figure
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.report.words import article, as_given, counted, interval, number, percent
+from holdfast.report.words import as_given, counted, either, number, percent
 from holdfast.studies import results
 from holdfast.studies.design_report import sentence, sweep
+from holdfast.studies.headline import headline
 from holdfast.studies.results import Assessed, Driven
-from holdfast.studies.standings import Key, Standing, counted_range, place, said, standings
+from holdfast.studies.standings import Ended, Key, Standing, counted_range, place, row_of, said, standings
 from holdfast.studies.study_file import thresholds
 from holdfast.study import Study
 
@@ -52,10 +54,11 @@ def build(study: Study) -> Page:
         missing = f"{done:,} of {total:,} chunks are there; give the same command again to go on."
         alerts.append(Callout(missing, "bad", "Not complete."))
     sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
-    stand = standings(found, laws, asked)
+    own = _structures(found)
+    stand = standings(found, laws, asked, {key: _joints(plan, s) for key, (plan, s) in own.items()})
     sections = [
         Section("Which arm for what", _standings(stand)),
-        Section("Single points of failure by structure", _structure(found)),
+        Section("Single points of failure by structure", _structure(own)),
         *[Section(f"Designs of {s.labels['arm']}", sweep(s, n)) for n, s in enumerate(sweeps)],
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
@@ -68,7 +71,7 @@ def build(study: Study) -> Page:
     arms = list(dict.fromkeys(c["labels"]["arm"] for c in study.cells))
     return Page(
         study.name,
-        " ".join([*([_headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
+        " ".join([*([headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
         [s for s in sections if s.blocks],
         f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
         alerts,
@@ -77,7 +80,8 @@ def build(study: Study) -> Page:
 
 
 def _of(study: Study, job: str, read: Callable[[Study, int], T]) -> list[T]:
-    return [read(study, k) for k, c in enumerate(study.cells) if c["labels"]["job"] == job and study.folder(k).exists()]
+    mine = [k for k in range(len(study.cells)) if results.labels_of(study, k)["job"] == job]
+    return [read(study, k) for k in mine if study.folder(k).exists()]
 
 
 def _thresholds(study: Study, found: Sequence[Assessed]) -> dict[Key, float]:
@@ -101,34 +105,6 @@ def _row(labels: dict[str, Any]) -> tuple[str, ...]:
 # ---- the answer --------------------------------------------------------------------------------------------------------
 
 
-def _headline(stand: Sequence[Standing]) -> str:
-    """The first index, as found and at its best, and the law and arm that arrive most often."""
-    parts = []
-    found = [s for s in stand if not s.law]
-    if found:
-        s = found[0]
-        often = " most often" if len(s.entries) > 1 else ""
-        text = f"After any failure considered, {_first(s)}{often} keeps {article(s.question)} {s.question}{said(s.unit)}: "
-        text += f"at {interval(s.ranked[0][1])} of the poses"
-        if found[1:] and found[1].question.startswith(f"{s.question}, "):
-            text += f"; in the best configuration of each pose, {_first(found[1])}: {interval(found[1].ranked[0][1])}"
-        parts.append(f"{text}.")
-    driven = [s for s in stand if s.law]
-    if driven:
-        top = max(driven, key=lambda s: s.ranked[0][1].value)
-        parts.append(
-            f"With a locked joint that nobody knows of, {_first(top)} arrives most often, under {top.law}: "
-            f"{interval(top.ranked[0][1])} of the motions."
-        )
-    return " ".join(parts)
-
-
-def _first(s: Standing) -> str:
-    """Who leads, or shares the lead."""
-    first, *others = s.level
-    return f"{first} (level with {', '.join(others)})" if others else first
-
-
 def _standings(stand: Sequence[Standing]) -> list[Block]:
     """The first page of a study of several arms: a figure of all questions, and who leads at each."""
     names = list(dict.fromkeys(name for s in stand for name, _ in s.entries))
@@ -145,6 +121,7 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         (name, p), *rest = s.ranked
         level = s.level[1:]
         sure = "–" if not rest else "clearly ahead" if not level else f"level with {', '.join(level)}"
+        sure += "".join(f"; {arm}: 0 by structure" for arm in s.ended)
         after: Cell = "–" if not rest else _stacked([rest[0][0], f"{rest[0][1].value:.3f}"])
         question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
         rows.append([question, _whole(name), _share(p), after, sure, s.about])
@@ -161,15 +138,27 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
     ]
 
 
-def _structure(found: Sequence[Assessed]) -> list[Block]:
+def _structures(found: Sequence[Assessed]) -> dict[Ended, tuple[Plan, Structure]]:
     """Of each arm and task that a lock ends in every configuration: why nothing is left there, whatever the samples."""
-    plans = [a.plan for a in found if a.labels.get("failures", "single") == "single"]
-    blocks: list[Block] = []
-    for plan in {(p.arm.fingerprint, p.index.task.name): p for p in plans}.values():
-        own = structure(plan.arm, plan.index.task)
-        if not own.survives:
-            blocks.append(Callout(explain(plan.arm, own, []), "bad"))
-    return blocks
+    out: dict[Ended, tuple[Plan, Structure]] = {}
+    known: dict[tuple[str, str], Structure] = {}
+    for a in found:
+        if a.labels.get("failures", "single") == "single":
+            plan, key = a.plan, (a.plan.arm.fingerprint, a.plan.index.task.name)
+            if key not in known:
+                known[key] = structure(plan.arm, plan.index.task)
+            if not known[key].survives:
+                out.setdefault(row_of(a), (plan, known[key]))
+    return out
+
+
+def _structure(own: dict[Ended, tuple[Plan, Structure]]) -> list[Block]:
+    return [Callout(explain(plan.arm, s, []), "bad") for plan, s in own.values()]
+
+
+def _joints(plan: Plan, s: Structure) -> str:
+    """The joints whose lock ends a task in every configuration."""
+    return either([plan.arm.joint_names[k] for k in s.fatal]) if s.fatal else "any joint"
 
 
 def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, float]) -> list[Block]:
@@ -385,7 +374,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     facts.append(
         (
             "Intervals",
-            "95 %: Wilson score for shares of poses; by their spread for motions; DKW for curves",
+            "95 %: exact (Clopper-Pearson) for shares of poses; betting for means over motions; DKW for curves",
         )
     )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]

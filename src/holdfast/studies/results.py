@@ -46,6 +46,26 @@ def chunks(study: Study, cell: int) -> Iterator[Rows]:
         yield rows
 
 
+_SWEPT = ("index", "task", "region", "failures")
+_LABELS = {"assess": (*_SWEPT, "keep"), "designs": _SWEPT}
+
+
+def labels_of(study: Study, cell: int) -> dict[str, Any]:
+    """What a cell is in the sweep.
+
+    Raises:
+        StoreError: A label is missing.
+    """
+    found: dict[str, Any] = study.cells[cell]["labels"]
+    for name in ("job", "arm", *_LABELS.get(str(found.get("job")), ("law", "task"))):
+        if not isinstance(found.get(name), str):
+            raise StoreError(
+                f"'{study.path}' is damaged: cell '{study.cells[cell]['name']}' has no label '{name}'; give the study file to "
+                "'holdfast study run' again, which writes it anew"
+            )
+    return found
+
+
 @dataclass(frozen=True)
 class Assessed:
     """An index over a region.
@@ -76,9 +96,9 @@ class Assessed:
 
 def assessed(study: Study, cell: int) -> Assessed:
     """The result of an assessment."""
-    labels = study.cells[cell]["labels"]
+    labels = labels_of(study, cell)
     store = study.store(cell)
-    plan = Plan.from_dict(store.plan, study.cells[cell]["rows"])
+    plan = Plan.stored(store, study.cells[cell]["rows"])
     if labels["keep"] == "counts":
         return _from_counts(study, cell, labels, plan)
     tally, some = Tally(plan), False
@@ -166,15 +186,15 @@ def driven(study: Study, cell: int) -> Driven | None:
     each = np.where(known, there[:, :-1].mean(axis=1), np.nan)
     arrives = tuple(Interval.of(int(there[known, k].sum()), runs) for k in range(code.shape[1]))
     joints = tuple(j["name"] for j in store.plan["arm"]["joints"] if j["type"] != "fixed")
-    whole = shared(each, runs * (code.shape[1] - 1), 0.95)
-    labels = study.cells[cell]["labels"]
+    whole = shared(each, code.shape[1] - 1, 0.95)
+    labels = labels_of(study, cell)
     return Driven(labels, joints, runs, ends, arrives, each, whole, float(reach[known, :-1].mean()))
 
 
 def gain(first: Driven, second: Driven) -> Difference | None:
     """What the second law gains over the first, on the same motions."""
     both = ~np.isnan(first.each) & ~np.isnan(second.each) if first.each.shape == second.each.shape else np.zeros(1, bool)
-    return Difference.of_means(second.each[both] - first.each[both]) if both.sum() > 1 else None
+    return Difference.of_fractions(second.each[both] - first.each[both]) if both.any() else None
 
 
 @dataclass(frozen=True)
@@ -197,13 +217,12 @@ def workspace(study: Study, cell: int) -> Table | None:
     parts = list(chunks(study, cell))
     if not parts:
         return None
-    runs = int(sum((p["configurations"] - p["lost"]).sum() for p in parts))
     found = {}
     for name in ("R100", "Ravg", "F100", "Favg"):
         column = np.concatenate([p[name][:, -1] for p in parts])
-        low, high = mean_intervals(column[:, None], runs, 0.95)[0]
+        low, high = mean_intervals(column[:, None], 0.95)[0]
         found[name] = (float(mean_over(column[:, None], 0)[0]), float(low), float(high))
-    return Table(study.cells[cell]["labels"], sum(len(p["lost"]) for p in parts), found)
+    return Table(labels_of(study, cell), sum(len(p["lost"]) for p in parts), found)
 
 
 def bank(study: Study, cell: int) -> Table | None:
@@ -220,7 +239,7 @@ def bank(study: Study, cell: int) -> Table | None:
         found[f"arrived, {case}"] = (100 * share.value, 100 * share.low, 100 * share.high)
         middle = float(np.median(cycles[..., k][there])) if there.any() else np.nan
         found[f"time, {case}"] = (middle, np.nan, np.nan)
-    return Table(study.cells[cell]["labels"], len(end), found)
+    return Table(labels_of(study, cell), len(end), found)
 
 
 @dataclass(frozen=True)
@@ -256,7 +275,7 @@ def swept(study: Study, cell: int) -> Swept | None:
     values, guaranteed, median, reached, reach = (np.concatenate([p[name] for p in parts]) for name in names)
     store = study.store(cell)
     start = 0 if 0 in store.done else None
-    return Swept(study.cells[cell]["labels"], store.plan, values, guaranteed, median, reached, reach, start)
+    return Swept(labels_of(study, cell), store.plan, values, guaranteed, median, reached, reach, start)
 
 
 def store_size(store: Store) -> int:

@@ -23,17 +23,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import yaml
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
+from holdfast import reading
 from holdfast.errors import HoldfastError, InputError
 from holdfast.study import Cell
-from holdfast.yaml_file import Number, Strict, content, sentence
+from holdfast.study.folder import MOST_CHUNKS, MOST_ROWS, too_many
+from holdfast.written import ArmSpec
+from holdfast.yaml_file import Number, Strict, content, parse, sentence
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
 
+_MOST_CELLS = 100_000
 _EXAMPLE = "'holdfast study new'"
 _Count = Annotated[int, Field(ge=1, strict=True)]
 _Names = Annotated[list[str], Field(min_length=1)]
@@ -54,12 +57,15 @@ class _ArmFile(Strict):
     file: str
     base: str | None = None
     tip: str | None = None
+    hold: dict[str, Number] = Field(default_factory=dict)
+    name: str | None = None
 
 
 class _Designs(Strict):
     arm: str
     base: str | None = None
     tip: str | None = None
+    hold: dict[str, Number] = Field(default_factory=dict)
     vary: Annotated[dict[str, str], Field(min_length=1), BeforeValidator(_bounds)]
     designs: _Count
     chunk: _Count = 64
@@ -173,7 +179,7 @@ def read(path: str | Path) -> StudyFile:
 
 def thresholds(text: str) -> dict[str, float]:
     """Values of the indices that a report asks for, from the text of a study file that was sound."""
-    block = (yaml.safe_load(text) or {}).get("assess") or {}
+    block = (parse(text) or {}).get("assess") or {}
     return {index: float(value) for index, value in (block.get("thresholds") or {}).items()}
 
 
@@ -185,13 +191,20 @@ def _parsed(file: Path) -> tuple[str, _File]:
         raise InputError(sentence(error, _File, _ARM_TAGS)) from error
     if not any((model.assess, model.convergence, model.workspace, model.bank)):
         raise InputError("there is nothing to compute; give assess, convergence, workspace or bank (as 'assess: {}')")
-    return file.read_text(encoding="utf-8"), model
+    return reading.text(file), model
 
 
 def _named(cells: Iterator[Cell]) -> Iterator[Cell]:
     """With names that are folders, and none twice."""
     used: set[str] = set()
     for cell in cells:
+        if too_many(cell.rows, cell.chunk):
+            raise InputError(
+                f"cell '{cell.name}' has {cell.rows} rows in chunks of {cell.chunk}; a cell may have at most "
+                f"{MOST_ROWS} rows and {MOST_CHUNKS} chunks, so give fewer rows or a larger chunk"
+            )
+        if len(used) == _MOST_CELLS:
+            raise InputError(f"it asks for more than {_MOST_CELLS} cells (every arm with every index, task, ...); split it")
         name = re.sub(r"[^A-Za-z0-9._=-]+", "-", cell.name).strip("-.")[:120] or "cell"
         unique = next(n for n in itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2))) if n not in used)
         used.add(unique)
@@ -217,10 +230,9 @@ def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
 
     if isinstance(given, str) and given in arms.names():
         return given, arms.load(given), given
-    file = given if isinstance(given, str) else given.file
-    more = (None, None) if isinstance(given, str) else (given.base, given.tip)
-    spec = str(folder / file) if Path(file).suffix else file
-    arm = arms.resolve(spec, *more)
+    entry = _ArmFile(file=given) if isinstance(given, str) else given
+    spec = str(folder / entry.file) if Path(entry.file).suffix else entry.file
+    arm = ArmSpec(spec, entry.base, entry.tip, entry.hold, entry.name).load()
     return spec, arm, arm.name
 
 
@@ -288,7 +300,8 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     for name in ("convergence", "workspace", "bank"):
         if getattr(model, name) is not None:
             raise InputError(f"arms: designs of '{given.arm}' cannot be swept in {name}; give that block in a file of its own")
-    whole = _ArmFile(file=given.arm, base=given.base, tip=given.tip) if given.base or given.tip else given.arm
+    chosen = given.base or given.tip or given.hold
+    whole = _ArmFile(file=given.arm, base=given.base, tip=given.tip, hold=given.hold) if chosen else given.arm
     spec, arm, label = _arm(whole, folder)
     texts = [f"{name}={bounds}" for name, bounds in given.vary.items()]
     space = DesignSpace(arm, tuple(parse_vary(text, arm, "vary") for text in texts))

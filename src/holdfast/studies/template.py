@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import yaml
 
-from holdfast import arms
+from holdfast import arms, reading
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
+from holdfast.written import ArmSpec
 
 _TEXT = """\
 # A study of holdfast: what is computed is every combination of the lists below.
@@ -65,29 +68,25 @@ convergence:
 
 def write(
     file: str | Path,
-    arm: Sequence[str],
+    arm: Sequence[ArmSpec],
     poses: int,
     chunk: int,
     seed: int,
     indices: Sequence[str] = ("relative-manipulability",),
     laws: Sequence[str] = (),
     optimise: bool = False,
-    base: str | None = None,
-    tip: str | None = None,
 ) -> Path:
     """Write a study file with comments.
 
     Args:
         file: Where; there must be none yet.
-        arm: Built-in names, or arm files.
+        arm: Built-in names, or arm files with their base, tip and what is held.
         poses: Samples of each cell.
         chunk: Of them computed and committed together.
         seed: Of everything random.
         indices: Of the assessments.
         laws: Of the maps of convergence; none if empty.
         optimise: Also the best configurations.
-        base: Link of an arm file on which it stands.
-        tip: Link of an arm file that is the tool.
 
     Raises:
         InputError: Wrong numbers, an unknown arm, index or law, or there is such a file already.
@@ -102,8 +101,8 @@ def write(
     if not arm:
         raise InputError("no arm is named; give --arm, a built-in name or a file")
     for spec in arm:
-        arms.resolve(spec, base, tip)
-    if path.exists():
+        spec.load()
+    if reading.exists(path):
         raise InputError(f"'{path}' exists; give another name, or remove it first")
     motions = min(poses, 200)
     block = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
@@ -115,14 +114,13 @@ def write(
         seed=seed,
         poses=poses,
         chunk=min(chunk, poses),
-        arms=_listed(_beside(spec, path, base, tip) for spec in arm),
+        arms=_listed(_beside(spec, path) for spec in arm),
         indices=_listed(indices),
         optimise=str(optimise).lower(),
         convergence=block,
     )
     try:
-        with path.open("x", encoding="utf-8", newline="\n") as out:
-            out.write(text)
+        replaced(path, text)
     except OSError as error:
         raise StoreError(f"cannot write study file '{path}': {error.strerror or error}; choose another path") from error
     try:
@@ -133,16 +131,15 @@ def write(
     return path
 
 
-def _beside(spec: str, file: Path, base: str | None, tip: str | None) -> str | dict[str, str]:
-    """A built-in name, or the path of an arm file as seen from the study file, with its base and tip."""
-    if spec in arms.names():
-        return spec
-    place = Path(os.path.relpath(spec, file.parent)).as_posix()
-    more = {name: link for name, link in (("base", base), ("tip", tip)) if link is not None}
-    return {"file": place, **more} if more else place
+def _beside(arm: ArmSpec, file: Path) -> str | dict[str, Any]:
+    """A built-in name, or the path of an arm file as seen from the study file, with what was chosen of it."""
+    place = arm.spec if arm.spec in arms.names() else Path(os.path.relpath(arm.spec, file.parent)).as_posix()
+    more = {"base": arm.base, "tip": arm.tip, "hold": dict(arm.hold), "name": arm.name}
+    chosen = {key: value for key, value in more.items() if value}
+    return {"file": place, **chosen} if chosen else place
 
 
-def _listed(items: Iterable[str | dict[str, str]]) -> str:
+def _listed(items: Iterable[str | dict[str, Any]]) -> str:
     return _one_line(list(items))
 
 

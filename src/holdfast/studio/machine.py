@@ -17,7 +17,7 @@ from holdfast.arm.task import Task
 from holdfast.control import Law
 from holdfast.errors import ArmError, HoldfastError, TaskError
 from holdfast.indices import BY_NAME, Index, Objective, by_name, susceptibility
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.solve.inverse import solver
 from holdfast.studio.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
 from holdfast.written import read_labelled_law
@@ -82,6 +82,7 @@ class Machine:
     # ---- where things are ------------------------------------------------------------------------------------------
 
     @cached_property
+    @recalled
     def _frames(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         moving, _ = kinematics.frames(self.arm, kinematics.joint_steps(self.arm, q))
@@ -90,6 +91,7 @@ class Machine:
         return Kernel("frames of the arm", [q], [ca.densify(ca.vertcat(*rows))])
 
     @cached_property
+    @recalled
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [ca.densify(self.task.jacobian(self.arm, q))])

@@ -96,7 +96,9 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         # The last approach to rest takes most of the time and moves nothing.
         path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain))
         off = f"error {float(runs.error):.2g}" + (" m and rad" if law.task.angular else " m")
-        motions.append(Motion(f"{text}: {ENDS[str(runs.outcome)]} ({off})", path.time, "s", path.q))
+        past = [name for name, passed in zip(state.names, runs.limits_passed, strict=True) if passed]
+        limits = f", past the limits of {' and '.join(past)}" if past else ""
+        motions.append(Motion(f"{text}: {ENDS[str(runs.outcome)]}{limits} ({off})", path.time, "s", path.q))
     return motions
 
 

@@ -24,6 +24,7 @@ class State:
         q: (n,) configuration, rad and m.
         task: Rows of the pose that matter, as on the command line.
         base, tip: Links of the file, if chosen.
+        hold: Joints of the file that stand for good, and where, rad or m.
         conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
         index: The index of the bars.
         susceptibility: The susceptibility of the bars.
@@ -43,6 +44,7 @@ class State:
     task: str = "pose"
     base: str | None = None
     tip: str | None = None
+    hold: tuple[tuple[str, float], ...] = ()
     conditions: tuple[Condition, ...] = ()
     index: str = "relative-manipulability"
     susceptibility: str = "torque"
@@ -83,6 +85,7 @@ class State:
         out = ["studio", self.arm, f"--q={','.join(repr(float(x)) for x in self.q)}", f"--task={self.task}"]
         for option, value in (("base", self.base), ("tip", self.tip)):
             out += [] if value is None else [f"--{option}={value}"]
+        out += [f"--hold={name}={value!r}" for name, value in self.hold]
         for name, condition in zip(self.names, self.conditions, strict=True):
             out += [] if condition == "healthy" else [f"--{'lock' if condition == 'locked' else 'free'}={name}"]
         for option in ("index", "susceptibility", "objective", "show"):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.tree import Tree
+from holdfast.arm.tree import Held, Tree
 from holdfast.arm.urdf import read_origin, read_tree, robot_element
 from holdfast.errors import ArmError
 from holdfast.studio.body import LINK, Color, Part, ball, box, tube
@@ -22,7 +22,7 @@ MOST_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
 def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[list[Part], list[str]]:
     """The visual shapes of the links of an arm, in the frames of its bodies, and names of mesh files that were not found.
 
-    Links that hang beside the chain on a moving joint stand with that joint at 0.
+    Links that hang beside the chain on a moving joint stand where the arm's mass has them.
 
     Args:
         path: The URDF file.
@@ -32,11 +32,12 @@ def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[lis
     file = Path(path)
     robot = robot_element(file)
     tree = read_tree(robot, file.stem)
+    still = Held(tree, set(arm.joint_names), {} if arm.chain is None else dict(arm.chain.held))
     materials = {m.get("name", ""): c for m in robot.findall("material") if (c := _rgba(m)) is not None}
     parts: list[Part] = []
     missing: list[str] = []
     for element in robot.findall("link"):
-        place = _carried(tree, arm, element.get("name", ""), base or tree.root)
+        place = _carried(tree, arm, still, element.get("name", ""), base or tree.root)
         if place is None:
             continue
         frame, pose = place
@@ -55,7 +56,7 @@ def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[lis
     return parts, missing
 
 
-def _carried(tree: Tree, arm: Arm, link: str, base: str) -> tuple[int, Array] | None:
+def _carried(tree: Tree, arm: Arm, still: Held, link: str, base: str) -> tuple[int, Array] | None:
     """The frame of the arm that carries a link, and the link's pose in it; None for what does not hang on the base."""
     numbers = {name: k + 1 for k, name in enumerate(arm.joint_names)}
     pose = np.eye(4)
@@ -65,7 +66,7 @@ def _carried(tree: Tree, arm: Arm, link: str, base: str) -> tuple[int, Array] | 
         joint = tree.above[link]
         if joint.name in numbers:
             return numbers[joint.name], pose
-        pose = joint.at(0.0 if joint.moving and joint.lower <= 0 <= joint.upper else joint.rest) @ pose
+        pose = joint.at(still.value(joint)) @ pose
         link = joint.parent
     return 0, pose
 

@@ -1,4 +1,4 @@
-"""What every folder of results needs: a lock, and checksums."""
+"""What every folder of results needs: a lock, checksums, and bounds for what is written in it."""
 
 from __future__ import annotations
 
@@ -13,6 +13,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
+
+MOST_ROWS, MOST_CHUNKS = 10**15, 10**7
+
+
+def too_many(rows: int, chunk: int) -> bool:
+    """Whether so many rows, in chunks of so many, are more than a program can count in a sensible time."""
+    return rows > MOST_ROWS or -(-rows // chunk) > MOST_CHUNKS
+
+
+def is_plain(name: object) -> bool:
+    """Whether something is the name of a folder right here, wherever the results are taken to."""
+    return (
+        isinstance(name, str)
+        and name not in ("", ".", "..")
+        and not set(name) & set('/\\:*?"<>|\0')
+        and len(name.encode(errors="replace")) < 256
+    )
 
 
 @contextmanager

@@ -12,6 +12,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from holdfast import reading
+
+_LARGEST = 1 << 30  # bytes: ten million lines
 _LOST = "-"
 
 
@@ -45,7 +48,7 @@ class Journal:
             OSError: The file cannot be read.
         """
         try:
-            lines = self.path.read_bytes().split(b"\n")
+            lines = reading.raw(self.path, _LARGEST).split(b"\n")
         except FileNotFoundError:
             return {}
         found: dict[int, Entry] = {}

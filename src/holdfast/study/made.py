@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from holdfast import reading
 from holdfast.errors import StoreError
 from holdfast.whole_file import replaced
 
@@ -56,7 +57,7 @@ class Made:
         if not file.exists():
             return {"makers": [], "runs": []}
         try:
-            data = json.loads(file.read_text(encoding="utf-8"))
+            data = json.loads(reading.text(file))
             return {"makers": list(data["makers"]), "runs": list(data["runs"])}
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise StoreError(f"'{file}' is damaged ({error}); remove it to go on without knowing what made the rows") from error

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.errors import StoreError
 from holdfast.study.folder import held
 from holdfast.study.store import Store
@@ -51,7 +52,7 @@ def merge(path: str | Path, folders: Sequence[str | Path], progress: Progress | 
     others = [Study.open(folder) for folder in folders]
     if not others:
         raise StoreError("there is nothing to merge; name the folder to merge into and one or more to take from")
-    study = Study.open(path) if Path(path).exists() else None
+    study = Study.open(path) if reading.exists(Path(path)) else None
     for other in others:
         (study or others[0]).check_same(other)
     study = study or others[0].copy(path)
@@ -79,6 +80,8 @@ class _Merge:
                 continue
             source = other.store(k)
             mine = Store.create(self._study.folder(k), source.plan, source.columns, *source.shape, journal=True)
+            if source.done and k not in self._study.begun:
+                self._study.note_begun(k)
             for chunk in source.done:
                 self._chunk(cell["name"], chunk, source, mine, numbers)
                 self._at += 1

@@ -20,8 +20,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import reading
 from holdfast.errors import StoreError
-from holdfast.study.folder import digest, held
+from holdfast.study.folder import digest, held, is_plain, too_many
 from holdfast.study.journal import Entry, Journal
 from holdfast.whole_file import replaced
 
@@ -95,7 +96,7 @@ class Store:
         """
         folder = Path(path)
         plan = json.loads(json.dumps(plan))
-        if (folder / _RUN).exists():
+        if reading.exists(folder / _RUN):
             store = cls.open(folder)
             old = store.plan
             if old != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
@@ -109,9 +110,9 @@ class Store:
                 except OSError as error:
                     raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
             return store
-        if folder.exists() and not folder.is_dir():
+        if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
-        if folder.exists() and any(folder.iterdir()):
+        if reading.exists(folder) and any(folder.iterdir()):
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast run; give a new or empty folder")
         run = {
             "format": _FORMAT,
@@ -142,10 +143,10 @@ class Store:
         """
         folder = Path(path)
         file = folder / _RUN
-        if not file.exists():
+        if not reading.exists(file):
             raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN}; give the folder that --out named")
         try:
-            run = json.loads(file.read_text())
+            run = json.loads(reading.text(file))
         except (OSError, ValueError, RecursionError) as error:
             raise StoreError(
                 f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder"
@@ -381,7 +382,7 @@ class Store:
         return data
 
     def _damaged(self, error: Exception) -> StoreError:
-        reason = str(error) or type(error).__name__
+        reason = _short(" ".join(str(error).split()) or type(error).__name__, 200)
         return StoreError(f"'{self.path / _SAMPLES}' is damaged ({reason}); start the run again in a new folder")
 
     # ---- files -----------------------------------------------------------------------------------------------------
@@ -410,13 +411,26 @@ class Store:
 
 def _wrong(run: Mapping[str, Any]) -> str | None:
     """The first entry of run.json that is missing or cannot be."""
-    for key, kind in (("plan", dict), ("notes", dict), ("rows", int), ("chunk", int), ("done", list)):
+    for key, kind in (("plan", dict), ("notes", dict), ("rows", int), ("chunk", int), ("done", list), ("columns", list)):
         if not isinstance(run.get(key), kind):
             return key
-    if run["rows"] < 0 or run["chunk"] < 1:
+    if run["rows"] < 0 or run["chunk"] < 1 or too_many(run["rows"], run["chunk"]):
         return "rows" if run["rows"] < 0 else "chunk"
     count = -(-run["rows"] // run["chunk"])
-    return None if all(isinstance(k, int) and 0 <= k < count for k in run["done"]) else "done"
+    if not all(isinstance(k, int) and 0 <= k < count for k in run["done"]):
+        return "done"
+    return None if all(_is_column(c) for c in run["columns"]) else "columns"
+
+
+def _is_column(given: Any) -> bool:
+    try:
+        name, dtype, dims, units, about = given
+        np.dtype(dtype)
+        lengths = [(d, n) for d, n in dims]
+    except (TypeError, ValueError):
+        return False
+    texts = (name, dtype, units, about, *(d for d, _ in lengths))
+    return all(isinstance(x, str) for x in texts) and all(isinstance(n, int) and n >= 0 for _, n in lengths) and is_plain(name)
 
 
 def _difference(old: Mapping[str, Any], new: Mapping[str, Any], run: Mapping[str, Any], rows: int, chunk: int) -> str:
@@ -427,5 +441,5 @@ def _difference(old: Mapping[str, Any], new: Mapping[str, Any], run: Mapping[str
     return f"it has {run['rows']} rows in chunks of {run['chunk']}, asked for are {rows} in chunks of {chunk}"
 
 
-def _short(text: str) -> str:
-    return text if len(text) <= 60 else text[:57] + "..."
+def _short(text: str, most: int = 60) -> str:
+    return text if len(text) <= most else text[: most - 3] + "..."

@@ -9,8 +9,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from holdfast import reading
 from holdfast.errors import HoldfastError, StoreError
-from holdfast.study.folder import held
+from holdfast.study.folder import held, is_plain, too_many
 from holdfast.study.job import Cell
 from holdfast.study.journal import Entry, Journal
 from holdfast.study.made import Made
@@ -20,7 +21,7 @@ from holdfast.study.work import Progress, Work
 from holdfast.whole_file import replaced
 
 _FORMAT, _VERSION = "holdfast-study", 1
-_FILE, LOCK, _CELLS = "study.json", "study.lock", "cells"
+_FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
 _KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 
@@ -54,10 +55,10 @@ class CellStatus:
 
 @dataclass(frozen=True)
 class Damage:
-    """A committed chunk that is not as it was written; number from 0."""
+    """A committed chunk that is not as it was written; number from 0, None for all of a cell that was begun and is gone."""
 
     cell: str
-    chunk: int
+    chunk: int | None
     what: str
 
 
@@ -73,12 +74,13 @@ class Study:
         self.path = path
         self.made = Made(path)
         self._data = data
+        self._begun = Journal(path / _BEGUN)
 
     # ---- opening ---------------------------------------------------------------------------------------------------
 
     @classmethod
     def create(cls, path: str | Path, name: str, seed: int, cells: Sequence[Cell], source: str = "") -> Study:
-        """A new folder, or the existing one of the same study, to go on; it takes over a name and source that have changed.
+        """A new folder, or the existing one of the same study, to go on; it takes over a new name, source and labels.
 
         Args:
             path: The folder.
@@ -92,20 +94,20 @@ class Study:
         """
         folder = Path(path)
         data = described(name, seed, cells, source)
-        if (folder / _FILE).exists():
+        if reading.exists(folder / _FILE):
             study = cls.open(folder)
             if study.digest != data["digest"]:
                 raise StoreError(
                     f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
                     "go on with it"
                 )
-            if (study.name, study.source) != (name, source):
+            if study._data != data:
                 study._write(data)
             return study
-        if folder.exists() and not folder.is_dir():
+        if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
         try:
-            if folder.exists() and any(folder.iterdir()):
+            if reading.exists(folder) and any(folder.iterdir()):
                 raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -123,12 +125,12 @@ class Study:
         """
         folder = Path(path)
         file = folder / _FILE
-        if not file.exists():
+        if not reading.exists(file):
             raise StoreError(
                 f"'{folder}' is not a study: it has no {_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
-            data = json.loads(file.read_text(encoding="utf-8"))
+            data = json.loads(reading.text(file))
         except (OSError, ValueError, RecursionError) as error:
             raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
         if not isinstance(data, dict) or data.get("format") != _FORMAT:
@@ -136,6 +138,8 @@ class Study:
         if data.get("version") != _VERSION:
             raise StoreError(f"'{folder}' was written in format {data.get('version')}; this holdfast reads format {_VERSION}")
         wrong = next((k for k, kind in _KEYS.items() if not isinstance(data.get(k), kind)), None)
+        wrong = wrong or next((f"cell {k + 1}" for k, c in enumerate(data["cells"]) if not _is_cell(c)), None)
+        wrong = wrong or ("cells" if len({c["name"] for c in data["cells"]}) < len(data["cells"]) else None)
         wrong = wrong or ("digest" if _digest(data) != data["digest"] else None)
         if wrong:
             raise StoreError(
@@ -226,9 +230,32 @@ class Study:
         Raises:
             StoreError: None of it is computed, or it is damaged.
         """
-        if not self.folder(cell).exists():
+        if not reading.exists(self.folder(cell)):
             raise StoreError(f"cell '{self.cells[cell]['name']}' of '{self.path}' is not begun; run the study first")
         return Store.open(self.folder(cell))
+
+    def note_begun(self, cell: int) -> None:
+        """Write down that a cell has rows, so that it is missed when it is gone.
+
+        Raises:
+            StoreError: The disk refuses.
+        """
+        try:
+            self._begun.add(cell, Entry("begun", 0, 0.0, 0))
+        except OSError as error:
+            raise _unwritable(self.path, error) from error
+
+    @property
+    def begun(self) -> frozenset[int]:
+        """Cells that had rows once, from 0; folders from before holdfast kept count do not say.
+
+        Raises:
+            StoreError: It cannot be read.
+        """
+        try:
+            return frozenset(self._begun.read())
+        except OSError as error:
+            raise StoreError(f"'{self._begun.path}' cannot be read: {error.strerror or error}") from error
 
     def entries(self, cell: int) -> dict[int, Entry]:
         """What is done of a cell, by number of the chunk.
@@ -319,14 +346,20 @@ class Study:
     def verify(self, progress: Progress | None = None) -> list[Damage]:
         """Read every committed chunk and compare its checksum; damaged ones are missing from then on, to be run again.
 
+        A cell that was begun and of which nothing is left counts too.
+
         Raises:
             StoreError: Another program is at work in the folder, or it is not writable.
         """
         found: list[Damage] = []
         with held(self.path, LOCK):
             total, at = sum(s.chunks_done for s in self.status()), 0
+            begun = self.begun
             for k, c in enumerate(self._data["cells"]):
-                if not self.folder(k).exists():
+                if k in begun and not self.entries(k):
+                    found.append(Damage(c["name"], None, "it was begun, and nothing of it is left"))
+                    self._forget(k)
+                if not reading.exists(self.folder(k)):
                     continue
                 store = self.store(k)
                 bad = []
@@ -341,7 +374,15 @@ class Study:
                         progress(at, total, None)
                 if bad:
                     store.drop(bad)
+                    if not store.done:
+                        self._forget(k)
         return found
+
+    def _forget(self, cell: int) -> None:
+        try:
+            self._begun.drop([cell])
+        except OSError as error:
+            raise _unwritable(self.path, error) from error
 
 
 def _unwritable(folder: Path, error: OSError) -> StoreError:
@@ -369,6 +410,13 @@ def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[
         ],
     }
     return {**data, "digest": _digest(data)}
+
+
+def _is_cell(data: Any) -> bool:
+    kinds = {"labels": dict, "rows": int, "chunk": int, "digest": str}
+    if not isinstance(data, dict) or not all(isinstance(data.get(k), kind) for k, kind in kinds.items()):
+        return False
+    return is_plain(data.get("name")) and data["rows"] >= 0 and data["chunk"] >= 1 and not too_many(data["rows"], data["chunk"])
 
 
 def _digest(data: Mapping[str, Any]) -> str:

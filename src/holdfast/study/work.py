@@ -31,6 +31,7 @@ class Work:
         self._stores: dict[int, Store] = {}
         self._left: dict[int, int] = {}
         self._numbers: list[dict[str, Any]] = study.makers
+        self._begun = set(study.begun)
         self._problems: dict[str, HoldfastError] = {}
 
     def run(self, runner: Runner, stop: Stop, part: tuple[int, int]) -> dict[str, HoldfastError]:
@@ -97,6 +98,9 @@ class Work:
             self._study.made.number(made)
             self._numbers = self._study.makers
         self._stores[k].write(task.chunk.number, columns, seconds, self._numbers.index(made))
+        if k not in self._begun:
+            self._study.note_begun(k)
+            self._begun.add(k)
         self._left[k] -= 1
         if not self._left[k]:
             del self._stores[k]

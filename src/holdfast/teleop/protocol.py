@@ -36,7 +36,7 @@ import numpy as np
 import yaml
 from pydantic import Field, ValidationError
 
-from holdfast import arms
+from holdfast import arms, reading
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import HoldfastError, InputError, StoreError
@@ -45,6 +45,7 @@ from holdfast.teleop.order import Indices, scenario_orders, williams
 from holdfast.teleop.plant import SUBSTEPS, Plant
 from holdfast.teleop.point_task import PointTasks, Scenario
 from holdfast.teleop.stick import Stick
+from holdfast.whole_file import replaced
 from holdfast.yaml_file import Number, Strict, content, sentence
 
 PAPER, SMOOTH = "goel2003", "goel2003-smooth"
@@ -202,9 +203,9 @@ class Protocol:
         """
         file = Path(path)
         try:
-            file.write_text(self.text(), encoding="utf-8")
-            if self.arm_file is not None and not (beside := file.parent / self.arm_spec).exists():
-                beside.write_bytes(self.arm_file.read_bytes())
+            replaced(file, self.text())
+            if self.arm_file is not None and not reading.exists(beside := file.parent / self.arm_spec):
+                replaced(beside, reading.raw(self.arm_file))
         except OSError as error:
             raise StoreError(f"cannot write '{file}': {error.strerror or error}; choose another path") from error
         return file
@@ -287,7 +288,7 @@ class _File(Strict):
 
 def _protocol(model: _File, folder: Path) -> Protocol:
     arm_file = None if model.arm in arms.names() else folder / model.arm
-    arm = arms.resolve(model.arm if arm_file is None or not arm_file.exists() else str(arm_file))
+    arm = arms.resolve(model.arm if arm_file is None or not reading.exists(arm_file) else str(arm_file))
     rows = as_task(arm, model.task)
     for k, task in enumerate(model.tasks):
         for what, values, wanted in (("q0", task.q0, arm.n), ("target", task.target, rows.m)):

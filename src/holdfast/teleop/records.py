@@ -19,12 +19,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError
+from holdfast.errors import InputError, StoreError
+from holdfast.teleop.digests import Chain
 from holdfast.teleop.entries import ENTRY, SUBJECT, Entry, Kind, State, Subject, Who, blob, read_entry, read_subject
 from holdfast.teleop.order import next_row
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records_file import connect, make, now
+from holdfast.teleop.records_file import beside, connect, make, now, place
 from holdfast.teleop.trials import End, Trials
 
 Array = NDArray[np.float64]
@@ -42,11 +43,13 @@ class Records:
     Attributes:
         folder: The folder.
         protocol: The protocol as it was when the experiment began.
+        read_only: Nothing can be changed, as the folder cannot be written.
     """
 
-    def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol) -> None:
-        self.folder, self._db, self.protocol = folder, connection, protocol
-        self._depth = 0
+    def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol, read_only: bool = False) -> None:
+        self.folder, self._db, self.protocol, self.read_only = folder, connection, protocol, read_only
+        self._chain = Chain(connection, folder, beside(protocol))
+        self._depth, self._place = 0, place(folder)
 
     # ---- opening ---------------------------------------------------------------------------------------------------
 
@@ -64,7 +67,7 @@ class Records:
 
     @classmethod
     def open(cls, folder: str | Path) -> Records:
-        """Open the experiment in a folder.
+        """Open the experiment in a folder; only to read where the folder cannot be written.
 
         Raises:
             StoreError: There is none, it is damaged, or of another format.
@@ -121,6 +124,8 @@ class Records:
             )
             # A number is never given twice, also where its subject was deleted.
             self._db.execute("INSERT OR REPLACE INTO about VALUES ('next', ?)", (str(number + 1),))
+            self._chain.add("experiment")
+            self._chain.add("subject", code)
         return self.subject(code)
 
     def subject(self, code: str) -> Subject:
@@ -173,23 +178,33 @@ class Records:
         self.subject(code)
         self._db.execute("PRAGMA secure_delete = ON")
         with self.together():
+            self._chain.prepare()
             self._db.execute("DELETE FROM subjects WHERE code = ?", (code,))
         self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
         self._db.execute("VACUUM")
 
     # ---- sessions of pages -----------------------------------------------------------------------------------------
 
-    def give_key(self, code: str) -> str:
+    def give_key(self, code: str, key: str | None = None) -> str:
         """A new secret key to a subject's session, in place of an older one; only its hash is kept.
+
+        Args:
+            code: The subject.
+            key: That the page made; one is made here if not given.
 
         Raises:
             InputError: There is no such subject.
         """
         self.subject(code)
-        key = secrets.token_urlsafe(24)
-        self._db.execute(
-            "INSERT INTO sessions VALUES (?, ?, 0) ON CONFLICT (subject) DO UPDATE SET key = excluded.key", (code, _hash(key))
-        )
+        key = secrets.token_urlsafe(24) if key is None else key
+        with self.together():
+            self._chain.prepare()
+            self._db.execute(
+                "INSERT INTO sessions (subject, key, seq) VALUES (?, ?, 0) "
+                "ON CONFLICT (subject) DO UPDATE SET key = excluded.key",
+                (code, _hash(key)),
+            )
+            self._chain.session(code)
         return key
 
     def key_holder(self, key: str) -> str | None:
@@ -201,9 +216,19 @@ class Records:
         """Number of the last message of a subject's page that is on record; 0 for none."""
         return int(self._value("SELECT COALESCE((SELECT seq FROM sessions WHERE subject = ?), 0)", code))
 
-    def set_last_seq(self, code: str, seq: int) -> None:
-        """See :meth:`last_seq`; for one transaction with what the message changes."""
-        self._db.execute("UPDATE sessions SET seq = ? WHERE subject = ?", (seq, code))
+    def set_last_seq(self, code: str, seq: int, size: int = 0) -> None:
+        """See :meth:`last_seq`, and :meth:`received` more bytes; for one transaction with what the message changes."""
+        self._db.execute("UPDATE sessions SET seq = ?, bytes = bytes + ? WHERE subject = ?", (seq, size, code))
+        self._chain.session(code)
+
+    def received(self, code: str) -> int:
+        """How many bytes of messages are on record of a subject's page."""
+        return int(self._value("SELECT COALESCE((SELECT bytes FROM sessions WHERE subject = ?), 0)", code))
+
+    def prepare(self) -> None:
+        """Make what is missing in a folder of an older holdfast, before it is written to."""
+        with self.together():
+            self._chain.prepare()
 
     # ---- trials ----------------------------------------------------------------------------------------------------
 
@@ -227,12 +252,18 @@ class Records:
         self.subject(subject)
         if len(tasks) != 1 or not 0 <= scenario < len(self.protocol.scenarios):
             raise InputError(f"a trial has one task and one of {len(self.protocol.scenarios)} scenarios, counted from 0")
-        cursor = self._db.execute(
-            "INSERT INTO trials (subject, kind, position, task, scenario, joint, q0, target, began) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            (subject, kind, position, task, scenario, int(tasks.joint[0]), blob(tasks.q0[0]), blob(tasks.target[0]), now()),
-        )
-        assert cursor.lastrowid is not None
+        with self.together():
+            # What was left open is over now.
+            for (left,) in self._db.execute("SELECT id FROM trials WHERE subject = ? AND end IS NULL", (subject,)).fetchall():
+                self._db.execute("UPDATE trials SET end = ? WHERE id = ?", (int(End.BROKEN_OFF), left))
+                self._chain.end(left, subject)
+            cursor = self._db.execute(
+                "INSERT INTO trials (subject, kind, position, task, scenario, joint, q0, target, began) "
+                "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                (subject, kind, position, task, scenario, int(tasks.joint[0]), blob(tasks.q0[0]), blob(tasks.target[0]), now()),
+            )
+            assert cursor.lastrowid is not None
+            self._chain.begin(cursor.lastrowid, subject)
         return cursor.lastrowid
 
     def append(self, trial: int, first: int, time: Array, velocity: Array, q: Array) -> None:
@@ -241,19 +272,21 @@ class Records:
         Args:
             trial: Its number.
             first: Index from 0 of the first of them: the next one of the trial.
-            time: (K,) s since the trial began, by the clock of who holds the stick.
+            time: (K,) s since the trial began, by the clock of who holds the stick; none before the one before it.
             velocity: (K, m) commands, m/cycle.
             q: (K, n) configurations when each cycle began, rad and m.
 
         Raises:
-            InputError: There is no such trial, it has ended, a cycle is missing or there already, or the arrays do not fit.
+            InputError: There is no such trial, it has ended, a cycle is missing or there already, its time runs backwards, or
+                the arrays do not fit.
         """
         n, m = self.protocol.arm.n, self.protocol.rows.m
         if velocity.shape != (len(time), m) or q.shape != (len(time), n):
             raise InputError(f"{len(time)} cycles need commands ({len(time)}, {m}) and configurations ({len(time)}, {n})")
         if not (np.isfinite(velocity).all() and np.isfinite(q).all() and np.isfinite(time).all()):
             raise InputError("a cycle holds NaN or infinity; nothing was recorded")
-        rows = [(trial, first + i, float(time[i]), blob(velocity[i]), blob(q[i])) for i in range(len(time))]
+        # SQLite knows no -0.0.
+        rows = [(trial, first + i, float(time[i]) + 0.0, blob(velocity[i]), blob(q[i])) for i in range(len(time))]
         with self.together():
             found = self._db.execute("SELECT end FROM trials WHERE id = ?", (trial,)).fetchone()
             if found is None or found[0] is not None:
@@ -261,7 +294,11 @@ class Records:
             there = int(self._value("SELECT COALESCE(MAX(k) + 1, 0) FROM cycles WHERE trial = ?", trial))
             if first != there:
                 raise InputError(f"trial {trial} goes on with cycle {there}, not {first}; nothing was recorded")
+            last = self._value("SELECT COALESCE((SELECT time FROM cycles WHERE trial = ? AND k = ?), 0)", trial, there - 1)
+            if (np.diff(time, prepend=last) < 0).any():
+                raise InputError("the times of the cycles run backwards, or begin before the trial; nothing was recorded")
             self._db.executemany("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", rows)
+            self._chain.go_on(trial, [row[1:] for row in rows])
 
     def finish(self, trial: int, end: End, q_end: Array) -> None:
         """A trial is over: how, and in which configuration (n,) the arm stands.
@@ -277,22 +314,28 @@ class Records:
                 raise InputError(f"trial {trial} does not exist or has ended already")
             count = int(self._value("SELECT COUNT(*) FROM cycles WHERE trial = ?", trial))
             # The last row has no command: it is where the arm stands at the end.
-            zero = blob(np.zeros(self.protocol.rows.m))
-            self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, count, -1.0, zero, blob(q_end)))
+            row = (count, -1.0, blob(np.zeros(self.protocol.rows.m)), blob(q_end))
+            self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, *row))
+            self._chain.go_on(trial, [row])
+            self._chain.end(trial, self._value("SELECT subject FROM trials WHERE id = ?", trial))
 
     def rate(self, trial: int, rating: int, answers: Mapping[str, Any] | None = None) -> None:
         """The rating of a trial, a step from 0, and answers to further questions.
 
         Raises:
-            InputError: There is no such trial, or the rating has no such step.
+            InputError: There is no such trial, it is one of the training, or the rating has no such step.
         """
         if not 0 <= rating < len(self.protocol.rating):
             raise InputError(f"the rating is {rating}; it must be 0 to {len(self.protocol.rating) - 1}")
-        changed = self._db.execute(
-            "UPDATE trials SET rating = ?, answers = ? WHERE id = ?", (rating, json.dumps(dict(answers or {})), trial)
-        ).rowcount
-        if changed != 1:
-            raise InputError(f"trial {trial} does not exist")
+        with self.together():
+            entry = self.entry(trial)
+            if entry is None:
+                raise InputError(f"trial {trial} does not exist")
+            if entry.kind == Kind.TRAINING:
+                raise InputError(f"trial {trial} is one of the training, which has no ratings; rate trials that count")
+            said = json.dumps(dict(answers or {}))
+            self._db.execute("UPDATE trials SET rating = ?, answers = ? WHERE id = ?", (rating, said, trial))
+            self._chain.add("rating", entry.subject, trial)
 
     def event(
         self,
@@ -304,7 +347,9 @@ class Records:
     ) -> None:
         """Something happened: a pause, a dropped frame, a lost connection, a note."""
         row = (trial, subject, k, now(), kind, json.dumps(dict(data or {})))
-        self._db.execute("INSERT INTO events (trial, subject, k, at, kind, data) VALUES (?, ?, ?, ?, ?, ?)", row)
+        with self.together():
+            cursor = self._db.execute("INSERT INTO events (trial, subject, k, at, kind, data) VALUES (?, ?, ?, ?, ?, ?)", row)
+            self._chain.add("event", subject, cursor.lastrowid)
 
     def events(self, kind: str | None = None) -> list[dict[str, Any]]:
         """All events, or those of one kind, in the order in which they came."""
@@ -395,17 +440,26 @@ class Records:
 
     @contextmanager
     def together(self) -> Iterator[None]:
-        """All changes made inside, or none; they are acknowledged when the block ends."""
+        """All changes made inside, or none; they are acknowledged when the block ends.
+
+        Raises:
+            StoreError: The folder cannot be written, or was deleted.
+        """
+        if self.read_only:
+            raise StoreError(f"'{self.folder}' cannot be written; copy it to where you may write")
         # Part of a larger change: undone by itself where it fails, and kept if the larger one is.
         begin, keep, *undo = _NESTED if self._depth else _OUTERMOST
         self._db.execute(begin)
         self._depth += 1
         try:
             yield
+            if self._depth == 1 and place(self.folder) != self._place:
+                raise StoreError(f"the folder '{self.folder}' is not there any more, or is another one; nothing was recorded")
             self._db.execute(keep)
         except BaseException:
             for statement in undo if self._db.in_transaction else ():  # a full disk has ended it already
                 self._db.execute(statement)
+            self._chain.undone()
             raise
         finally:
             self._depth -= 1
@@ -419,12 +473,18 @@ class Records:
         finally:
             self._db.execute("ROLLBACK")
 
+    def copy_to(self, target: sqlite3.Connection) -> None:
+        """Copy the file as it is at one moment, while others may go on writing."""
+        self._db.backup(target)
+
     def _value(self, query: str, *values: Any) -> Any:
         return self._db.execute(query, values).fetchone()[0]
 
     def _on_subject(self, code: str, column: str, value: str) -> None:
-        self.subject(code)
-        self._db.execute(f"UPDATE subjects SET {column} = ? WHERE code = ?", (value, code))
+        with self.together():
+            self.subject(code)
+            self._db.execute(f"UPDATE subjects SET {column} = ? WHERE code = ?", (value, code))
+            self._chain.add("subject", code)
 
 
 def _hash(key: str) -> bytes:

@@ -18,7 +18,7 @@ from holdfast.errors import InputError
 from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
-from holdfast.kernels import SX, Kernel
+from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status, require_ok
 
@@ -157,17 +157,20 @@ class Susceptibility(Objective):
         return ca.SX(ca.densify(ca.dot(f, weights @ f)))
 
     @cached_property
+    @recalled
     def _values(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         f, degenerate = self.formula.values(self.arm, q)
         return Kernel(self.name, [q], [self._combined(f), f, degenerate])
 
     @cached_property
+    @recalled
     def _gradient(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel(f"{self.name} gradient", [q], [self.gradient_expression(q)])
 
     @cached_property
+    @recalled
     def _jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel(f"{self.name} jacobian", [q], [ca.jacobian(self.by_joint_expression(q), q)])
@@ -244,6 +247,7 @@ class Together:
         self.arm = self.measures[0].arm
 
     @cached_property
+    @recalled
     def _kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         values = [m.expression(q) for m in self.measures]

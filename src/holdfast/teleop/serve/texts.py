@@ -25,8 +25,10 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
+from holdfast import reading
 from holdfast.errors import InputError, StoreError
 from holdfast.teleop.serve.messages import Name
+from holdfast.whole_file import replaced
 from holdfast.yaml_file import Number, Strict, content, sentence
 
 ENGLISH = Path(__file__).with_name("texts") / "en.yaml"
@@ -128,11 +130,10 @@ def copy(path: Path) -> Path:
     Raises:
         StoreError: It is there already, or cannot be written.
     """
+    if reading.exists(path):
+        raise StoreError(f"'{path}' exists already; choose another name")
     try:
-        with path.open("xb") as file:
-            file.write(ENGLISH.read_bytes())
-    except FileExistsError:
-        raise StoreError(f"'{path}' exists already; choose another name") from None
+        replaced(path, ENGLISH.read_bytes())
     except OSError as error:
         raise StoreError(f"cannot write '{path}': {error.strerror or error}; choose another path") from error
     return path

@@ -1,0 +1,58 @@
+"""Kernels that need not be built again: a second start finds their code without making the expressions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import wraps
+from typing import ParamSpec, TypeVar, cast
+
+from holdfast.kernels import cache
+from holdfast.kernels.kernel import Kernel, default_backend
+from holdfast.kernels.loop import Loop
+from holdfast.kernels.program import Program
+from holdfast.kernels.recipe import digest_of
+
+P = ParamSpec("P")
+K = TypeVar("K", Kernel, Loop)
+
+
+def recalled(build: Callable[P, K]) -> Callable[P, K]:
+    """A function or method that builds a kernel or a loop, called only where its result is not known from before.
+
+    What it builds may depend on nothing but its arguments and the sources of holdfast. Where an argument has no digest
+    (:mod:`holdfast.kernels.recipe`), it is called as ever.
+    """
+
+    @wraps(build)
+    def from_memory(*args: P.args, **kwargs: P.kwargs) -> K:
+        recipe = digest_of(build.__module__, build.__qualname__, args, kwargs) if default_backend() == "llvm" else None
+        if recipe is None:
+            return build(*args, **kwargs)
+        entry = cache.key(recipe, "facts")
+        facts = cache.load(entry)
+        if facts is None:
+            made = build(*args, **kwargs)
+            cache.store(entry, _facts(made))
+            _kernel(made).program.recipe = recipe
+            return made
+        return cast(K, _known(facts, recipe, lambda: _kernel(build(*args, **kwargs)).program))
+
+    return from_memory
+
+
+def _kernel(made: Kernel | Loop) -> Kernel:
+    return made.step if isinstance(made, Loop) else made
+
+
+def _facts(made: Kernel | Loop) -> bytes:
+    loop = [made.ahead, made.times] if isinstance(made, Loop) else None
+    return json.dumps([loop, *_kernel(made).program.facts()]).encode()
+
+
+def _known(facts: bytes, recipe: str, build: Callable[[], Program]) -> Kernel | Loop:
+    loop, *about = json.loads(facts)
+    program = Program.known(about, build)
+    program.recipe = recipe
+    kernel = Kernel.of(program)
+    return kernel if loop is None else Loop.of(kernel, *loop)

@@ -1,0 +1,110 @@
+"""What an expression is made of, as a digest: who has computed from the same things before need not build it again.
+
+Numbers, texts, arrays, enumerations, containers of them, dataclasses and objects of holdfast count by their values, together
+with the sources of the package and the version of CasADi. A function of somebody else's, or an object of a class of
+somebody else's, has no digest: what is made of it is always built.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import hashlib
+from collections.abc import Iterator, Mapping
+from enum import Enum
+from importlib.metadata import version
+from inspect import getattr_static
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from holdfast.kept import cached_property
+
+_PACKAGE = Path(__file__).parents[1]
+
+
+class _Unknown(Exception):
+    """Something without a digest."""
+
+
+def digest_of(*parts: object) -> str | None:
+    """SHA-256 of what something is made of; None if any part of it has no digest."""
+    h = hashlib.sha256(_sources().encode())
+    try:
+        for part in parts:
+            for piece in _pieces(part, ()):
+                h.update(len(piece).to_bytes(8, "little") + piece)
+    except _Unknown:
+        return None
+    return h.hexdigest()
+
+
+@functools.lru_cache(maxsize=1)
+def _sources() -> str:
+    h = hashlib.sha256(version("casadi").encode())
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        h.update(str(path.relative_to(_PACKAGE)).encode())
+        h.update(path.read_bytes())
+    return h.hexdigest()
+
+
+def _pieces(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
+    if id(x) in inside:
+        raise _Unknown  # it holds itself
+    kind, inside = type(x), (*inside, id(x))
+    yield f"{kind.__module__}.{kind.__qualname__}".encode()
+    if x is None or kind in (bool, int, str, bytes):
+        yield repr(x).encode()
+    elif kind is float:
+        yield x.hex().encode()
+    elif isinstance(x, np.ndarray | np.generic) and x.dtype.kind in "biuf":
+        yield f"{x.dtype}{x.shape}".encode()
+        yield x.tobytes()
+    elif isinstance(x, type):
+        _ours(x)
+        yield f"{x.__module__}.{x.__qualname__}".encode()
+    elif isinstance(x, FunctionType):
+        if x.__closure__ or "<" in x.__qualname__ or x.__module__.partition(".")[0] != "holdfast":
+            raise _Unknown
+        yield f"{x.__module__}.{x.__qualname__}".encode()
+    elif isinstance(x, Enum):
+        _ours(kind)
+        yield x.name.encode()
+    elif isinstance(x, Mapping):
+        yield from _several([item for pair in x.items() for item in pair], inside)
+    elif kind in (tuple, list):
+        yield from _several(x, inside)
+    elif hasattr(x, "made_of"):
+        _ours(kind)
+        if x.made_of is None:
+            raise _Unknown
+        yield from _pieces(x.made_of, inside)
+    elif isinstance(x, Path):
+        yield str(x).encode()
+    else:
+        _ours(kind)
+        yield from _several([part for pair in _state(x) for part in pair], inside)
+
+
+def _several(items: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
+    yield str(len(items)).encode()
+    for item in items:
+        yield from _pieces(item, inside)
+
+
+def _ours(kind: type) -> None:
+    if kind.__module__.partition(".")[0] != "holdfast" or "<" in kind.__qualname__:
+        raise _Unknown
+
+
+def _state(x: Any) -> list[tuple[str, Any]]:
+    """What an object holds, without what it only keeps at hand."""
+    if not (hasattr(x, "__dict__") or dataclasses.is_dataclass(x)):
+        raise _Unknown
+    state = {f.name: getattr(x, f.name) for f in dataclasses.fields(x)} if dataclasses.is_dataclass(x) else {}
+    for name, value in getattr(x, "__dict__", {}).items():
+        if not isinstance(getattr_static(type(x), name, None), (cached_property, functools.cached_property)):
+            state[name] = value
+    return sorted(state.items())

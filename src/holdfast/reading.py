@@ -1,0 +1,59 @@
+"""Reading files that people name: regular files up to a size, so that a device, a pipe or a disk image is refused at once."""
+
+from __future__ import annotations
+
+import errno
+import stat
+from pathlib import Path
+
+LARGEST = 256 << 20
+
+
+def raw(path: str | Path, largest: int = LARGEST) -> bytes:
+    """The content of a file.
+
+    Args:
+        path: The file.
+        largest: Bytes that it may have.
+
+    Raises:
+        OSError: It cannot be read, is no regular file, or is larger; its ``strerror`` says so to people.
+    """
+    try:
+        state = Path(path).stat()
+    except ValueError as error:
+        raise OSError(errno.EINVAL, "its name holds a null character", str(path)) from error
+    if stat.S_ISDIR(state.st_mode):
+        raise OSError(errno.EISDIR, "it is a folder, not a file", str(path))
+    if not stat.S_ISREG(state.st_mode):  # opening a pipe waits, reading a device may never end
+        raise OSError(errno.EINVAL, "it is a device, pipe or socket, not a regular file", str(path))
+    content = b""
+    if state.st_size <= largest:
+        with Path(path).open("rb") as file:
+            content = file.read(largest + 1)  # not its size: files of /proc have none
+    if max(state.st_size, len(content)) > largest:
+        raise OSError(errno.EFBIG, f"it is larger than {largest / (1 << 20):.4g} MiB", str(path))
+    return content
+
+
+def text(path: str | Path, largest: int = LARGEST) -> str:
+    """The content of a file in UTF-8, without a byte order mark, its lines ended by line feeds alone.
+
+    Args:
+        path: The file.
+        largest: Bytes that it may have.
+
+    Raises:
+        OSError: As :func:`raw`.
+        UnicodeDecodeError: It is not UTF-8.
+    """
+    return raw(path, largest).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def exists(path: str | Path) -> bool:
+    """Whether there is a file or folder of this name; no, if the name is one that none can have."""
+    try:
+        Path(path).stat()
+    except (OSError, ValueError):
+        return False
+    return True

@@ -1,0 +1,87 @@
+"""``holdfast teleop verify`` and ``backup``: what they say, and that no damage makes a command stumble."""
+
+import itertools
+import os
+import sqlite3
+from contextlib import closing
+
+import pytest
+
+import flips
+from holdfast.teleop.records import Records
+from holdfast.teleop.verify import verify
+
+BITS = int(os.environ.get("HOLDFAST_FLIPS", "400"))
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("verified") / "study"
+    flips.study(folder)
+    return folder
+
+
+def test_a_changed_bit_of_data_is_found(study, tmp_path, rng, cli):
+    """Where another program reads something else than before, verify says so; and nothing stumbles."""
+
+    rounds = itertools.count()
+
+    def read():
+        if next(rounds) % 16 == 0:  # each takes a quarter of a second
+            assert cli("teleop", "verify", tmp_path / "copy")[0] == 3
+            code, _, err = cli("teleop", "subjects", tmp_path / "copy")
+            assert code == 0 or err.startswith("holdfast: ")
+
+    seen = flips.flipped(study, tmp_path / "copy", BITS, rng, read)
+    print(f"{BITS} bits, {seen.touched} of them touch data, {len(seen.missed)} missed")
+    assert seen.touched > BITS / 4
+    assert seen.missed == []
+
+
+def test_sound_records(cli, study):
+    code, out, err = cli("teleop", "verify", study)
+    assert (code, err) == (0, "")
+    assert out == f"sound: 6 trials, {verify(study).links} digests; all together {verify(study).whole}\n"
+
+
+def test_the_first_damaged_trial_is_named_first(cli, study, tmp_path):
+    flips.copied(study, tmp_path / "copy")
+    with closing(sqlite3.connect(tmp_path / "copy" / "records.sqlite")) as db, db:
+        db.execute("UPDATE cycles SET time = 9 WHERE trial IN (3, 5) AND k = 1")
+    code, out, _ = cli("teleop", "verify", tmp_path / "copy")
+    assert code == 3
+    assert out.splitlines()[0] == "damaged: trial 3 of S01 is not as it was written"
+
+
+def test_a_backup_is_sound_and_whole(cli, refused, study, tmp_path):
+    code, out, _ = cli("teleop", "backup", study, tmp_path / "safe" / "copy")
+    assert code == 0
+    assert "sound: 6 trials" in out
+    assert verify(tmp_path / "safe" / "copy").whole == verify(study).whole
+    assert sorted(f.name for f in (tmp_path / "safe").iterdir()) == ["copy"]
+    assert sorted(f.name for f in (tmp_path / "safe" / "copy").iterdir()) == ["protocol.yaml", "records.sqlite"]
+    assert "exists already" in refused("teleop", "backup", study, tmp_path / "safe")
+    (tmp_path / "file").touch()
+    assert "choose another folder" in refused("teleop", "backup", study, tmp_path / "file" / "copy")
+
+
+def test_a_backup_of_a_damaged_folder_is_refused(refused, study, tmp_path):
+    flips.copied(study, tmp_path / "copy")
+    with closing(sqlite3.connect(tmp_path / "copy" / "records.sqlite")) as db, db:
+        db.execute("UPDATE trials SET rating = 0 WHERE id = 4")
+    assert "is not sound" in refused("teleop", "backup", tmp_path / "copy", tmp_path / "safe")
+    assert not (tmp_path / "safe").exists()
+
+
+def test_a_backup_while_somebody_writes(study, tmp_path, rng):
+    from holdfast.teleop.backup import backup
+
+    flips.copied(study, tmp_path / "live")
+    with Records.open(tmp_path / "live") as records, records.together():
+        before = verify(tmp_path / "live").whole
+        records.set_note("S01", "not yet")
+        assert verify(tmp_path / "live").whole == before
+        backup(tmp_path / "live", tmp_path / "copy")
+        flips.trial(records, "S02", rng)
+    assert verify(tmp_path / "copy").whole == before
+    assert verify(tmp_path / "live").whole != before

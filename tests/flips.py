@@ -1,0 +1,115 @@
+"""Single-bit changes of a folder of records, and another program's reading of it, to compare with what verify says."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from holdfast.teleop.entries import Kind
+from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.records import Records
+from holdfast.teleop.session import Session
+from holdfast.teleop.trials import End
+from holdfast.teleop.verify import verify
+
+
+@dataclass
+class Seen:
+    """What came of the changes.
+
+    Attributes:
+        touched: How many changed what another program reads.
+        missed: Those of which verify said nothing: file, byte, bit.
+    """
+
+    touched: int = 0
+    missed: list[tuple[str, int, int]] = field(default_factory=list)
+
+
+def trial(records: Records, code: str, rng: np.random.Generator, cycles: int = 60, end: End | None = End.ABORTED) -> int:
+    """The next trial of a subject, given up; its number."""
+    todo = Session(records, code).next()
+    assert todo is not None
+    number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+    q, time = rng.normal(size=(cycles + 1, 3)), np.arange(cycles) / 6
+    records.append(number, 0, time, rng.normal(size=(cycles, 2)), q[:-1])
+    if end is not None:
+        records.finish(number, end, q[-1])
+        if todo.kind == Kind.TRIAL:
+            records.rate(number, 2, {"why": "slow"})
+    return number
+
+
+def study(folder: Path) -> None:
+    """Records with some of everything: six trials that are over, and one that is not."""
+    whole = read()
+    tasks = whole.with_tasks(whole.tasks.take(np.array([0, 9])), ["a", "b"])
+    training = Training(at_least=1, in_a_row=1, limit=80.0, most=3)
+    rng = np.random.default_rng(1)
+    with Records.create(folder, replace(tasks, substeps=1, training=training, scenarios=whole.scenarios[:2])) as records:
+        codes = [records.add_subject(answers={"age": "30"}).code for _ in range(2)]
+        records.give_key(codes[0])
+        for _ in range(2):
+            trial(records, codes[0], rng)
+        trial(records, codes[0], rng, end=End.ARRIVED)
+        trial(records, codes[0], rng, cycles=150)
+        records.event("dropped-frames", codes[0], 1, 3, {"count": 3})
+        records.event("paused", data={"by": "experimenter"})
+        records.set_last_seq(codes[0], 41, 4711)
+        trial(records, codes[1], rng, end=None)  # broken off by the next
+        trial(records, codes[1], rng)
+        records.set_note(codes[1], "telephone")
+        trial(records, codes[1], rng, end=None)
+
+
+def copied(source: Path, target: Path) -> None:
+    """A fresh copy of a folder."""
+    shutil.rmtree(target, ignore_errors=True)
+    shutil.copytree(source, target)
+
+
+def content(folder: Path) -> object:
+    """All that another program reads in a folder: every table as bytes, and the other files; what it says if it cannot."""
+    try:
+        with closing(sqlite3.connect(f"{(folder / 'records.sqlite').as_uri()}?mode=ro&immutable=1", uri=True)) as db:
+            db.text_factory = bytes
+            names = [row[0] for row in db.execute("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name")]
+            tables = {
+                n: sorted(map(repr, db.execute(f'SELECT * FROM "{n.decode("utf-8", "replace")}"').fetchall())) for n in names
+            }
+            schema = db.execute("SELECT sql FROM sqlite_master ORDER BY name").fetchall()
+    except (sqlite3.Error, ValueError, OverflowError, MemoryError) as error:
+        return repr(error)
+    return tables, schema, (folder / "protocol.yaml").read_bytes()
+
+
+def flipped(source: Path, copy: Path, count: int, rng: np.random.Generator, read: Callable[[], object] = lambda: None) -> Seen:
+    """Change single bits of a copy, one at a time, and ask verify; ``read`` is called where the change touched data."""
+    copied(source, copy)
+    before, seen = content(source), Seen()
+    files = [copy / "records.sqlite", copy / "protocol.yaml"]
+    sizes = np.array([f.stat().st_size for f in files])
+    assert sorted(f.name for f in copy.iterdir()) == sorted(f.name for f in files)
+    for place in rng.choice(int(8 * sizes.sum()), count, replace=False).tolist():
+        which = int(place >= 8 * sizes[0])
+        byte, bit = divmod(place - which * 8 * int(sizes[0]), 8)
+        original = files[which].read_bytes()
+        changed = bytearray(original)
+        changed[byte] ^= 1 << bit
+        files[which].write_bytes(changed)
+        touched = content(copy) != before
+        seen.touched += touched
+        if touched and not verify(copy).damaged:
+            seen.missed.append((files[which].name, byte, bit))
+        if touched:
+            read()
+        for left in copy.glob("records.sqlite-*"):
+            left.unlink()
+        files[which].write_bytes(original)
+    return seen

@@ -1,0 +1,680 @@
+"""Mutated inputs: every kind of file that holdfast reads, damaged at random, must be read or be refused with one sentence.
+
+``python tests/fuzz_inputs.py --cases 40000`` is the whole of it (``make soak``), a seeded part of it is in ``test_inputs.py``.
+Case k depends on the seed and on k alone: ``--only K`` runs it again and shows the traceback.
+
+A case fails if anything but a :class:`holdfast.HoldfastError` comes out, a sentence of several lines or without end, a warning,
+more than ten seconds, or a write outside the folder of the case.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import faulthandler
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import yaml
+
+from holdfast.errors import HoldfastError
+
+MOST_SECONDS = 10.0
+MOST_LETTERS = 1500
+
+# What people and programs write where something else belongs.
+NUMBERS = (
+    *("0", "-1", "1e308", "-1e308", "1e-320", "1e400", "nan", ".nan", "inf", "-.inf", "2e", "1_0", "0x1F", "017", "190:20:30"),
+    *(str(2**31), str(2**63), str(2**70), "9" * 30, "9" * 5000, "1." + "3" * 400, "0b", "0x", "1__2", "-0", "+"),
+)
+YAML = (
+    *("2026-02-30", "2026-02-30T25:61:61Z", "12:61:99", "!!int x", "!!int ''", "!!float x", "!!bool x", "!!timestamp x"),
+    *(
+        "!!binary '@'",
+        "!!set {a}",
+        "!!omap [a]",
+        "!!pairs [a]",
+        "!!null x",
+        "!!python/name:os.system",
+        "!<>",
+        "!!x",
+        "!!str [a]",
+    ),
+    *(
+        "&a",
+        "*a",
+        "<<: *a",
+        "<<",
+        "? [a]",
+        "? {a: b}",
+        "[",
+        "]",
+        "{",
+        "}",
+        "- ",
+        ": ",
+        "|",
+        ">",
+        "%",
+        "@",
+        "`",
+        "\t",
+        "#",
+        "---",
+    ),
+    *("...", "true", "no", "null", "~", "&a [*a]", "!!int 0b", "!!float .", "!!seq {}", "!!map []", "? ", "!", "''"),
+)
+PLACES = (
+    "/dev/zero",
+    "/dev/stdin",
+    "/proc/self/mem",
+    "/etc/passwd",
+    ".",
+    "..",
+    "../../../x",
+    "a/b",
+    "x" * 300,
+    "y" * 5000,
+    "CON",
+)
+SIGNS = (
+    *("", "<", ">", "&", "&lt;", "&#0;", "<!--", "]]>", "<![CDATA[", '"', "'", ",", ";", '""', "=1+1", "é", "\u202e", "\x00"),
+    *("\U0001f600", "\r", "\n", " " * 300),
+)
+NAMES = (
+    *("joint1", "base", "world", "revolute", "fixed", "pose", "deg", "box", "panda", "planar-2r", "default", "single", "arm"),
+    *("text", "rows", "file", "name"),
+)
+GROUPS = (NUMBERS, YAML, PLACES, SIGNS, NAMES)
+THINGS = (
+    *(None, True, False, 0, 1, -1, 2**31, 2**63, 2**70, -(2**70), 0.5, -0.0, 1e308, 1e-320, float("inf"), float("nan")),
+    *(
+        "",
+        "x",
+        "x" * 300,
+        "y" * 5000,
+        "/dev/zero",
+        "..",
+        "a\nb",
+        "nan",
+        "1e-3",
+        "\x00",
+        "é",
+        [],
+        {},
+        [[]],
+        [0],
+        [1, 2, 3],
+        {"x": 1},
+    ),
+    *({"": None}, [None], ["a", "a"], [[1e308] * 3] * 3, [0.0] * 1000, {str(k): k for k in range(100)}),
+)
+TOKEN = re.compile(rb"[+-]?\d+\.?\d*(?:[eE][+-]?\d+)?|[A-Za-z_][\w.-]*|[^\s\w]|\s+")
+
+
+# ---- mutations ---------------------------------------------------------------------------------------------------
+
+
+def word(rng: np.random.Generator) -> str:
+    """Something that people or programs write."""
+    group = GROUPS[rng.integers(len(GROUPS))]
+    return group[rng.integers(len(group))]
+
+
+def of_bytes(data: bytes, rng: np.random.Generator) -> bytes:
+    """A few bytes flipped, cut, doubled or put in."""
+    out = bytearray(data)
+    for _ in range(int(rng.integers(1, 4))):
+        at, length = int(rng.integers(len(out) + 1)), int(rng.integers(1, 40))
+        match int(rng.integers(6)):
+            case 0 if at < len(out):
+                out[at] ^= 1 << int(rng.integers(8))
+            case 1:
+                del out[at : at + length]
+            case 2:
+                out[at:at] = out[at : at + length] * int(rng.integers(1, 50))
+            case 3:
+                out[at:at] = rng.bytes(length)
+            case 4:
+                del out[at:]
+            case _:
+                out[at:at] = (b"\x00", b"\xff\xfe", b"\xef\xbb\xbf", b"\r", b"\n", b"[" * 400, b"\n" + b" " * 300)[
+                    rng.integers(7)
+                ]
+    return bytes(out)
+
+
+def of_tokens(data: bytes, rng: np.random.Generator) -> bytes:
+    """A few numbers, words or signs replaced, left out, doubled or swapped."""
+    tokens = TOKEN.findall(data)
+    for _ in range(int(rng.integers(1, 4))):
+        if not tokens:
+            break
+        a, b = (int(x) for x in rng.integers(len(tokens), size=2))
+        match int(rng.integers(6)):
+            case 0:
+                del tokens[a]
+            case 1:
+                tokens.insert(a, tokens[b])
+            case 2:
+                tokens[a], tokens[b] = tokens[b], tokens[a]
+            case _:
+                tokens[a] = word(rng).encode()
+    return b"".join(tokens)
+
+
+def _places(data: object, trail: tuple[object, ...] = ()) -> list[tuple[object, ...]]:
+    found = [trail] if trail else []
+    entries = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in entries:
+        found += _places(value, (*trail, key))
+    return found
+
+
+def of_entries(data: object, rng: np.random.Generator) -> object:
+    """Entries of nested lists and dictionaries replaced, left out, doubled, renamed or nested."""
+    for _ in range(int(rng.integers(1, 4))):
+        places = _places(data)
+        if not places:
+            break
+        *trail, key = places[rng.integers(len(places))]
+        block = data
+        for step in trail:
+            block = block[step]  # type: ignore[index]
+        assert isinstance(block, (dict, list))
+        thing = THINGS[rng.integers(len(THINGS))]
+        match int(rng.integers(7)):
+            case 0:
+                del block[key]  # type: ignore[arg-type]
+            case 1 if isinstance(block, list):
+                block += [block[key]] * int(rng.integers(1, 20))  # type: ignore[call-overload]
+            case 1:
+                block[word(rng)] = block.pop(key)  # type: ignore[call-overload, index, arg-type]
+            case 2:
+                for _ in range(int(rng.choice([1, 3, 60, 400]))):
+                    block[key] = [block[key]] if rng.random() < 0.5 else {"a": block[key]}  # type: ignore[call-overload, index]
+            case 3:
+                other = data
+                for step in places[rng.integers(len(places))]:
+                    other = other[step]  # type: ignore[index]
+                block[key] = json.loads(json.dumps(other, default=str))  # type: ignore[call-overload, index]
+            case _:
+                block[key] = json.loads(json.dumps(thing))  # type: ignore[call-overload, index]
+    return data
+
+
+def of_yaml(data: bytes, rng: np.random.Generator) -> bytes:
+    """The structure of a YAML file."""
+    flow = (None, True, False)[rng.integers(3)]
+    changed = of_entries(yaml.safe_load(data), rng)
+    try:
+        text: str = yaml.safe_dump(changed, sort_keys=False, default_flow_style=flow)
+    except RecursionError:
+        text = json.dumps(changed)  # which is YAML too
+    return text.encode("utf-8", "surrogatepass")
+
+
+def of_json(data: bytes, rng: np.random.Generator) -> bytes:
+    """The structure of a JSON file."""
+    return json.dumps(of_entries(json.loads(data), rng)).encode()
+
+
+def of_json_lines(data: bytes, rng: np.random.Generator) -> bytes:
+    """The structure of one line of a file of JSON lines."""
+    lines = data.splitlines()
+    k = int(rng.integers(len(lines)))
+    lines[k] = of_json(lines[k], rng)
+    return b"\n".join(lines) + b"\n"
+
+
+def of_xml(data: bytes, rng: np.random.Generator) -> bytes:
+    """Elements and attributes of an XML file."""
+    root = ElementTree.fromstring(data)
+    for _ in range(int(rng.integers(1, 4))):
+        inner = [(parent, child) for parent in root.iter() for child in parent]
+        if not inner:
+            break
+        (parent, child), (_, other) = (inner[k] for k in rng.integers(len(inner), size=2))
+        match int(rng.integers(7)):
+            case 0:
+                parent.remove(child)
+            case 1:
+                for _ in range(int(rng.choice([1, 3, 200]))):
+                    parent.append(child)
+            case 2:
+                child.tag = other.tag
+            case 3:
+                twin = ElementTree.fromstring(ElementTree.tostring(other))
+                for _ in range(int(rng.choice([1, 30, 300]))):
+                    shell = ElementTree.Element(other.tag, other.attrib)
+                    shell.append(twin)
+                    twin = shell
+                parent.append(twin)
+            case _ if child.attrib:
+                key = str(rng.choice(list(child.attrib)))
+                values = [e.attrib[k] for e in root.iter() for k in e.attrib]
+                new = word(rng) if rng.random() < 0.5 else values[rng.integers(len(values))]
+                child.attrib.pop(key) if rng.random() < 0.2 else child.attrib.update({key: new})
+    return ElementTree.tostring(root)
+
+
+def of_table(data: bytes, rng: np.random.Generator) -> bytes:
+    """Lines and cells of a CSV file."""
+    rows = list(csv.reader(io.StringIO(data.decode())))
+    for _ in range(int(rng.integers(1, 4))):
+        k = int(rng.integers(len(rows)))
+        row = rows[k]
+        at = int(rng.integers(len(row))) if row else 0
+        match int(rng.integers(6)):
+            case 0:
+                del row[at : at + 1]
+            case 1:
+                row.insert(at, word(rng))
+            case 2:
+                rows.insert(int(rng.integers(len(rows) + 1)), list(row))
+            case 3 if len(rows) > 1:
+                del rows[k]
+            case _ if row:
+                row[at] = word(rng)
+    out = io.StringIO()
+    csv.writer(out, delimiter=",;\t"[int(rng.integers(20)) % 3 if rng.random() < 0.1 else 0]).writerows(rows)
+    return out.getvalue().encode("utf-8", "surrogatepass")
+
+
+# ---- what is read ------------------------------------------------------------------------------------------------
+
+
+@dataclass
+class Kind:
+    """A kind of file: sound ones, how its structure is mutated, and who reads it."""
+
+    seeds: list[bytes]
+    structure: Callable[[bytes, np.random.Generator], bytes]
+    read: Callable[[Path], object]
+    file: Path
+
+
+DH = b"""name: my arm
+convention: standard
+angles: deg
+rows:
+  - {a: 0, alpha: -90, d: 0.3, lower: -170, upper: 170, name: shoulder, velocity: 90, effort: 120}
+  - {a: 0.5, alpha: 0, theta: 90, friction: 0.1, armature: 0.02}
+  - {a: 0, alpha: 0, type: prismatic, lower: 0, upper: 0.4}
+base: {xyz: [0, 0, 0.8], urdf_rpy: [0, 0, 180]}
+tool: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.1], [0, 0, 0, 1]]
+gravity: [0, 0, -9.81]
+links:
+  - {name: upper arm, mass: 4, com: [0, 0.1, 0], inertia: [0.02, 0.01, 0.02, 0, 0, 0]}
+  - {mass: 2, com: [-0.25, 0, 0], inertia: [[0.01, 0, 0], [0, 0.05, 0], [0, 0, 0.05]]}
+  - null
+payload: {mass: 1, com: [0, 0, 0.1], inertia: [0.001, 0.001, 0.001, 0, 0, 0]}
+"""
+REGIONS = [
+    b"name: door\nangles: deg\nbox: {center: [0.9, 0, 0.04], size: 0.5, rpy_center: [0, 174, 0], rpy_size: [1, 2, 3],\n"
+    b"  density: {z: [[0.0, 1], [0.5, 3]]}}\n",
+    b"joints: {lower: [-1, 0], upper: [1, 0.5]}\n",
+    b"poses: poses.csv\n",
+]
+PATHS = [
+    b"name: along\nangles: deg\nline:\n  from: {xyz: [0.4, -0.3, 0.5], urdf_rpy: [180, 0, 0]}\n"
+    b"  to: {xyz: [0.4, 0.3, 0.5], quaternion: [1, 0, 0, 0]}\n"
+    b"timing: {duration: 10, accelerate: 0.2, decelerate: 0.2, stop: false}\n",
+    b"arc: {from: {xyz: [1, 0, 0]}, center: [0, 0, 0], axis: [0, 0, 1], angle: 1.5, turning: false}\n",
+    b"poses: [{xyz: [0, 0, 1]}, {xyz: [0.5, 0, 1]}, {xyz: [0.5, 0.5, 1]}]\ntiming: {duration: 3}\n",
+    b"poses: poses.csv\n",
+]
+CAPSULES = [
+    b"radius: 0.05\nlinks:\n  base: [{from: [0, 0, 0], to: [0, 0, 0.1]}]\n  shoulder: [{from: [0, 0, 0], radius: 0.1}]\n"
+    b"ignore: [[base, joint2]]\n"
+]
+STUDIES = [
+    b"name: two arms\nseed: 1\nposes: 200\nchunk: 50\narms: [planar-3r, {file: arm.yaml}]\n"
+    b"assess: {indices: [relative-manipulability, manipulability], tasks: [default, position], regions: [default, region.yaml],"
+    b" optimise: true, keep: rows, thresholds: {manipulability: 0.1}}\n"
+    b"convergence: {laws: [pseudoinverse, 'failure-tolerant:0.3'], motions: 20, chunk: 10, time_limit: 100}\n",
+    b"poses: 20\nchunk: 5\narms: [{arm: planar-3r, vary: {a3: [0.2, 0.6], alpha2: -90..90deg}, designs: 64}]\nassess: {}\n",
+    b"poses: 20\nchunk: 5\narms: [planar-3r]\nworkspace: {laws: [pseudoinverse], targets: [[1, 1]], starts: 4}\n"
+    b"bank: {laws: ['damped:0.05'], sets: 3, distance: 0.5}\n",
+]
+URDF = b"""<?xml version="1.0"?>
+<robot name="toy">
+  <link name="base"/>
+  <link name="upper"><inertial><origin xyz="0 0 0.1" rpy="0 0 0.1"/><mass value="2"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="lower"/><link name="tip"/><link name="finger"/>
+  <joint name="j1" type="revolute"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.3" rpy="0 1.5707963 0"/>
+    <axis xyz="0 0 1"/><limit lower="-2" upper="2" velocity="1" effort="10"/><dynamics damping="0.1"/></joint>
+  <joint name="j2" type="prismatic"><parent link="upper"/><child link="lower"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.5" velocity="1" effort="10"/></joint>
+  <joint name="j3" type="continuous"><parent link="lower"/><child link="tip"/><origin xyz="0.2 0 0"/><axis xyz="0 1 0"/></joint>
+  <joint name="j4" type="prismatic"><parent link="upper"/><child link="finger"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.04" velocity="1" effort="10"/><mimic joint="j2" multiplier="2" offset="0.1"/></joint>
+</robot>
+"""
+MJCF = b"""<mujoco model="toy">
+  <compiler angle="degree" autolimits="true"/>
+  <option gravity="0 0 -9.81" timestep="0.002"/>
+  <size memory="1M"/>
+  <default><joint armature="0.01" damping="0.1"/><geom type="capsule" size="0.05"/></default>
+  <asset><hfield name="h" nrow="3" ncol="4" size="1 1 0.1 0.1"/><texture name="t" type="2d" builtin="checker" width="8"
+    height="8" rgb1="0 0 0" rgb2="1 1 1"/><material name="m" texture="t"/></asset>
+  <worldbody>
+    <geom type="hfield" hfield="h"/>
+    <replicate count="2" offset="1 0 0"><geom size="0.1" pos="0 3 0" material="m"/></replicate>
+    <body name="one" pos="0 0 0.3" euler="0 90 0">
+      <joint name="a" type="hinge" axis="0 0 1" range="-120 120" actuatorfrcrange="-5 5"/>
+      <geom fromto="0 0 0 0.3 0 0"/>
+      <body name="two" pos="0.3 0 0"><joint name="b" type="slide" axis="1 0 0" range="0 0.4" ref="0.1"/>
+        <geom fromto="0 0 0 0.2 0 0"/>
+        <body name="three" pos="0.2 0 0" quat="1 0 0 0"><joint name="c" axis="0 1 0"/>
+          <inertial pos="0 0 0" mass="1" diaginertia="0.1 0.1 0.1"/><site name="tool" pos="0 0 0.1"/></body></body></body>
+  </worldbody>
+  <equality><joint joint1="c" polycoef="0 1 0 0 0" active="false"/></equality>
+  <actuator><motor joint="b" gear="2" ctrlrange="-1 1" ctrllimited="true"/></actuator>
+</mujoco>
+"""
+POSES = b"x,y,z,qx,qy,qz,qw,weight\n0,0,1,0,0,0,1,1\n0.5,0,1,0,0,0,1,2\n0.5,0.5,1,0,0,0,1,0.5\n"
+PLAIN = b"x,y,z\n0,0,1\n0.5,0,1\n0.5,0.5,1\n"
+MOTION = b"time_s,joint1_rad,joint2_rad,joint3_rad\n0,0.1,0.2,0.3\n0.5,0.2,0.3,0.4\n1,0.3,0.4,0.5\n"
+
+
+def kinds(root: Path) -> dict[str, Kind]:
+    """Everything that is read, set up in a folder."""
+    import holdfast as hf
+    from holdfast import arms, study, teleop
+    from holdfast.arm.serial import to_dict
+    from holdfast.assess.assess import load
+    from holdfast.assess.poses import PoseList
+    from holdfast.clearance import Capsules
+    from holdfast.cli.options import read_weights
+    from holdfast.converge.recover_waypoints import read_waypoints
+    from holdfast.design.memory import Memory
+    from holdfast.paths.path_file import pose_table
+    from holdfast.paths.path_file import read as read_path
+    from holdfast.studies import read as read_study
+    from holdfast.studies.results import assessed
+    from holdfast.studio.motions import read_motion
+    from holdfast.study import Threads
+    from holdfast.teleop.serve import texts
+
+    def arm_of(path: Path) -> object:
+        arm = arms.resolve(str(path))
+        return arm.fingerprint, json.dumps(to_dict(arm)), arm.forward_kinematics(np.zeros(arm.n))
+
+    (root / "arm.yaml").write_bytes(DH)
+    (root / "region.yaml").write_bytes(REGIONS[0])
+    (root / "poses.csv").write_bytes(PLAIN)
+    (root / "weighted").mkdir()
+    (root / "weighted" / "poses.csv").write_bytes(POSES)
+    toy, planar = arms.resolve(str(root / "arm.yaml")), arms.load("planar-3r")
+    run = root / "run"
+    hf.assess(planar, hf.Region.around(planar), poses=8, seed=1, store=run, task="planar")
+    (root / "study.yaml").write_bytes(b"poses: 8\nchunk: 4\narms: [planar-3r]\nassess: {}\n")
+    asked = read_study(root / "study.yaml")
+    whole = study.Study.create(root / "study", asked.name, asked.seed, asked.cells, asked.text)
+    whole.run(asked.cells, Threads(1))
+    plan = {"seed": 1, "vary": ["a1"]}
+    Memory(root / "search", plan).part("one", lambda: {"x": np.arange(6.0).reshape(2, 3)})
+
+    def study_of(_: Path) -> object:
+        s = study.Study.open(root / "study")
+        return s.status(), s.complete, s.makers, s.runs, s.source, [assessed(s, k) for k in range(len(s.cells))]
+
+    def run_of(_: Path) -> object:
+        found = load(run)
+        return found.distribution, found.default_threshold, found.store.missing, found.store.dataset()  # type: ignore[union-attr]
+
+    def one(file: Path, structure: Callable[[bytes, np.random.Generator], bytes], read: Callable[[Path], object]) -> Kind:
+        return Kind([file.read_bytes()], structure, read, file)
+
+    cell = next((root / "study" / "cells").iterdir())
+    return {
+        "DH table": Kind([DH], of_yaml, arm_of, root / "in.yaml"),
+        "region": Kind(REGIONS, of_yaml, hf.Region.load, root / "weighted" / "in.yaml"),
+        "path": Kind(PATHS, of_yaml, read_path, root / "in.yaml"),
+        "capsules": Kind(CAPSULES, of_yaml, lambda path: Capsules.load(path, toy), root / "in.yaml"),
+        "study": Kind(STUDIES, of_yaml, read_study, root / "in.yaml"),
+        "protocol": Kind([teleop.protocol.read().text().encode()], of_yaml, teleop.protocol.read, root / "in.yaml"),
+        "texts": Kind([texts.ENGLISH.read_bytes()], of_yaml, texts.read, root / "in.yaml"),
+        "URDF": Kind([URDF], of_xml, arm_of, root / "in.urdf"),
+        "MJCF": Kind([MJCF], of_xml, arm_of, root / "in.mjcf"),
+        "poses": Kind([POSES], of_table, PoseList.read, root / "in.csv"),
+        "waypoints of a path": Kind([PLAIN, POSES], of_table, pose_table, root / "in.csv"),
+        "waypoints": Kind([MOTION], of_table, lambda path: read_waypoints(planar, path), root / "in.csv"),
+        "motion": Kind([MOTION], of_table, lambda path: read_motion(planar, path), root / "in.csv"),
+        "weights": Kind([b"1,2,3\n4,5,6\n7,8,9\n"], of_table, lambda path: read_weights("--w", str(path)), root / "in.csv"),
+        "run.json": one(run / "run.json", of_json, run_of),
+        "attributes of a group": one(run / "samples.zarr" / "zarr.json", of_json, run_of),
+        "attributes of an array": one(run / "samples.zarr" / "index" / "zarr.json", of_json, run_of),
+        "chunk of an array": one(next((run / "samples.zarr" / "index" / "c").iterdir()), lambda x, r: of_bytes(x, r), run_of),
+        "study.json": one(root / "study" / "study.json", of_json, study_of),
+        "made.json": one(root / "study" / "made.json", of_json, study_of),
+        "run.json of a cell": one(cell / "run.json", of_json, study_of),
+        "journal of a cell": one(cell / "done.journal", lambda x, r: of_bytes(x, r), study_of),
+        "search.jsonl": one(root / "search" / "search.jsonl", of_json_lines, lambda path: Memory(path.parent, plan)),
+    }
+
+
+# ---- running -----------------------------------------------------------------------------------------------------
+
+
+class TooLong(BaseException):
+    """Raised by the alarm."""
+
+
+@contextmanager
+def alarmed() -> Iterator[None]:
+    """Let the alarm raise :class:`TooLong`."""
+
+    def alarm(*_: object) -> None:
+        raise TooLong
+
+    before = signal.signal(signal.SIGALRM, alarm)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
+class Watch:
+    """Files written outside a folder, as Python's audit events say."""
+
+    def __init__(self, root: Path) -> None:
+        self.root, self.found, self.on = str(root), [], False  # type: ignore[var-annotated]
+        sys.addaudithook(self._hook)
+
+    def _hook(self, event: str, given: tuple[object, ...]) -> None:
+        if not self.on or not event.startswith(("open", "os.", "shutil.")):
+            return
+        if event == "open":
+            path, _, flags = given
+            written = isinstance(flags, int) and flags & (os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND)
+            paths = [path] if written else []
+        elif event in ("os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.symlink", "os.link", "os.truncate", "os.chmod"):
+            paths = [x for x in given if isinstance(x, (str, bytes, os.PathLike))]
+        else:
+            return
+        for path in paths:
+            if isinstance(path, (str, bytes, os.PathLike)):
+                place = os.path.realpath(os.fsdecode(path))
+                if not place.startswith(self.root + os.sep):
+                    self.found.append(f"{event} {place}")
+
+
+def mutated(k: int, seed: int, some: dict[str, Kind]) -> tuple[str, bytes]:
+    """Kind and content of case k."""
+    rng = np.random.default_rng([seed, k])
+    name = list(some)[k % len(some)]
+    kind = some[name]
+    data = kind.seeds[rng.integers(len(kind.seeds))]
+    for change in (of_bytes, of_tokens, kind.structure, kind.structure)[(k // len(some)) % 4 :][:1]:
+        data = change(data, rng)
+        if rng.random() < 0.1:
+            data = of_bytes(data, rng)
+    return name, data
+
+
+def run(k: int, seed: int, some: dict[str, Kind], watch: Watch) -> tuple[str, str, float]:
+    """Run case k: its kind, what was wrong ('' if nothing), and seconds."""
+    name, data = mutated(k, seed, some)
+    kind = some[name]
+    kind.file.write_bytes(data)
+    problem, begin = "", time.monotonic()
+    watch.found, watch.on = [], True
+    signal.setitimer(signal.ITIMER_REAL, MOST_SECONDS)
+    faulthandler.dump_traceback_later(3 * MOST_SECONDS, exit=True)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            kind.read(kind.file)
+    except HoldfastError as error:
+        text = str(error)
+        if "\n" in text or not 10 < len(text) < MOST_LETTERS:
+            problem = f"no sentence ({len(text)} letters): {text[:200]!r}"
+    except TooLong:
+        problem = f"more than {MOST_SECONDS:g} s"
+    except BaseException as error:  # what a person would see as a traceback
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        inner = [f for f in traceback.extract_tb(error.__traceback__) if "/holdfast/" in f.filename]
+        ours = inner[-1] if inner else last
+        where = f"{Path(ours.filename).name}:{ours.lineno}"
+        problem = f"{type(error).__name__} at {where}: {' '.join(str(error).split())[:100]}"
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        faulthandler.cancel_dump_traceback_later()
+        watch.on = False
+    if watch.found:
+        problem = f"written outside: {watch.found[0]}"
+    for left in Path.cwd().iterdir():
+        problem = f"left in the working folder: {left.name}"
+        left.unlink()
+    kind.file.write_bytes(kind.seeds[0])
+    return name, problem, time.monotonic() - begin
+
+
+def worker(first: int, stop: int, step: int, seed: int, only: str | None) -> int:
+    """Run every ``step``-th case from ``first``; a line of JSON for each that failed, and one with the count."""
+
+    with alarmed(), tempfile.TemporaryDirectory(prefix="holdfast-fuzz-") as folder:
+        root = Path(folder).resolve()
+        for name in ("work", "cache"):
+            (root / name).mkdir()
+        os.environ |= {"HOLDFAST_CACHE": str(root / "cache"), "HOLDFAST_BACKEND": "casadi"}
+        os.chdir(root / "work")
+        some = kinds(root)
+        some = {k: v for k, v in some.items() if only is None or k == only}
+        watch = Watch(root)
+        slowest, counts = 0.0, Counter[str]()
+        for k in range(first, stop, step):
+            print(json.dumps({"at": k}), flush=True)
+            name, problem, seconds = run(k, seed, some, watch)
+            counts[name] += 1
+            slowest = max(slowest, seconds)
+            if problem:
+                print(json.dumps({"case": k, "kind": name, "problem": problem}), flush=True)
+        os.chdir("/")
+        print(json.dumps({"counts": counts, "slowest": slowest}), flush=True)
+    return 0
+
+
+@dataclass
+class Found:
+    """What came of it: cases by kind, the failed ones, and the longest, s."""
+
+    counts: Counter[str]
+    failed: list[dict[str, object]]
+    slowest: float
+
+
+def fuzz(cases: int, seed: int, workers: int = 1, only: str | None = None) -> Found:
+    """Run cases 0 to ``cases``, in processes of their own, as a damaged file may bring down a process."""
+    found = Found(Counter(), [], 0.0)
+    command = [sys.executable, str(Path(__file__).resolve()), "--cases", str(cases), "--seed", str(seed)]
+    command += ["--kind", only] if only else []
+    first = list(range(workers))
+    while first:
+        pending = [
+            subprocess.Popen(
+                [*command, "--worker", f"{f}:{workers}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            )
+            for f in first
+        ]
+        first = []
+        for process in pending:
+            out, problem = process.communicate()
+            at, ended = None, False
+            for line in out.splitlines():
+                data = json.loads(line) if line.startswith("{") else {}
+                at = data.get("at", at)
+                if "case" in data:
+                    found.failed.append(data)
+                elif "counts" in data:
+                    found.counts.update(data["counts"])
+                    found.slowest, ended = max(found.slowest, data["slowest"]), True
+            if not ended:
+                found.failed.append(
+                    {"case": at, "kind": "?", "problem": f"the process died ({process.returncode}): {problem[-300:]}"}
+                )
+                if at is not None and at + workers < cases:
+                    first.append(at + workers)
+    return found
+
+
+def main() -> int:
+    """The command line; 1 if a case failed."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--cases", type=int, default=40_000)
+    parser.add_argument("--seed", type=int, default=20120831)
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--kind", default=None)
+    parser.add_argument("--only", type=int, default=None)
+    parser.add_argument("--worker", default=None, help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.worker:
+        first, step = map(int, given.worker.split(":"))
+        return worker(first, given.cases, step, given.seed, given.kind)
+    if given.only is not None:
+        with tempfile.TemporaryDirectory(prefix="holdfast-fuzz-") as folder:
+            root = Path(folder).resolve()
+            os.environ |= {"HOLDFAST_CACHE": str(root), "HOLDFAST_BACKEND": "casadi"}
+            some = kinds(root)
+            some = {k: v for k, v in some.items() if given.kind is None or k == given.kind}
+            name, data = mutated(given.only, given.seed, some)
+            sys.stdout.buffer.write(f"{name}:\n".encode() + data + b"\n")
+            sys.stdout.flush()
+            some[name].file.write_bytes(data)
+            print(some[name].read(some[name].file))
+        return 0
+    begin = time.monotonic()
+    found = fuzz(given.cases, given.seed, given.workers, given.kind)
+    for name, count in sorted(found.counts.items()):
+        print(f"  {name:<25} {count:>6}")
+    causes: dict[str, list[dict[str, object]]] = {}
+    for f in found.failed:
+        causes.setdefault(re.sub(r"\d{3,}|'[^']*'", "*", f"{f['kind']}: {f['problem']}")[:170], []).append(f)
+    for cause in sorted(causes.values(), key=len, reverse=True):
+        print(f"  {len(cause):>5} times, as case {cause[0]['case']}: {cause[0]['kind']}: {cause[0]['problem']}")
+    print(f"{sum(found.counts.values())} mutated inputs, {len(found.failed)} failed, slowest {found.slowest:.1f} s, ", end="")
+    print(f"{time.monotonic() - begin:.0f} s in all")
+    return int(bool(found.failed))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
