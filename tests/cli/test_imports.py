@@ -32,7 +32,7 @@ LEAN = [
     (["--help"], EVERYTHING | {"casadi"}),
     (["simulate", "--help"], EVERYTHING | {"casadi"}),
     (["--version"], EVERYTHING | {"casadi"}),
-    (["arms"], EVERYTHING | {"casadi"}),
+    (["arms"], EVERYTHING),
     (["describe", "planar-3r"], EVERYTHING),
     (["index", "planar-3r", "--task", "planar", *Q], EVERYTHING),
     (["susceptibility", "planar-3r", *Q], EVERYTHING),
