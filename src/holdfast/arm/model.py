@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -15,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.checked import checked, checked_class, real_numbers
 from holdfast.errors import ArmError, InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError
 from holdfast.interval import Interval, Sums, check_confidence
+from holdfast.kept import cached_property
 
 __all__ = ["BINS", "Collector", "Distribution", "Interval"]
 

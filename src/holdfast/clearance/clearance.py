@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import combinations
 
 import casadi as ca
@@ -19,6 +18,7 @@ from holdfast.checked import checked
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import Vector, dot, smallest
 from holdfast.sobol import sobol

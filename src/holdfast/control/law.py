@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +26,7 @@ from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
 from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]

@@ -19,7 +19,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -33,6 +32,7 @@ from holdfast.checked import checked_class
 from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import Cholesky, gram, householder, lowest
 from holdfast.status import Status

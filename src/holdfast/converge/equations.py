@@ -13,8 +13,6 @@ Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (21); the 
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +20,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.scale import length_unit
 from holdfast.control import Damped, Law, Pseudoinverse, Weighted
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import IntEnum
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.motion import System
 

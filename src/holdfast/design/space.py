@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -15,6 +14,7 @@ from holdfast.arm import Arm, Link
 from holdfast.arm.dh_table import DHTable, dh_table
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 
 Array = NDArray[np.float64]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 from typing import Literal
 
 import casadi as ca
@@ -17,6 +16,7 @@ from holdfast.checked import checked_class
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, slopes_along
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -19,6 +18,7 @@ from holdfast.checked import checked
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.poses import check_poses
 from holdfast.checked import checked, real_numbers
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pathlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.checked import checked, checked_class, real_numbers
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -19,6 +18,7 @@ from holdfast.checked import checked, real_numbers
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
+from holdfast.kept import cached_property
 from holdfast.simulate.closed_loop import RADIUS, TOLERANCE, simulate
 from holdfast.simulate.compiled import ARRIVES
 from holdfast.simulate.healthy_cost import HealthyCost, healthy_cost

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -15,6 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.simulate.circling import circling

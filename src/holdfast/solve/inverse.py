@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Literal
 
 import casadi as ca
@@ -19,6 +19,7 @@ from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
 from holdfast.checked import checked
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.solve import joint_space

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -23,6 +22,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, in_pool, pool, recalled, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
 from holdfast.solve import joint_space

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -17,6 +16,7 @@ from holdfast.arm.task import Task
 from holdfast.control import Law
 from holdfast.errors import ArmError, HoldfastError, TaskError
 from holdfast.indices import BY_NAME, Index, Objective, by_name, susceptibility
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.solve.inverse import solver
 from holdfast.studio.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
