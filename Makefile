@@ -7,11 +7,13 @@ WORKERS ?= 2
 MINUTES ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types docs page bench soak clean lock
+.PHONY: help demo test check lint types docs page bench soak clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
 
+# Hundreds of short processes import the package: without compiled files each of them takes half a second longer.
+unexport PYTHONDONTWRITEBYTECODE
 # Node comes from a wheel; npm and what it installs look for it on the PATH.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
@@ -25,16 +27,16 @@ $(VENV)/run.stamp: pyproject.toml requirements.lock | $(BIN)/python
 	@touch $@
 
 $(VENV)/test.stamp: requirements-test.lock $(VENV)/run.stamp
-	$(PIP) --no-deps --require-hashes --requirement requirements-test.lock
+	$(PIP) --no-compile --no-deps --require-hashes --requirement requirements-test.lock
 	@touch $@
 
 $(VENV)/docs.stamp: requirements-docs.lock $(VENV)/run.stamp
-	$(PIP) --no-deps --require-hashes --requirement requirements-docs.lock
+	$(PIP) --no-compile --no-deps --require-hashes --requirement requirements-docs.lock
 	@touch $@
 
 # Where the system has no Chromium and Playwright's cannot be had, the tests say so at their end.
 $(VENV)/browser.stamp: $(VENV)/test.stamp
-	@command -v chromium google-chrome > /dev/null || $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
+	@command -v chromium > /dev/null || command -v google-chrome > /dev/null || $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
 	@touch $@
 
 demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its region and write demo/report.html.
@@ -49,7 +51,10 @@ page: page/node_modules/.package-lock.json  ## Build the experiment's page into 
 	cd page && npm run build
 
 test: lint types page/node_modules/.package-lock.json $(VENV)/browser.stamp  ## Set up, then run lint, types and all tests.
-	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile --durations=40
+	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --durations=40
+
+check: lint types  ## Before a pull request: lint, types and the quick tests of every package.
+	$(BIN)/python -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder -m "not slow" --ignore tests/browser
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .

@@ -22,6 +22,7 @@ WORKLOADS = (
     "w9_failure_tolerant",
     "w10_teleop",
     "w13_design",
+    "w14_first_use",
     "spectral",
     "start_up",
     "memory",

@@ -48,7 +48,7 @@ def law(**options):
 
 
 def holdfast(q: np.ndarray, twist: np.ndarray) -> Step:
-    step = law(rate_cap=CAP, period=PERIOD).step
+    step = law(rate_cap=CAP, period=PERIOD).prepare()
     return lambda i: step(q[i], twist[i])
 
 

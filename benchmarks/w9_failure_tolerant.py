@@ -196,7 +196,7 @@ def one_step(problem: Problem, chosen: argparse.Namespace) -> str:
     rows = problem.rows(POSTURES)
     q, u = np.ascontiguousarray(rows[:, : problem.n]), np.ascontiguousarray(rows[:, problem.n :])
     law = problem.law()
-    step, velocity = law.step, law.velocity
+    step, velocity = law.prepare(), law.velocity
     least = peaks(problem, rows, one_by_one(problem, by_polynomials)(rows))
 
     def excess(step: Step) -> str:

@@ -26,7 +26,7 @@ class FailureTolerantNode(Node):
         arm = hf.arms.resolve(self.declare_parameter("arm", "panda").value)  # a built-in name, or a URDF file
         allowed = self.declare_parameter("pre_failure_error", 0.5).value
         self.names = list(arm.joint_names)
-        self.step = hf.control.failure_tolerant(arm, task="pose", pre_failure_error=allowed).step
+        self.step = hf.control.failure_tolerant(arm, task="pose", pre_failure_error=allowed).prepare()
         self.q = self.twist = None
         self.seen = {"q": -np.inf, "twist": -np.inf}
         self.create_subscription(JointState, "/joint_states", self.on_joints, 10)

@@ -35,6 +35,7 @@ import yaml
 
 from holdfast.errors import HoldfastError
 
+SEED = 20120831
 MOST_SECONDS = 10.0
 MOST_LETTERS = 1500
 
@@ -610,17 +611,20 @@ def fuzz(cases: int, seed: int, workers: int = 1, only: str | None = None) -> Fo
     command += ["--kind", only] if only else []
     first = list(range(workers))
     while first:
-        pending = [
-            subprocess.Popen(
-                [*command, "--worker", f"{f}:{workers}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-            )
-            for f in first
-        ]
+        pending = []
+        for f in first:
+            # Not a pipe, which would fill up while another worker is read.
+            out = tempfile.TemporaryFile("w+")  # noqa: SIM115
+            whole = [*command, "--worker", f"{f}:{workers}"]
+            pending.append((subprocess.Popen(whole, stdout=out, stderr=subprocess.STDOUT), out))
         first = []
-        for process in pending:
-            out, problem = process.communicate()
+        for process, out in pending:
+            process.wait()
+            out.seek(0)
+            lines = out.read().splitlines()
+            out.close()
             at, ended = None, False
-            for line in out.splitlines():
+            for line in lines:
                 data = json.loads(line) if line.startswith("{") else {}
                 at = data.get("at", at)
                 if "case" in data:
@@ -629,9 +633,8 @@ def fuzz(cases: int, seed: int, workers: int = 1, only: str | None = None) -> Fo
                     found.counts.update(data["counts"])
                     found.slowest, ended = max(found.slowest, data["slowest"]), True
             if not ended:
-                found.failed.append(
-                    {"case": at, "kind": "?", "problem": f"the process died ({process.returncode}): {problem[-300:]}"}
-                )
+                died = f"the process died ({process.returncode}): {' '.join(lines[-8:])[-300:]}"
+                found.failed.append({"case": at, "kind": "?", "problem": died})
                 if at is not None and at + workers < cases:
                     first.append(at + workers)
     return found
@@ -641,7 +644,7 @@ def main() -> int:
     """The command line; 1 if a case failed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--cases", type=int, default=40_000)
-    parser.add_argument("--seed", type=int, default=20120831)
+    parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--kind", default=None)
     parser.add_argument("--only", type=int, default=None)

@@ -9,7 +9,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.linalg import null_space
+from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
@@ -322,3 +324,103 @@ def three_link_fibre(arm: hf.Arm, point: np.ndarray, count: int = 4000) -> np.nd
         out.append((q + np.pi) % (2 * np.pi) - np.pi)
     q = np.concatenate(out)
     return q[((q >= arm.lower) & (q <= arm.upper)).all(axis=1)]
+
+
+# ---- the best configuration of a pose, by a program that knows only transforms --------------------------------------------
+
+
+def dh_chain(rows: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Tool pose (4, 4) and geometric Jacobian (6, n) of distal Denavit-Hartenberg rows (n, 4): a, alpha, d, theta at 0."""
+    t, axes, places = np.eye(4), [], []
+    for (a, alpha, d, theta), angle in zip(rows, q, strict=True):
+        axes.append(t[:3, 2].copy())
+        places.append(t[:3, 3].copy())
+        turn = Rotation.from_euler("z", theta + angle).as_matrix()
+        t = t @ pose(turn, turn @ [a, 0, 0] + [0, 0, d]) @ pose(Rotation.from_euler("x", alpha).as_matrix())
+    z, p = np.array(axes), np.array(places)
+    return t, np.concatenate([np.cross(z, t[:3, 3] - p), z], axis=1).T
+
+
+def best_worst_rho(
+    rows: np.ndarray, low: np.ndarray, high: np.ndarray, target: np.ndarray, starts: int, rng: np.random.Generator
+) -> float:
+    """Largest worst-case relative manipulability over the configurations of a pose, by SLSQP from several starts; 0 if none."""
+
+    def apart(q: np.ndarray) -> np.ndarray:
+        t, _ = dh_chain(rows, q)
+        turn = Rotation.from_matrix(target[:3, :3] @ t[:3, :3].T).as_rotvec()
+        return np.concatenate([target[:3, 3] - t[:3, 3], turn])
+
+    def squares(q: np.ndarray) -> np.ndarray:
+        j = dh_chain(rows, q)[1]
+        return 1 - np.einsum("ij,ij->j", j, np.linalg.solve(j @ j.T, j))
+
+    found, tries = 0.0, 0
+    while starts and tries < 60:
+        tries += 1
+        q = rng.uniform(low, high)
+        for _ in range(60):
+            e = apart(q)
+            j = dh_chain(rows, q)[1]
+            q = np.clip(q + j.T @ np.linalg.solve(j @ j.T + 1e-3 * (e @ e) * np.eye(6), e), low, high)
+        if np.linalg.norm(apart(q)) > 1e-8:
+            continue
+        starts -= 1
+        x0 = np.append(q, squares(q).min())
+        made = minimize(
+            lambda x: -x[-1],
+            x0,
+            jac=lambda x: np.append(np.zeros(len(x) - 1), -1.0),
+            bounds=[*zip(low, high, strict=True), (0, 1)],
+            constraints=[
+                {"type": "eq", "fun": lambda x: apart(x[:-1])},
+                {"type": "ineq", "fun": lambda x: squares(x[:-1]) - x[-1]},
+            ],
+            method="SLSQP",
+            options={"maxiter": 120, "ftol": 1e-9},
+        )
+        if np.linalg.norm(apart(made.x[:-1])) < 1e-6:
+            found = max(found, float(np.sqrt(max(squares(made.x[:-1]).min(), 0.0))))
+    return found
+
+
+# ---- planar arms in closed loop, by scipy ---------------------------------------------------------------------------------
+
+
+def planar_hand(lengths: Sequence[float], q: np.ndarray) -> np.ndarray:
+    """Hand (..., 2) of a planar arm of these links."""
+    angle = np.cumsum(q, axis=-1)
+    return np.stack([np.cos(angle) @ lengths, np.sin(angle) @ lengths], axis=-1)
+
+
+def planar_jacobian(lengths: Sequence[float], q: np.ndarray) -> np.ndarray:
+    """(2, n) of one configuration."""
+    angle = np.cumsum(q)
+    columns = [[-(np.sin(angle[k:]) @ lengths[k:]), np.cos(angle[k:]) @ lengths[k:]] for k in range(len(q))]
+    return np.array(columns).T
+
+
+def planar_run(lengths, damping: float, q0, target, locked: int, until: float, arrives: float = 0.0):
+    """The arm towards a target with gain 1 by the damped inverse of all joints, one of which (-1: none) does not move."""
+    lengths, moves = np.asarray(lengths, dtype=float), np.arange(len(q0)) != locked
+
+    def rates(_, q):
+        j = planar_jacobian(lengths, q)
+        e = target - planar_hand(lengths, q)
+        return moves * (j.T @ np.linalg.solve(j @ j.T + damping**2 * np.eye(2), e))
+
+    def there(_, q):
+        return np.linalg.norm(target - planar_hand(lengths, q)) - arrives
+
+    there.terminal = True
+    # LSODA: beside a singular configuration the damped inverse is stiff.
+    return solve_ivp(rates, (0, until), q0, "LSODA", events=there, dense_output=True, rtol=1e-9, atol=1e-11)
+
+
+def two_link_ring(lengths: Sequence[float], joint: int, angle: float) -> tuple[np.ndarray, float, float]:
+    """What a planar 3R arm with a locked joint reaches: middle (2,), least and largest radius of a ring."""
+    a, b, c = lengths
+    if joint == 0:
+        return a * np.array([np.cos(angle), np.sin(angle)]), abs(b - c), b + c
+    first, second = (abs(a + b * np.exp(1j * angle)), c) if joint == 1 else (a, abs(b + c * np.exp(1j * angle)))
+    return np.zeros(2), abs(first - second), first + second

@@ -10,11 +10,12 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_KILLS      of a program that writes records, 40
     HOLDFAST_FLIPS      single bits changed in a folder of records, 10000
     HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
+    HOLDFAST_INPUTS     mutated input files of every kind, 40000
     HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
 The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
-a message changed anything, a changed bit of data went unseen, or the 99th percentile of the acknowledgements is above 50 ms,
-100 ms among silent sockets.
+a message changed anything, a changed bit of data went unseen, an input file ended in anything but a value or a sentence, or the
+99th percentile of the acknowledgements is above 50 ms, 100 ms among silent sockets.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ sys.path.insert(0, str(HERE / "teleop" / "serve"))
 
 from load import Figures, load  # noqa: E402
 from silent import attacked  # noqa: E402
+
+import fuzz_inputs  # noqa: E402
 
 MOST, MOST_ATTACKED = 50.0, 100.0  # ms
 LOG = 1_000_000  # bytes
@@ -66,6 +69,7 @@ def main() -> int:
     survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
     flips = option("FLIPS", "10000")
     seen, flips_s = _tests(FLIPPED, "changed_bit", "HOLDFAST_FLIPS", flips)
+    inputs = fuzz_inputs.fuzz(int(option("INPUTS", "40000")), fuzz_inputs.SEED, os.cpu_count() or 1)
     compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
     begin, middle, end = figures.memory
@@ -82,6 +86,10 @@ def main() -> int:
         (f"{kills} times killed", f"{'nothing lost' if survived else 'FAILED'} ({kills_s:.0f} s)"),
         (f"{flips} bits changed", f"{'all of data seen' if seen else 'FAILED'} ({flips_s:.0f} s)"),
         (f"{attack.sockets} silent sockets: p99, ms; lost; log", f"{attack.p99:.1f}; {attack.lost}; {attack.log} B"),
+        (
+            f"{inputs.counts.total()} mutated input files",
+            f"{len(inputs.failed)} failed, the longest took {inputs.slowest:.1f} s",
+        ),
         ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
@@ -89,7 +97,7 @@ def main() -> int:
         print(f"  {name:<50} {value}")
     lost = figures.lost != 0 or figures.differing != 0 or attack.lost != 0
     slow = figures.p99 > MOST or attack.p99 > MOST_ATTACKED or attack.log > LOG
-    return int(lost or slow or not (fuzzed and kept and survived and seen and compiled))
+    return int(lost or slow or bool(inputs.failed) or not (fuzzed and kept and survived and seen and compiled))
 
 
 if __name__ == "__main__":

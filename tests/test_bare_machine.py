@@ -12,6 +12,8 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+import slow
+
 ROOT = Path(__file__).parents[1]
 LOCKS = {"run": ["requirements.lock"]}
 LOCKS |= {group: ["requirements.lock", f"requirements-{group}.lock"] for group in ("test", "docs")}
@@ -75,3 +77,15 @@ def test_without_a_browser_tests_of_pages_are_skipped_loudly_and_fail_where_it_i
     loud = "NO BROWSER, 1 TESTS SKIPPED" in done.stdout
     assert (done.returncode, loud) == ((1, False) if required else (0, True)), done.stdout
     assert "pages are looked at in Chromium, and there is none here" in done.stdout
+
+
+def test_every_package_has_tests_that_are_quick():
+    """'make check' says something of each: its tests are those that slow.txt does not list."""
+    tests = ROOT / "tests"
+    every = {
+        f"tests/{file.relative_to(tests).as_posix()}::{name}"
+        for file in tests.rglob("test_*.py")
+        for name in re.findall(r"^def (test_\w+)", file.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+    quick = {name.split("/")[1] for name in every - slow.listed()}
+    assert {path.name for path in tests.iterdir() if path.is_dir() and any(path.rglob("test_*.py"))} - quick <= {"browser"}

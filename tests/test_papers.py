@@ -14,8 +14,10 @@ from papers.goel2005 import three_links, two_links
 from papers.numbers import beside
 from papers.seven_dof import __main__ as seven_dof
 from papers.seven_dof import study
+from scipy.spatial.transform import Rotation
 
 import holdfast as hf
+import oracles
 
 
 @pytest.fixture(scope="module")
@@ -209,3 +211,33 @@ def test_the_angle_is_bounded_by_the_error_whatever_the_vectors(rng):
     velocity = command + off
     angle = np.arccos(np.clip((command * velocity).sum(axis=1) / np.linalg.norm(velocity, axis=1), -1, 1))
     assert (angle <= np.arcsin(np.linalg.norm(off, axis=1)) + 1e-7).all()
+
+
+# ---- the tool of papers/design -------------------------------------------------------------------------------------------
+
+
+def test_the_better_tool_is_as_good_as_another_program_says(rng):
+    """What papers/design finds for the PA10's tool: 0.29 (0.2591 to 0.3081) for 95 % of the poses.
+
+    Transforms, Jacobian and optimiser of our own here; 120 poses of it gave 0.262 with 3 % not reached (measured).
+    """
+    alpha = np.radians([-90.0, 90, -90, 90, -90, 90, -61.5305, 91.8417, -45])
+    a = np.array([0, 0, 0, 0, 0, 0, -0.2, -0.00264183, 0.121807])
+    d = np.array([0.315, 0, 0.450, 0, 0.500, 0, 0.582752, 0.132487, 0.020002])
+    theta = np.radians([0, 0, 0, 0, 0, 0, -32.2326, 3.56034, 0])
+    low = np.radians([-45.0, -15, -45, 45, -45, -27, -45, -9, -45])
+    high = np.radians([45.0, 75, 45, 135, 45, 63, 45, 81, 45])
+    rows = np.stack([a, alpha, d, theta], axis=1)
+    arm = hf.Arm.from_dh([hf.DH(*r, lower=x, upper=y) for r, x, y in zip(rows, low, high, strict=True)])
+    index = hf.indices.relative_manipulability(arm)
+    poses, best = [], []
+    for _ in range(4):
+        turn = np.array([0, np.radians(174.0), 0]) + rng.uniform(-np.pi / 4, np.pi / 4, 3)
+        place = np.array([0.968, 0, 0.041]) + rng.uniform(-0.25, 0.25, 3)
+        poses.append(oracles.pose(Rotation.from_euler("ZYX", turn).as_matrix(), place))
+        best.append(oracles.best_worst_rho(rows, low, high, poses[-1], 1, rng))
+    found = hf.optimise(arm, np.array(poses), index, seed=1)
+    ours = np.where(found.status == 0, found.value, 0.0)
+    assert (ours >= np.array(best) - 1e-4).all()  # a single local search of another program finds nothing better
+    assert np.median(ours - best) < 0.05
+    assert (ours > 0.2591).sum() >= 2  # of 4 with 95 % each: one in 2,000 has fewer than 2

@@ -9,7 +9,16 @@ from holdfast import Status
 from holdfast.errors import HoldfastError
 from holdfast.status import require_ok
 
-CODES = {"OK": 0, "NOT_FOUND": 1, "BAD_INPUT": 2, "SINGULAR": 3, "INFEASIBLE": 4, "NO_INERTIA": 5, "NOT_COMPUTED": 255}
+CODES = {
+    "OK": 0,
+    "NOT_FOUND": 1,
+    "BAD_INPUT": 2,
+    "SINGULAR": 3,
+    "INFEASIBLE": 4,
+    "NO_INERTIA": 5,
+    "UNDEFINED": 6,
+    "NOT_COMPUTED": 255,
+}
 
 
 def test_codes_do_not_change():

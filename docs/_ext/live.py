@@ -8,7 +8,7 @@ Every page has one Python session and one temporary folder, shared by its direct
     of lines shown of each output.
 ``file``: text that is shown and saved under the name given.
 ``module-example``: the example in a module's docstring.
-``casadi-operations``: the CasADi operations that the heyoka backend translates, found by trying.
+``casadi-operations``: the CasADi operations that the compiled backend translates, found by trying.
 
 The role ``cite`` refers to an entry of the list of references.
 """
@@ -159,11 +159,8 @@ class CasadiOperations(SphinxDirective):
         import casadi as ca
 
         from holdfast.errors import KernelError
-        from holdfast.kernels import Program, heyoka_backend
+        from holdfast.kernels import Program, llvm_backend
 
-        if not heyoka_backend.available():
-            text = "This copy of the documentation was built without heyoka, so the list is missing."
-            return [nodes.note("", nodes.paragraph("", text))]
         names = {"a": ca.SX.sym("a"), "b": ca.SX.sym("b"), "ca": ca}
         have, lack = [], []
         for spelling in SPELLINGS.replace("\n", "|").split("|"):
@@ -171,7 +168,7 @@ class CasadiOperations(SphinxDirective):
                 continue
             program = Program("operation", [names["a"], names["b"]], [eval(spelling.strip(), names)])
             try:
-                heyoka_backend.compile_program(program)
+                llvm_backend.compile_program(program, 0)
                 have.append(spelling.strip())
             except KernelError:
                 lack.append(spelling.strip())

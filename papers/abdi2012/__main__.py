@@ -83,7 +83,9 @@ def study(arm: hf.Arm, index: hf.indices.Index) -> tuple[list[Claim], list[hf.As
     # Of the same seed the smaller sample would be a part of the larger.
     few = hf.assess(arm, region, index, poses=POSES[0], seed=SEED + 1, clearance=False).distribution
     many = runs[1].distribution
-    test = stats.ks_2samp(few.values, many.values)
+    assert few.values is not None
+    assert many.values is not None
+    test = stats.ks_2samp(few.values.tolist(), many.values.tolist())
     claims.append(
         Claim(
             "V.D 2000 configurations give similar results",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from holdfast.arm.configurations import without_limits
 from holdfast.arm.task import as_task
 from holdfast.control.events import Curvature
 from holdfast.indices.susceptibility import Susceptibility
+from holdfast.kept import cached_property
 from holdfast.paths import Constant, TimedPath, line
 from holdfast.solve import fibres, self_motion
 from holdfast.solve.fibre_path import best_path_over

@@ -391,8 +391,8 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             f"computer: stands still in scenario 3 and completes scenario 4; {who}: {s.end(24, 3)} complete scenario "
             f"3, {s.end(24, 4)} "
             "scenario 4, by turning aside where the hand does not follow",
-            "our task 24 is constructed so (joint 1 locked at the folded angle of the target), our operators are simulated, and "
-            "the paper's task is not printed",
+            "our task 24 is constructed so (joint 1 locked at the folded angle of the target), our operators are simulated, "
+            "and the paper's task is not printed",
             Verdict.PARTLY,
         ),
         Claim(

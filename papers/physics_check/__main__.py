@@ -153,7 +153,7 @@ def main() -> None:
         "",
         f"## Outcomes: servos of 10 Hz, at most 0.25 m/s, {LIMIT:g} s",
         "",
-        "Intervals are 95 % (Wilson). At the time limit a slow run is undecided in MuJoCo; the kinematic loop has 3000 s.",
+        "Intervals are 95 % (exact). At the time limit a slow run is undecided in MuJoCo; the kinematic loop has 3000 s.",
         f"So we also ask of both, when the run in MuJoCo ends: is the error below {ARRIVED:g} (m and rad)?",
         "",
         *outcomes(found),

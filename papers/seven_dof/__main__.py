@@ -136,8 +136,8 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         "## What the other laws gain over the pseudoinverse",
         "",
-        "Paired over the same motions, 95 % intervals (of shares: the hull of Newcombe's over all runs and Student's t over "
-        "the motions' means; of errors: the latter). The last column is how "
+        "Paired over the same motions, 95 % intervals (of shares: of the motions' means, by betting; of errors: Student's "
+        "t). The last column is how "
         "wide the interval becomes with the undecided runs whose target is within reach: from its lower end if all of the "
         "pseudoinverse's arrived and none of this law's, to its upper end the other way round.",
         "",

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from holdfast.arm.task import Task
     from holdfast.assess import Assessment, Comparison, Region, assess, compare, load
     from holdfast.clearance import Capsules, Clearance
-    from holdfast.control import Trajectory, follow
+    from holdfast.control import Trajectory
+    from holdfast.control.follow import follow  # where it is defined: mypy meets the module of that name first
     from holdfast.converge import (
         ConvergenceMap,
         LawChoice,
@@ -49,7 +50,9 @@ if TYPE_CHECKING:
         simulate,
         simulate_physics,
     )
-    from holdfast.solve import Optimum, Reach, optimise, self_motion, solve_ik
+    from holdfast.solve import Reach, solve_ik
+    from holdfast.solve.optimise import Optimum, optimise
+    from holdfast.solve.self_motion import self_motion
     from holdfast.status import Status
 
 __version__ = "0.1.0"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-import numbers
 import os
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ParamSpec, TypeVar
 
@@ -17,6 +15,7 @@ from holdfast.errors import InputError
 
 P = ParamSpec("P")
 T = TypeVar("T")
+LARGEST = 2**53  # whole numbers up to here are numbers of 8 bytes as well
 
 
 def real_numbers(value: Any, what: str, wanted: str = "numbers in an array") -> NDArray[np.float64]:
@@ -46,84 +45,138 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
     """The function, refusing arguments that are not of the kind their annotations say.
 
     A public function that would fail somewhere within, with an error of another package, says at its door what it takes.
-    Looked at are the kinds named in :data:`_KINDS` and classes of holdfast, by name, so that nothing is imported; what an
-    annotation says beyond that is left to the function.
+    Looked at are the kinds in :data:`_KINDS` and the classes in :data:`_CLASSES`, these by name, so that nothing is imported;
+    where an annotation says anything else, the argument is left to the function.
 
     Raises:
         InputError: When the function is called with such an argument.
     """
-    wanted = {
-        name: _alternatives(str(parameter.annotation))
-        for name, parameter in inspect.signature(function).parameters.items()
-        if parameter.kind not in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL)
-    }
     signature = inspect.signature(function)
+    wanted = {name: _alternatives(str(parameter.annotation)) for name, parameter in signature.parameters.items()}
+    for name, parameter in signature.parameters.items():
+        if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL):
+            wanted[name] = ()
+        elif name == "seed":
+            wanted[name] = ("seed",)
 
     @functools.wraps(function)
     def called(*args: P.args, **kwargs: P.kwargs) -> T:
         for name, value in signature.bind(*args, **kwargs).arguments.items():
-            kinds = wanted.get(name)
+            kinds = wanted[name]
             if kinds and not any(_is(value, kind) for kind in kinds):
-                what = f"{function.__name__}: {name} is {_shown(value)}"
+                what = f"{function.__qualname__.removesuffix('.__init__')}: {name} is {_shown(value)}"
                 raise InputError(f"{what}; it must be {' or '.join(dict.fromkeys(_said(kind) for kind in kinds))}")
         return function(*args, **kwargs)
 
     return called
 
 
-def _alternatives(annotation: str) -> tuple[str, ...]:
-    """``A | B[C | D]`` as its alternatives; none where one is not known, which then may be anything."""
-    found: list[str] = []
-    for part in _split(annotation.strip("'\"")):
-        found += _split(_ALIASES[part]) if part in _ALIASES else [part]
-    return tuple(found) if all(_known(kind) for kind in found) else ()
+def checked_class(made: type[T]) -> type[T]:
+    """The class, with a constructor that is :func:`checked`."""
+    setattr(made, "__init__", checked(made.__init__))  # noqa: B010
+    return made
 
 
-def _split(annotation: str) -> list[str]:
-    return [part.strip() for part in re.split(r"\|(?![^\[]*\])", annotation)]
-
+# ---- annotations -------------------------------------------------------------------------------------------------
 
 # Names that the packages give to unions.
 _ALIASES = {
     "Joints": "str | int | Sequence[str | int]",
-    "Vary": "DesignSpace | Iterable | Mapping",
+    "Vary": "DesignSpace | Iterable[str | Parameter] | Mapping[str, Any]",
     "FailureSpec": "str | int | Iterable[Any]",
     "Locked": "Mapping | str | int | Sequence[Any] | ndarray",
+    "Limits": "ArrayLike | Mapping[str | int, ArrayLike]",
+    "TaskSpec": "str | Task | Sequence[str]",
+    "Array": "ArrayLike",
     "Progress": "Callable",
-    **dict.fromkeys(("Method", "MetricName", "Over", "RelativeTo", "Sampling"), "str"),
-    "Limits": "ArrayLike | Mapping",
+    **dict.fromkeys(("JointType", "Method", "MetricName", "Over", "RelativeTo", "Sampling"), "str"),
 }
 
 
+def _split(text: str, sign: str) -> list[str]:
+    """Parts between the signs that stand outside of brackets."""
+    parts, depth = [""], 0
+    for letter in text.strip().strip("'\""):
+        depth += (letter == "[") - (letter == "]")
+        if letter == sign and not depth:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return [part.strip() for part in parts]
+
+
+def _alternatives(annotation: str) -> tuple[str, ...]:
+    """``A | B[C | D]`` as its alternatives; none where one is not known, which then may be anything."""
+    found: list[str] = []
+    for part in _split(annotation, "|"):
+        found += _split(_ALIASES[part], "|") if part in _ALIASES else [part]
+    return tuple(found) if all(_head(kind) in (*_KINDS, *_CLASSES, "Literal") for kind in found) else ()
+
+
+def _head(kind: str) -> str:
+    return kind.partition("[")[0].rpartition(".")[2]
+
+
+def _inner(kind: str) -> list[str]:
+    """What stands in the brackets."""
+    return _split(kind.partition("[")[2].removesuffix("]"), ",") if "[" in kind else []
+
+
+# ---- values ------------------------------------------------------------------------------------------------------
+
+
+def _integer(value: Any) -> bool:
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
+def _whole(value: Any) -> bool:
+    return _integer(value) and abs(int(value)) <= LARGEST
+
+
 def _real(value: Any) -> bool:
-    return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.bool_))
+    return _whole(value) or isinstance(value, (float, np.floating))
+
+
+def _text(value: Any) -> bool:
+    return isinstance(value, str) and "\0" not in value
 
 
 def _numeric(value: Any) -> bool:
+    if isinstance(value, (str, bytes, Mapping, set, frozenset, bool, np.bool_)):
+        return False
     try:
         real_numbers(value, "")
     except InputError:
         return False
-    return not isinstance(value, (str, bytes, Mapping, set))
+    return True
+
+
+def _iterable(value: Any) -> bool:
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and getattr(value, "ndim", 1) > 0
 
 
 _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
-    "int": ("a whole number", lambda x: isinstance(x, numbers.Integral) and not isinstance(x, (bool, np.bool_))),
+    "seed": (
+        "a whole number of 0 or more",
+        lambda x: _integer(x) and x >= 0,
+    ),
+    "int": ("a whole number", _whole),
     "float": ("a number", _real),
     "bool": ("True or False", lambda x: isinstance(x, (bool, np.bool_))),
-    "str": ("text", lambda x: isinstance(x, str)),
+    "str": ("text", _text),
     "None": ("None", lambda x: x is None),
-    "Path": ("a path", lambda x: isinstance(x, os.PathLike) or _named(x, "Path")),
+    "Path": ("a path", lambda x: (isinstance(x, os.PathLike) and "\0" not in os.fspath(x)) or _named(x, "Path")),
     "ArrayLike": ("numbers", _numeric),
     "Callable": ("a function", callable),
     "Mapping": ("a mapping", lambda x: isinstance(x, Mapping)),
     "Sequence": ("a sequence", lambda x: isinstance(x, Sequence) and not isinstance(x, (str, bytes))),
-    "Iterable": ("a sequence", lambda x: isinstance(x, Iterable) and not isinstance(x, (str, bytes))),
+    "tuple": ("a sequence", lambda x: isinstance(x, Sequence) and not isinstance(x, (str, bytes))),
+    "Iterable": ("a sequence", _iterable),
     "ndarray": ("an array", lambda x: isinstance(x, np.ndarray)),
 }
 _CLASSES = (
-    *("Arm", "Assessment", "Clearance", "DesignSpace", "Index", "Law", "Link", "Objective", "Places", "Region", "Servos"),
-    *("Task", "TimedPath"),
+    *("Arm", "Assessment", "Capsules", "Clearance", "DH", "DesignSpace", "Index", "Joint", "Law", "Link", "Objective"),
+    *("Parameter", "Places", "Region", "Servos", "Task", "TimedPath"),
 )
 
 
@@ -131,31 +184,44 @@ def _named(value: Any, name: str) -> bool:
     return any(kind.__name__ == name for kind in type(value).__mro__)
 
 
-def _head(kind: str) -> str:
-    return kind.partition("[")[0].rpartition(".")[2]
-
-
-def _known(kind: str) -> bool:
-    return _head(kind) in (*_KINDS, *_CLASSES, "Literal")
-
-
 def _is(value: Any, kind: str) -> bool:
-    head = _head(kind)
+    head, inner = _head(kind), _inner(kind)
     if head == "Literal":
-        return not isinstance(value, (int, float, Mapping)) or repr(value) in kind  # another word is the function's to refuse
-    return _KINDS[head][1](value) if head in _KINDS else _named(value, head)
+        words = any(x.startswith(("'", '"')) for x in inner)
+        return repr(value) in inner or (words and isinstance(value, str))  # another word is the function's to refuse
+    if head not in _KINDS:
+        return _named(value, head)
+    if not _KINDS[head][1](value):
+        return False
+    if head == "Mapping" and inner:
+        return _all(value.values(), inner[-1])
+    if head == "tuple" and inner and inner[-1] != "...":
+        return len(value) == len(inner) and all(_all([x], part) for x, part in zip(value, inner, strict=True))
+    items = head in ("Sequence", "tuple", "Iterable") and inner and isinstance(value, (Sequence, np.ndarray))
+    return not items or _all(value, inner[0])
+
+
+def _all(values: Iterable[Any], annotation: str) -> bool:
+    kinds = _alternatives(annotation)
+    return not kinds or all(any(_is(value, kind) for kind in kinds) for value in values)
+
+
+# ---- sentences ---------------------------------------------------------------------------------------------------
 
 
 def _said(kind: str) -> str:
-    head = _head(kind)
+    head, inner = _head(kind), _inner(kind)
     if head == "Literal":
-        return "one of " + kind.partition("[")[2].rstrip("]")
+        return f"one of {', '.join(inner)}"
     if head in _KINDS:
-        return _KINDS[head][0]
+        items = (inner[-1] if head == "Mapping" else inner[0]) if inner else ""
+        of = [_said(x) for x in _alternatives(items)] if head in ("Mapping", "Sequence", "tuple", "Iterable") else []
+        return _KINDS[head][0] + (f", each {' or '.join(of)}" if of else "")
     return f"{'an' if head[0] in 'AEIO' else 'a'} {head}"
 
 
 def _shown(value: Any) -> str:
+    """A value for a sentence, in a few words."""
     if isinstance(value, np.ndarray):
         return f"an array of {value.dtype}, shape {value.shape}"
     text = " ".join(repr(value).split())

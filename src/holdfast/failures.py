@@ -32,10 +32,8 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         TaskError: No failure, an empty or repeated set, more sets than can be handled.
         InputError: There is no such joint.
     """
-    if failures == "single":
-        failures = 1
-    elif failures == "pairs":
-        failures = 2
+    if isinstance(failures, str):
+        failures = {"single": 1, "pairs": 2}.get(failures, failures)
     if isinstance(failures, str):
         raise TaskError(f"failures '{failures}' is not known; use 'single', 'pairs', a number of joints, or a list of sets")
     if isinstance(failures, (int, np.integer)):
@@ -43,7 +41,10 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
             raise TaskError(f"{failures} of the {arm.n} joints of '{arm.name}' cannot fail together; use 1 to {arm.n - 1}")
         sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
     else:
-        sets = [joint_list(arm, [f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
+        try:
+            sets = [joint_list(arm, [f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
+        except TypeError as error:
+            raise TaskError(f"failures are {failures!r}; give a list of sets, each a joint or several joints") from error
     if not sets or any(not s or len(set(s)) != len(s) for s in sets):
         raise TaskError("each failure must name at least one joint, and each of its joints once")
     if len(set(sets)) != len(sets):

@@ -23,6 +23,7 @@ class Status(IntEnum):
     SINGULAR = 3
     INFEASIBLE = 4
     NO_INERTIA = 5
+    UNDEFINED = 6
     NOT_COMPUTED = 255
 
     @property
@@ -39,6 +40,8 @@ _ADVICE = {
     Status.SINGULAR: "the task Jacobian is singular here, so the index is 0 by convention: move off the singularity",
     Status.INFEASIBLE: "no choice meets the constraint: relax it",
     Status.NO_INERTIA: "the arm has no inertial data for this: add masses and inertias to its description",
+    Status.UNDEFINED: "the formula gives no number at this configuration, which is finite: look at where it divides by zero "
+    "or takes a root or logarithm",
     Status.NOT_COMPUTED: "not computed yet: resume the run",
 }
 

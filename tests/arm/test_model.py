@@ -10,6 +10,7 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
+import holdfast as hf
 from holdfast import arms
 from holdfast.arm.builtin import DATA
 from holdfast.arm.dh import DH
@@ -125,7 +126,7 @@ def test_configurations_are_checked() -> None:
         arm.forward_kinematics([0, 0])
     with pytest.raises(InputError, match="has 0 values per configuration"):
         arm.forward_kinematics(1.0)
-    with pytest.raises(InputError, match="q for 'planar-3r' must be numbers, 3 per configuration"):
+    with pytest.raises(InputError, match="q for 'planar-3r' is not numbers; it must be numbers, 3 per configuration"):
         arm.jacobian(["a", "b", "c"])
     assert arm.forward_kinematics(np.zeros((5, 3))).shape == (5, 4, 4)
 
@@ -167,3 +168,24 @@ def test_the_jacobian_derivative_by_differences() -> None:
     shifts = step * np.eye(arm.n)
     expected = (arm.jacobian(q + shifts) - arm.jacobian(q - shifts)) / (2 * step)
     np.testing.assert_allclose(arm.jacobian_derivative(q), expected, atol=1e-8)
+
+
+def test_complex_numbers_are_refused_and_not_cut() -> None:
+    arm = hf.arms.load("planar-3r")
+    for q in (np.array([0.1, 0.2, 1j]), [0.1, 0.2, 1j]):
+        with pytest.raises(hf.InputError, match="q for 'planar-3r' is complex numbers; it must be numbers, 3 per"):
+            arm.forward_kinematics(q)
+
+
+def test_what_is_not_finite_is_bad_input_of_its_row_and_of_no_other() -> None:
+    """Infinity as NaN: alone it is refused, in a batch its row has no value, so that one row does not cost the others."""
+    arm = hf.arms.load("planar-3r")
+    index = hf.indices.relative_manipulability(arm, "planar")
+    for bad in (np.nan, np.inf, -np.inf):
+        batch = np.array([[0.1, 0.2, 0.3], [0.1, bad, 0.3]])
+        found = index.evaluate(batch)
+        assert found.status.tolist() == [hf.Status.OK, hf.Status.BAD_INPUT]
+        assert np.isfinite(found.value[0])
+        assert np.isnan(found.value[1])
+        with pytest.raises(hf.InputError, match="holds NaN or infinity"):
+            index.evaluate(batch[1])

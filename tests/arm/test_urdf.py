@@ -553,3 +553,43 @@ def test_a_bomb_of_entities_does_not_go_off(tmp_path: Path) -> None:
     path.write_text(f"<!DOCTYPE robot [<!ENTITY x0 'ha'>{entities}]><robot name='&x12;'/>")
     with pytest.raises(ArmError, match="DOCTYPE"):
         urdf.load(path)
+
+
+# ---- what other readers take ---------------------------------------------------------------------------------------
+
+
+def test_prefixes_need_no_declaration_and_leftover_definitions_do_no_harm(tmp_path: Path) -> None:
+    """As in files that xacro and Gazebo leave behind; yourdfpy reads the same chain."""
+    leftovers = (
+        "<xacro:property name='width' value='${0.1 * 2}'/><xacro:arg name='x' default='1'/>"
+        "<xacro:macro name='wheel' params='p'><link name='${p}'/></xacro:macro>"
+        "<gazebo reference='b'><sensor:ray update='$(arg x)'/></gazebo>"
+    )
+    parts = AB + joint("j", "a", "b", inside="<origin xyz='0.3 0 0'/><axis xyz='0 0 1'/><limit lower='-1' upper='1'/><ros:x/>")
+    path = write(tmp_path, leftovers, parts)
+    np.testing.assert_allclose(urdf.load(path).forward_kinematics([0.2])[:3, 3], [0.3, 0, 0])
+    plain = tmp_path / "plain.urdf"
+    plain.write_text(f"<robot name='bot'>{AB}{J}</robot>".replace("<axis", "<origin xyz='0.3 0 0'/><axis"))
+    other = yourdfpy.URDF.load(str(plain), load_meshes=False, build_scene_graph=True)
+    other.update_cfg({"j": 0.2})
+    np.testing.assert_allclose(urdf.load(path).forward_kinematics([0.2]), other.get_transform("b", "a"), atol=1e-12)
+
+
+@pytest.mark.parametrize("call", ["<xacro:arm name='x'/>", "<x:arm/>", "<link name='${side}_hand'/>"])
+def test_macros_that_make_something_are_named_with_the_command_that_expands_them(tmp_path: Path, call: str) -> None:
+    path = tmp_path / "bot.urdf.xacro"
+    path.write_text(f"<robot name='b' xmlns:x='http://ros.org/wiki/xacro'>{AB}{J}{call}</robot>")
+    with pytest.raises(ArmError, match=r"not expanded .*; expand it first: xacro bot.urdf.xacro > bot.urdf "):
+        urdf.load(path)
+
+
+def test_a_joint_that_mimics_a_fixed_one_stands_at_its_offset(tmp_path: Path) -> None:
+    """Its value is multiplier times 0 plus offset, on the chain as beside it."""
+    slide = "<axis xyz='0 1 0'/><limit lower='-9' upper='9'/>"
+    parts = [AB, link("c"), link("d"), joint("f", "a", "b", "fixed")]
+    parts.append(joint("m", "b", "c", "prismatic", f"{slide}<mimic joint='f' multiplier='-2' offset='0.5'/>"))
+    arm = urdf.load(write(tmp_path, *parts, joint("j", "c", "d")))
+    assert arm.joint_names == ("j",)
+    np.testing.assert_allclose(arm.forward_kinematics([0.0])[:3, 3], [0, 0.5, 0])
+    held = urdf.load(write(tmp_path, *parts, joint("j", "c", "d")), hold={"m": 2.0})
+    np.testing.assert_allclose(held.forward_kinematics([0.0])[:3, 3], [0, 2, 0])

@@ -365,6 +365,16 @@ def test_binned_quantiles_at_the_bound_and_among_infinite_values(better, bound, 
     assert d.probability(at_least=0.6) == pytest.approx(exact.probability(at_least=0.6))
 
 
+def test_binned_values_at_the_bound_reach_it(rng):
+    """The width of a bin is rounded: of one bound in six the values at it fell into the bin below."""
+    for bound in [*(1 / np.sqrt(np.arange(1, 30))), *rng.uniform(0.1, 2, 100)]:
+        values = rng.permutation(np.r_[np.full(700, bound), bound * rng.beta(2, 3, 300)])
+        d = collect(values, "larger", float(bound), 10)
+        assert d.probability(at_least=float(bound)) == 0.7
+        assert d.quantile(0.5) == bound
+        assert d.quantile(0.31) == bound
+
+
 @pytest.mark.parametrize("value", [0.0, 0.3, np.inf])
 def test_binned_values_that_are_all_equal(value):
     d = collect(np.full(3000, value), "smaller" if value else "larger", None, 1000)

@@ -43,7 +43,7 @@ def test_reports_say_base_and_tip_and_the_command_that_makes_them_again(cli, tmp
     options = ["--tip", "panda_link8", "--hold", "panda_joint1=0.5", "--task", "position"]
     code, _, err = cli("assess", PANDA, *options, "--poses", 20, "--out", tmp_path / "run")
     assert code == 0, err
-    page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8").replace("<wbr>", "")
     assert "panda.urdf; base &#39;panda_link0&#39;, tip &#39;panda_link8&#39;, &#39;panda_joint1&#39; held at 0.5" in page
     command = " ".join(page.split("holdfast assess ")[1].split("<")[0].replace("\\\n", " ").split())
     assert command.startswith("panda.urdf --base panda_link0 --tip panda_link8 --hold panda_joint1=0.5 ")
@@ -129,3 +129,90 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
     assert cut.plan["arm"]["chain"] == ["panda_link0", "panda_link8", {"panda_finger_joint1": 0.04}]
     assert whole.labels["arm"] == "iiwa14"
     assert json.dumps(cut.plan["arm"])
+
+
+# ---- units ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (
+            ("index", "panda", "--q", "0 -45 0 -135 0 90 45"),
+            "--q: joint 'panda_joint2' is at -45 rad, far beyond its limits, -1.763 to 1.763 rad; give radians, or degrees "
+            "with --degrees",
+        ),
+        (("index", "panda", "--q", "0 -1000 0 0 0 0 0", "--degrees"), "--q: joint 'panda_joint2' is at -1000 deg, far beyond"),
+        (
+            ("index", "ur5-rail", "--q", "1000 0 0 0 0 0 0"),
+            "--q: joint 'rail' is at 1000 m, far beyond its limits, 0 to 2 m;",
+        ),
+        (
+            ("index", "kinova-j2s6s200", "--q", "275 3 3 240 85 75", "--task", "position"),
+            "joint 'j2s6s200_joint_1' is at 275 rad, far beyond a turn; give radians, or degrees with --degrees",
+        ),
+        (
+            ("simulate", "panda", "--start", Q7, "--target", "500,0,400", "--task", "position"),
+            "--target: a place is 640.3 m from the base of 'panda', which is at most 1.423 m long; give metres",
+        ),
+        (
+            ("configure", "panda", "--pose", "500,0,400,0,0,0", "--minimise", "torque"),
+            "--pose: a place is 640.3 m from the base",
+        ),
+        (("self-motion", "planar-3r", "--target", "nan,0.2"), "--target holds NaN or infinity;"),
+        (
+            ("stationary", "planar-3r", "--target", "inf,1", "--lock", "2"),
+            "--target holds NaN or infinity; give finite numbers",
+        ),
+    ],
+)
+def test_the_wrong_unit_is_named_with_its_option(cli, arguments, sentence):
+    code, out, err = cli(*arguments)
+    assert (code, out) == (2, "")
+    assert sentence in err
+
+
+def test_a_turn_too_many_is_no_wrong_unit(ask):
+    """An angle and the same a turn further on mean one configuration."""
+    near, far = (ask("index", "planar-3r", "--q", f"0.3 0.4 {x}") for x in (0.5, 0.5 - 2 * np.pi))
+    assert near["value"] == pytest.approx(far["value"], rel=1e-9)
+
+
+# ---- home ----------------------------------------------------------------------------------------------------------
+
+SRDF = """<robot name="x" xmlns:moveit="urn:x"><group_state name="home" group="arm">{home}</group_state>
+<group_state name="half" group="arm"><joint name="a1" value="1"/></group_state>
+<group_state name="ready" group="arm">{ready}</group_state></robot>"""
+
+
+def crane(tmp_path: Path, lower: float = -2.0) -> Path:
+    parts = ["<link name='l0'/>"]
+    for k in range(1, 4):
+        parts.append(f"<link name='l{k}'/><joint name='a{k}' type='revolute'><parent link='l{k - 1}'/><child link='l{k}'/>")
+        parts.append(
+            f"<origin xyz='1 0 0'/><axis xyz='0 0 1'/><limit lower='{lower}' upper='2' velocity='1' effort='1'/></joint>"
+        )
+    file = tmp_path / "crane.urdf"
+    file.write_text(f"<robot name='crane'>{''.join(parts)}</robot>")
+    return file
+
+
+def test_home_is_a_named_state_or_zero_where_limits_allow_and_is_said(ask, cli, tmp_path):
+    at = ("recover", crane(tmp_path), "--lock", "2", "--at", "0.2 0 0.4", "--samples", "0", "--task", "planar")
+    assert ask(*at)["goal"] == "the hand where it is at all joints at 0"
+    limited = crane(tmp_path, lower=0.1)
+    assert ask(at[0], limited, *at[2:5], "0.2 0.1 0.4", *at[6:])["goal"].endswith(
+        "at all joints at 0, a1, a2, a3 at the limit nearest to it"
+    )
+    crane(tmp_path)
+    values = {"home": (0.1, 0, 0.3), "ready": (0.3, 0, 0.3)}
+    texts = {name: "".join(f"<joint name='a{k + 1}' value='{x}'/>" for k, x in enumerate(q)) for name, q in values.items()}
+    (tmp_path / "crane.srdf").write_text(SRDF.format(**texts))
+    assert ask(*at)["goal"] == "the hand where it is at home"
+    assert ask(*at, "--goal", "ready")["goal"] == "the hand where it is at ready"
+    code, _, err = cli(*at, "--goal", "half")
+    assert code == 2
+    assert "--goal 'half' is not known; write home, ready, 'q:...' with 3 joint values, or 'pose:...'" in err
+    arm = hf.arms.resolve(str(at[1]))
+    np.testing.assert_array_equal(arm.states["home"], [0.1, 0, 0.3])
+    np.testing.assert_array_equal(hf.arms.load("panda").states["home"], hf.arms.about("panda").home)

@@ -336,7 +336,7 @@ def test_tools_and_arms_are_compared(cli, tmp_path):
     assert "every candidate is tried in the default region of 'panda-short'" in err
     names = ["panda-short", "panda-bent", "my_arm-short", "my_arm-bent"]
     assert all(name in text for name in names)
-    assert sorted(p.name for p in out.iterdir()) == sorted([*names, "report.html"])
+    assert sorted(p.name for p in out.iterdir()) == sorted([*names, "comparison.json", "report.html"])
     stamps = {name: (out / name / "run.json").read_text() for name in names}
     code, text, again = cli(*arguments, *tools, "--out", out, "--json")  # goes on: nothing is computed again
     assert (code, again) == (0, err)
@@ -363,6 +363,28 @@ def test_two_tasks_of_one_arm(ask, cli, flat):
     assert "The tasks differ" in " ".join(out.split())
     data = ask("assess", "planar-3r", "--region", flat, "--task", "vx", "--task", "planar", "--poses", 20)
     assert [c["name"] for c in data["candidates"]] == ["planar-3r-vx", "planar-3r-planar"]
+
+
+def test_report_of_a_comparison(cli, ask, refused, flat, tmp_path):
+    """It said that the folder was no run."""
+    out = tmp_path / "two"
+    call = ("assess", "planar-3r", "--region", flat, "--task", "vx", "--task", "planar", "--poses", 20, "--at-least", 0.3)
+    data = ask(*call, "--out", out)
+    page = (out / "report.html").read_text(encoding="utf-8")
+    (out / "report.html").unlink()
+    again = ask("report", out, "--at-least", 0.3)
+    differ = {key for a, b in zip(again["candidates"], data["candidates"], strict=True) for key in a if a[key] != b[key]}
+    assert differ <= {"seconds"}  # of the whole run, and of the rows alone
+    assert again["comparison"] == data["comparison"]
+    assert (out / "report.html").read_text(encoding="utf-8") == page
+    code, text, err = cli("report", out, "--to", tmp_path / "other.html")
+    assert (code, err) == (0, "")
+    assert "planar-3r-vx" in text
+    assert (tmp_path / "other.html").exists()
+    assert "--failure-rate" in refused("report", out, "--failure-rate", "joint1=1")
+    for listed in ("[", "{}", '{"candidates": [{"name": "../two", "tool": null}]}', '{"candidates": [1]}'):
+        (out / "comparison.json").write_text(listed)
+        assert "is damaged" in refused("report", out)
 
 
 def test_a_folder_of_one_run_is_not_used_for_a_comparison(refused, tmp_path):
@@ -484,7 +506,10 @@ BAD = {
     "a tool nowhere": (["assess", "panda", "--tool", "a=0,0,nan,0,0,0"], ["--tool a holds NaN"]),
     "a tool that climbs": (["assess", "panda", "--tool", "../a=0,0,0,0,0,0"], ["is not NAME="]),
     "one of two not redundant": (["assess", "panda", "ur5"], ["'ur5' is not redundant"]),
-    "missing region": (["assess", "pa10-9dof", "--region", "nowhere.yaml"], ["cannot read region file 'nowhere.yaml'"]),
+    "missing region": (
+        ["assess", "pa10-9dof", "--region", "nowhere.yaml"],
+        ["region file 'nowhere.yaml': the file cannot be read"],
+    ),
     "report of nothing": (["report", "/nowhere"], ["'/nowhere' is not a holdfast run"]),
     "report of another folder": (["report", "/tmp"], ["'/tmp' is not a holdfast run"]),
     "unwritable": (["assess", "pa10-9dof", "--poses", "5", "--out", "/proc/x"], ["cannot write to '/proc/x'"]),
@@ -506,7 +531,7 @@ def test_bad_input_is_one_sentence(case, refused):
     [
         ("box: {center: [0, 0, 0], size: 1, edge: 2}", ["'box.edge' is not known", "rpy_size"]),
         ("box: {center: [0, 0, .nan], size: 1}", ["center", "finite"]),
-        ("box: [", ["not valid YAML"]),
+        ("box: [", ["not sound YAML"]),
         ("joints: {lower: [0], upper: [1]}", ["1 joints", "9"]),
     ],
 )

@@ -107,7 +107,7 @@ def test_a_search_for_convergence(cli, ask, tmp_path):
     )
     assert (found["exact"], found["law"]) == (True, "damped:0.1")
     assert sum(found["best"]["values"].values()) == pytest.approx(2.0)
-    assert {f.name for f in (tmp_path / "new").iterdir()} == {"designs.csv", "best-arm.yaml"}
+    assert {f.name for f in (tmp_path / "new").iterdir()} == {"designs.csv", "best-arm.yaml", "report.html"}
 
 
 def test_a_law_without_convergence_is_refused(refused):

@@ -16,7 +16,6 @@ PHYSICS = {"mujoco"}
 STATISTICS = {"scipy.stats", "statsmodels", "pingouin"}
 SERVING = {"starlette", "uvicorn", "viser", "websockets"}
 EVERYTHING = {"scipy", *DRAWING, *STORING, *PHYSICS, *STATISTICS, *SERVING}
-SPATIAL = EVERYTHING - {"scipy"}  # trees of neighbours
 
 PROGRAM = """
 import json, sys
@@ -33,13 +32,14 @@ LEAN = [
     (["--help"], EVERYTHING | {"casadi"}),
     (["simulate", "--help"], EVERYTHING | {"casadi"}),
     (["--version"], EVERYTHING | {"casadi"}),
-    (["arms"], EVERYTHING | {"casadi"}),
+    (["arms"], EVERYTHING),
     (["describe", "planar-3r"], EVERYTHING),
     (["index", "planar-3r", "--task", "planar", *Q], EVERYTHING),
     (["susceptibility", "planar-3r", *Q], EVERYTHING),
     (["configure", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], EVERYTHING),
     (["simulate", *PLANAR, "--start", "0.3 0.5 0.7", "--lock", "2"], EVERYTHING),
-    (["stationary", *PLANAR, "--lock", "2", "--at", "1"], SPATIAL),
+    (["stationary", *PLANAR, "--lock", "2", "--at", "1"], EVERYTHING),
+    (["self-motion", *PLANAR, "--bounds"], EVERYTHING),
     (["teleop", "protocol"], EVERYTHING),
     (["teleop", "allocation"], EVERYTHING),
 ]

@@ -194,7 +194,7 @@ def test_one_call_gives_the_bits_of_the_batch(planar, rng):
     assert planar._velocity_kernel.backend == "llvm"
     for k in range(0, 100, 9):
         np.testing.assert_array_equal(planar.velocity(q[k], v[k]), rates[k])
-        np.testing.assert_array_equal(planar.step(q[k], v[k]), rates[k])
+        np.testing.assert_array_equal(planar.prepare()(q[k], v[k]), rates[k])
         np.testing.assert_array_equal(planar.velocity_errors(q[k], v[k]), errors[k])
         assert planar.damping(q[k], v[k]) == damping[k]
 

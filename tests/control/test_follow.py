@@ -7,6 +7,7 @@ import csv
 import numpy as np
 import pytest
 from pyarrow import parquet
+from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
 import holdfast as hf
@@ -79,6 +80,29 @@ def test_the_numbers_of_the_paper(projected):
     assert share.max() == pytest.approx(0.3815, abs=1e-3)
     assert share.argmax() == 500
     assert share[250:].mean() > share[:250].mean()
+
+
+def test_gradient_projection_is_what_scipy_integrates(planar, torque, wave):
+    """``J^+ v - gain (I - J^+ J) grad F`` with a Jacobian of its own, F by differences, the hand's velocity by differences."""
+    q0 = np.array([-1.9, 1.4, 0.5])
+    start = wave.pose(np.zeros(1))[0, :2, 3]
+    for _ in range(30):  # onto the path
+        q0 = q0 + np.linalg.pinv(oracles.planar_jacobian([1, 1, 1], q0)) @ (start - oracles.planar_hand([1, 1, 1], q0))
+    found = hf.follow(planar, wave, minimise=torque, task="planar", q=q0, gain=0.4, limits=False, samples=101)
+
+    def rates(t, q):
+        ends = np.clip([t - 1e-5, t + 1e-5], 0, wave.duration)
+        hand = wave.pose(ends)[:, :2, 3]
+        j = oracles.planar_jacobian([1, 1, 1], q)
+        inverse = np.linalg.pinv(j)
+        slope = np.array([(torque(q + s) - torque(q - s)) / 2e-6 for s in 1e-6 * np.eye(3)])
+        wanted = (hand[1] - hand[0]) / (ends[1] - ends[0])
+        return inverse @ wanted - 0.4 * (slope - inverse @ (j @ slope))
+
+    expected = solve_ivp(rates, (0, wave.duration), q0, t_eval=found.time, rtol=1e-8, atol=1e-9).y.T
+    assert np.ptp(expected, axis=0).max() > 0.3
+    np.testing.assert_allclose(found.q, expected, atol=2e-4)
+    np.testing.assert_allclose(found.value, [torque(q) for q in expected], atol=2e-4)
 
 
 def test_rates_and_accelerations_are_derivatives(planar, torque, wave):

@@ -114,7 +114,7 @@ def test_one_call_gives_the_bits_of_the_batch_and_a_step_too(cases):
         rates, errors, damping = law.velocity(q, v), law.velocity_errors(q, v), law.damping(q, v)
         for k in range(0, len(q), 7):
             np.testing.assert_array_equal(law.velocity(q[k], v[k]), rates[k])
-            np.testing.assert_array_equal(law.step(q[k], v[k]), rates[k])
+            np.testing.assert_array_equal(law.prepare()(q[k], v[k]), rates[k])
             np.testing.assert_array_equal(law.velocity_errors(q[k], v[k]), errors[k])
             assert law.damping(q[k], v[k]) == damping[k]
         np.testing.assert_array_equal(law.velocity(q, v[0])[:3], law.velocity(q[:3], np.tile(v[0], (3, 1))))

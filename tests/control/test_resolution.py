@@ -72,7 +72,7 @@ def test_gradient_projection_is_the_formula(cases, case, rng):
     assert (found.status == Status.OK).all()
     assert (found.self_motion == 1).all()
     assert (found.task == 1).all()
-    step = law.step(q[3], twist[3])
+    step = law.prepare()(q[3], twist[3])
     np.testing.assert_array_equal(step, found.rates[3])
     np.testing.assert_array_equal(law.step.others, (found.self_motion[3], found.task[3], found.damping[3]))
 

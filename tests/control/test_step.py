@@ -8,6 +8,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.control import GradientProjection
+from holdfast.kernels import llvm_backend
 
 
 @pytest.mark.parametrize("measure", ["torque", "swing_angle"])
@@ -18,6 +19,7 @@ def test_a_step_has_the_bits_of_the_rates(measure, rng):
     q, twist = oracles.inside(arm, rng, 300), rng.normal(size=(300, 6))
     rates = law.rates(q, twist)
     assert {(rates.self_motion < 1).any(), (rates.task < 1).any(), (rates.damping > 0).any()} == {True}
+    law.prepare()
     for k in range(300):
         np.testing.assert_array_equal(law.step(q[k], twist[k]), rates.rates[k])
         np.testing.assert_array_equal(law.step.others, [rates.self_motion[k], rates.task[k], rates.damping[k]])
@@ -25,7 +27,7 @@ def test_a_step_has_the_bits_of_the_rates(measure, rng):
 
 def test_a_step_takes_what_numpy_takes(rng):
     arm = oracles.with_bodies(oracles.random_arm(rng, types="RRRR", limits=2.0), rng)
-    step = GradientProjection(arm, hf.susceptibility.torque(arm), task="position").step
+    step = GradientProjection(arm, hf.susceptibility.torque(arm), task="position").prepare()
     q = oracles.inside(arm, rng, 2)
     first = step(q[0], np.array([0.0, 0, 0, 0, 0, 1]))
     kept = first.copy()
@@ -35,3 +37,26 @@ def test_a_step_takes_what_numpy_takes(rng):
     np.testing.assert_array_equal(first, kept)
     with pytest.raises(ValueError, match="shape"):
         step(q[0], np.zeros(5))
+
+
+@pytest.mark.parametrize("kind", ["law", "resolution"])
+def test_a_step_never_compiles(kind, rng, monkeypatch, tmp_path):
+    """A control loop that waits for a compiler is worse than one that does not begin."""
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
+    arm = oracles.random_arm(rng, types="RRRR", limits=2.0)
+    if kind == "law":
+        law, v = hf.control.failure_tolerant(arm, "position"), rng.normal(size=3)
+    else:
+        law, v = GradientProjection(arm, hf.indices.manipulability(arm, "position"), task="position"), rng.normal(size=6)
+    q = oracles.inside(arm, rng, 1)[0]
+    with pytest.raises(hf.KernelError, match=r"not compiled yet; call its prepare\(\) once"):
+        law.step(q, v)
+    assert law.prepare() is law.step
+
+    def never(*_):
+        raise AssertionError("compiled in a control loop")
+
+    monkeypatch.setattr(llvm_backend, "compile_program", never)
+    monkeypatch.setattr(llvm_backend, "Code", never)
+    for k in range(200):
+        assert np.isfinite(law.step(q + 1e-3 * k, v)).all()

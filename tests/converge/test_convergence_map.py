@@ -164,6 +164,27 @@ def test_laws_meet_the_same_failures():
     assert "points against the best" in choice.describe()[-1]
 
 
+def test_the_best_law_by_runs_of_scipy():
+    """Share of every law, their differences and the ranking, from an integrator and a law of its own."""
+    arm = hf.arms.load("planar-3r")
+    laws = {"plain": pseudoinverse(arm, "planar"), "weak": damped(arm, 1.5, "planar")}
+    choice = hf.best_law(laws, [2.1, 1.2], 4, configurations=2, seed=5)
+    shares = {}
+    for name, damping in (("plain", 0.0), ("weak", 1.5)):
+        q0 = choice.map_of(name).q0
+        there = np.zeros((*q0.shape[:2], 3))
+        for place in np.ndindex(*q0.shape[:2]):
+            for joint in range(3):
+                run = oracles.planar_run([1, 1, 1], damping, q0[place], np.array([2.1, 1.2]), joint, 500.0, 1e-6)
+                there[place][joint] = run.t_events[0].size > 0
+        shares[name] = there.mean(axis=(1, 2))
+        assert choice.share(name).value == pytest.approx(shares[name].mean())
+        assert choice.share(name, 1).value == pytest.approx(there[..., 1].mean())
+    assert 0 < min(s.mean() for s in shares.values()) < 1
+    assert choice.difference("weak", "plain").value == pytest.approx((shares["weak"] - shares["plain"]).mean(), abs=1e-12)
+    assert choice.share(choice.best).value == pytest.approx(max(s.mean() for s in shares.values()))
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+import re
+import sys
+from html import unescape
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import holdfast as hf
+import oracles
 from holdfast.arm.configurations import without_limits
+from holdfast.converge.starts import read_places
 from holdfast.design import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
+from holdfast.design.arrival import Failures
+from holdfast.report.words import percent
 from holdfast.simulate import Reason
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
 
 LENGTHS = {f"a{k}": (0.2, 2.0) for k in (1, 2, 3)}
 
@@ -139,13 +151,81 @@ def test_sampled_search(tmp_path):
     assert found.checked is not None
     assert ((found.measures["arrival"] >= 0) & (found.measures["arrival"] <= found.measures["reached"] + 1e-12)).all()
     assert found.checked[1].low <= found.checked[1].value <= found.checked[1].high
-    table, best = found.save(tmp_path / "new")
+    table, best, page = found.save(tmp_path / "new")
     text = table.read_text().splitlines()
     assert text[0] == "a2,a3,free,arrival,reached"
     assert len(text) == 1 + len(found.values)
     q = np.array([0.3, -0.4, 0.9])
     np.testing.assert_allclose(hf.arms.resolve(str(best)).forward_kinematics(q), found.arm().forward_kinematics(q), atol=1e-12)
     assert found.to_dict()["fresh"]["best"]["value"] == found.checked[1].value
+    text = page.read_text(encoding="utf-8")
+    check(text)
+    words = re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)
+    assert "simulation: 4 targets, 1 failures of each joint" in words
+    for share in (found.checked[1].value, found.measures["arrival"][found.best], found.measures["reached"][0]):
+        assert percent(float(share)) in words
+
+
+def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
+    law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
+    vary = {"a2": (0.5, 1.5), "a3": (0.5, 1.5)}
+    options = {"designs": 8, "climbs": 1, "failures": 1, "exact": False, "seed": 4}
+    whole = design_for_convergence(law, vary, 3, **options)
+    looked = []
+    real = Failures.of
+    monkeypatch.setattr(Failures, "of", lambda self, values: (looked.append(len(values)), real(self, values))[1])
+
+    def stop(done, _):
+        if done > 16:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        design_for_convergence(law, vary, 3, **options, store=tmp_path, progress=stop)
+    before = sum(looked)
+    assert before < len(whole.values)
+    found = design_for_convergence(law, vary, 3, **options, store=tmp_path)
+    assert sum(looked) == len(whole.values) + 2  # nothing twice, and the check of two
+    np.testing.assert_array_equal(found.values, whole.values)
+    for name, values in whole.measures.items():
+        np.testing.assert_array_equal(found.measures[name], values)
+    assert found.checked == whole.checked
+    looked.clear()
+    assert design_for_convergence(law, vary, 3, **options, store=tmp_path).best == whole.best
+    assert not looked
+    with pytest.raises(hf.StoreError, match="its seed is 4, asked for is 5"):
+        design_for_convergence(law, vary, 3, **(options | {"seed": 5}), store=tmp_path)
+
+
+def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
+    found = design_for_convergence(planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, designs=4, climbs=0, keep_reach=True)
+    text = found.report(tmp_path / "r.html").read_text(encoding="utf-8")
+    check(text)
+    assert f"The best design has guaranteed {percent(float(found.measures['guaranteed'][found.best]))}" in unescape(text)
+    assert "--maximise convergence --law pseudoinverse" in text
+    assert "--keep-reach" in text
+
+
+def test_arrivals_of_designs_by_runs_of_scipy():
+    """Every failure of two designs from an integrator and a law of its own, and what the measures make of them."""
+    law = hf.control.damped(hf.arms.load("planar-3r"), 0.1, "planar")
+    joints = DesignJoints.of(design_space(law.arm, LENGTHS))
+    goals = np.array([[1.4, 0.6], [-0.5, 1.1], [9.0, 0.0]])
+    failures = Failures(LawOfDesigns(law, joints), read_places(law.arm, law.task, goals, np.random.default_rng(0)).poses, 2, 7)
+    designs = np.array([[1.0, 1.0, 1.0], [0.5, 1.2, 1.6]])
+    found = failures.of(designs)
+    at, known = failures._configurations(designs)
+    assert known[:, :2].all()
+    assert not known[:, 2].any()
+    arrived = np.zeros((2, 2, 2, 3))
+    for d, t, c, j in np.ndindex(2, 2, 2, 3):
+        np.testing.assert_allclose(oracles.planar_hand(designs[d], at[d, t, c]), goals[t], atol=1e-9)
+        q0 = failures._starts[t, c, j].copy()
+        q0[j] = at[d, t, c, j]
+        run = oracles.planar_run(designs[d], 0.1, q0, goals[t], j, 500.0, 1e-3)
+        arrived[d, t, c, j] = run.t_events[0].size
+    np.testing.assert_array_equal(found.arrived[:, :2], arrived)
+    np.testing.assert_allclose(found.arrival, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
+    np.testing.assert_allclose(found.reached, 2 / 3)
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def fresh(tmp_path, monkeypatch):
 
 
 def test_levels_and_lanes_give_the_same_bits(rng):
-    x, y = long_function()
+    x, y = long_function(100)
     program = Program("long", [x], [y])
     inputs = np.ascontiguousarray((rng.normal(size=(64, 9)) * 10 ** rng.uniform(-3, 3, (64, 1))).T)
     inputs[2, 5] = np.nan
@@ -81,7 +81,8 @@ def test_a_product_inside_a_sum_is_rounded_once_where_the_machine_can():
 
 def test_quick_code_serves_until_enough_rows_have_come(fresh, monkeypatch, rng):
     monkeypatch.setattr(compiled, "WORTH", 2000)
-    x, y = long_function()
+    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    x, y = long_function(60)
     kernel = Kernel("long", [x], [y])
     assert kernel.program.size > compiled.AT_ONCE
     assert kernel._compiled.level == 0
@@ -103,7 +104,8 @@ def test_a_short_program_is_compiled_well_at_once(fresh):
 
 def test_the_level_can_be_asked_for(fresh, monkeypatch):
     monkeypatch.setenv("HOLDFAST_LEVEL", "1")
-    x, y = long_function()
+    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    x, y = long_function(60)
     assert Kernel("long", [x], [y])._compiled.level == 1
 
 

@@ -142,8 +142,8 @@ def test_a_residual_of_the_next_state_saves_a_step(loop, most, rng):
     """Rows that take the places of others included: 9,000 are more than a worker holds."""
     s, p = ca.SX.sym("s", 2), ca.SX.sym("p", 2)
     after = ca.vertcat((s[0] + p[0] / s[0]) / 2, s[1] + p[1])
-    ahead = Loop("ahead", s, [p], after, ca.fabs(after[0] ** 2 - p[0]) / p[0], loop._step.backend, ahead=True)
-    state, parameters = draw(rng, 9000 if loop._step.backend == "llvm" else 900)
+    ahead = Loop("ahead", s, [p], after, ca.fabs(after[0] ** 2 - p[0]) / p[0], loop.step.backend, ahead=True)
+    state, parameters = draw(rng, 9000 if loop.step.backend == "llvm" else 900)
     first, second = loop.run(state, parameters, TOLERANCE, most), ahead.run(state, parameters, TOLERANCE, most)
     needed = first.steps > 0  # the other one looks before it steps
     np.testing.assert_array_equal(second.steps[needed], first.steps[needed])

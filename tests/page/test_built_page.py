@@ -1,8 +1,10 @@
 """The page's sources against what is kept in the package: the built files, the texts."""
 
+import json
 import re
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -70,3 +72,25 @@ def test_the_built_page_asks_no_other_host_and_needs_nothing_inline(mode, html):
 
 def test_the_lock_file_names_no_host():
     assert "resolved" not in (PAGE / "package-lock.json").read_text(encoding="utf-8")
+
+
+def test_everything_in_the_page_has_its_licence_beside_it():
+    notice = (STATIC / "licences.txt").read_text(encoding="utf-8")
+    assert notice == (PAGE / "public" / "licences.txt").read_text(encoding="utf-8")
+    assert "Permission is hereby granted" in notice
+    lock = json.loads((PAGE / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    shipped = {name: p for name, p in lock.items() if name and not p.get("dev") and not p.get("optional")}
+    for name, package in shipped.items():
+        label = name.removeprefix("node_modules/")
+        if label == "type-fest":  # types alone: nothing of it is in the page
+            continue
+        assert package["license"] == "MIT"
+        assert f"{label} {package['version']} " in notice, f"the licence notice of {label} is missing"
+
+
+def test_every_python_package_is_named_with_its_licence():
+    project = tomllib.loads((PAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    said = (PAGE.parent / "README.md").read_text(encoding="utf-8").split("## Source and licence")[1].lower()
+    needed = [*project["dependencies"], *(x for extra in project["optional-dependencies"].values() for x in extra)]
+    missing = [name for name in (re.match(r"[\w-]+", x)[0] for x in needed) if not re.search(rf"\b{name}\b", said)]
+    assert not missing

@@ -168,7 +168,7 @@ BAD = [
     (lambda: sequence([[0, 0, 0], [1, 0, 0], [1, 0, 0]]), "poses 1 and 2 of the path .* are the same; leave one"),
     (lambda: sequence([[0, 0, 0], [1, 0]]), r"pose 1 of the path has shape \(2,\); it must be \(4, 4\) or \(3,\)"),
     (lambda: line([0, 0, np.nan], [1, 0, 0]), "pose 0 of the path .* finite numbers"),
-    (lambda: line("here", [1, 0, 0]), "a path needs poses"),
+    (lambda: line("here", [1, 0, 0]), "line: start is 'here'; it must be numbers"),
     (lambda: line(2 * E, E), "no rotation in its upper left 3x3 block"),
     (lambda: arc([0, 0, 0], [1, 0, 0], [2, 0, 0]), "three points of the arc lie on a line"),
     (lambda: arc([0, 0, 0], [0, 0, 0], [2, 0, 0]), "three points of the arc lie on a line or are the same"),

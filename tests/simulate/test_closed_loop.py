@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 import oracles
@@ -303,15 +304,55 @@ def test_what_is_noted_on_the_way_is_that_of_scipy(three, random_runs):
         np.testing.assert_allclose(path.error, error, atol=1e-6)
 
 
-def test_the_outcome_does_not_depend_on_tolerance_or_steps(three, random_runs):
+def spatial(arm, task, q0, target, joint):
+    """How a run of an arm in space ends for scipy: when it rests, where, and how near it came to a singular configuration."""
+    mask = np.arange(arm.n) != joint
+    size = len(task)
+
+    def error(q):
+        pose = oracles.forward(arm, q[None])[0]
+        turn = Rotation.from_matrix(target[:3, :3] @ pose[:3, :3].T).as_rotvec()
+        return np.r_[target[:3, 3] - pose[:3, 3], turn][:size]
+
+    def rates(q):
+        return mask * (np.linalg.pinv(oracles.jacobian(arm, q[None])[0, :size]) @ error(q))
+
+    found = reference(rates, q0, 40.0)
+    along = np.linalg.svd(oracles.jacobian(arm, found.y.T)[:, :size], compute_uv=False)[:, -1].min()
+    turned = max(np.linalg.norm(error(q)[3:]) for q in found.y.T)
+    return found, np.linalg.norm(error(found.y[:, -1])), along > 0.02 and turned < 3.0
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize(("joints", "task"), [(4, ["vx", "vy", "vz"]), (5, ["vx", "vy", "vz"]), (7, list(oracles.ROWS))])
+def test_the_outcome_does_not_depend_on_tolerance(rng, joints, task):
+    """Random arms in space; what scipy says of them is neither ours nor at any of these tolerances."""
+    arm = oracles.random_arm(rng, types="C" * joints)
+    count = 8
+    q0 = rng.uniform(-np.pi, np.pi, (count, joints))
+    target = arm.forward_kinematics(q0 + rng.uniform(-0.8, 0.8, (count, joints)))
+    locked = rng.integers(0, joints, count)
+    law = Pseudoinverse(arm, task)
+    every = [simulate(law, q0, target, locked, tolerance=t, time_limit=40.0) for t in (1e-6, 1e-9, 1e-12)]
+    compared = 0
+    for k in range(count):
+        found, error, clear = spatial(arm, task, q0[k], target[k], locked[k])
+        if not clear:
+            continue  # beside a singular configuration, or half a turn, neighbours part
+        for runs in every:
+            if found.status and found.t[-1] < 35:
+                assert runs.outcome[k] == ("converged" if error < 1e-5 else "stuck")
+                assert runs.time[k] == pytest.approx(found.t[-1], abs=5)
+            assert np.abs(runs.q_final[k] - found.y[:, -1]).max() < 1e-4
+            assert runs.error[k] == pytest.approx(error, abs=1e-5)
+        compared += 1
+    assert compared >= 3
+
+
+def test_fixed_steps_end_where_adaptive_ones_do(three, random_runs):
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 200)[:60]
-    tight = simulate(three, q0[few], x[few], locked[few], tolerance=1e-11)
     fixed = simulate(three, q0[few], x[few], locked[few], method="rk4", step=0.02)
-    loose = simulate(three, q0[few], x[few], locked[few], tolerance=1e-6)
-    assert (tight.code == runs.code[few]).all()
-    assert (loose.code == runs.code[few]).all()
-    assert np.abs(tight.x_final - runs.x_final[few]).max() < 1e-6
     smooth = np.isin(fixed.code, (Outcome.CONVERGED, Outcome.STUCK))
     assert smooth.mean() > 0.9
     assert (fixed.code[smooth] == runs.code[few][smooth]).all()
@@ -432,8 +473,6 @@ def test_a_healthy_arm_goes_straight(panda, rng):
 
 
 def test_pose_tasks_of_a_seven_joint_arm_are_those_of_scipy(panda, rng):
-    from scipy.spatial.transform import Rotation
-
     q0 = RAD([0, -45, 0, -135, 0, 90, 45]) + rng.uniform(-0.2, 0.2, 7)
     target = panda.arm.forward_kinematics(q0 + rng.uniform(-0.4, 0.4, 7))
     mask = np.arange(7) != 2
@@ -584,3 +623,8 @@ def test_pose_tasks_want_poses(panda):
     assert runs.target.shape == (3,)
     with pytest.raises(hf.InputError, match="no run 1"):
         runs.path(1)
+
+
+def test_an_angle_given_with_a_lock_is_refused_and_not_ignored(two):
+    with pytest.raises(hf.InputError, match=r"locked is {'joint2': 0.5}; a joint locks where it is, so .* its angle in q0"):
+        hf.simulate(hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), [0.1, 0.2, 0.3], [1, 1], {"joint2": 0.5})

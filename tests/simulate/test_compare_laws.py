@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+import oracles
 from holdfast.report import page
 from holdfast.simulate import compare_laws_report
 
@@ -134,6 +135,35 @@ def test_the_table_holds_what_the_cases_hold(compared):
         assert row["error_50"] == pytest.approx(np.median(case.error))
         assert row["converged_within_limits"] <= min(row["converged"], 1 - row["past_limits"] + 1e-12)
     assert any("pseudoinverse" in line for line in compared.describe())
+
+
+def test_a_row_of_the_table_by_runs_of_scipy(compared, motions, arm):
+    """Outcomes, errors, ways and excursions with joint 2 locked, from an integrator and a law of its own."""
+    row = next(r for r in compared.table if r["law"] == compared.names[1] and r["failure"] == "joint2")
+    error, closest, ratio, excursion, past, least, there = (np.zeros(30) for _ in range(7))
+    for k, (q0, pose) in enumerate(zip(motions.q0, motions.target, strict=True)):
+        target = pose[:2, 3]
+        run = oracles.planar_run([1, 1, 1], 0.3, q0, target, 1, LIMIT, 1e-7)
+        at = run.sol(np.linspace(0, run.t[-1] ** 0.2, 4000) ** 5).T
+        hand = oracles.planar_hand([1, 1, 1], at)
+        far = np.linalg.norm(target - hand, axis=1)
+        error[k], closest[k], there[k] = far[-1], far.min(), run.t_events[0].size
+        ratio[k] = np.linalg.norm(np.diff(hand, axis=0), axis=1).sum() / far[0]
+        excursion[k] = np.ptp(at, axis=0).sum()
+        past[k] = ((at < arm.lower) | (at > arm.upper)).any()
+        middle, inner, outer = oracles.two_link_ring([1, 1, 1], 1, q0[1])
+        r = np.linalg.norm(target - middle)
+        least[k] = max(inner - r, r - outer, 0.0)
+    assert row["converged"] == pytest.approx(there.mean())
+    assert row["reachable"] == pytest.approx((least == 0).mean())
+    assert row["past_limits"] == pytest.approx(past.mean())
+    for level in (5, 25, 50, 75, 95):
+        assert row[f"error_{level:02d}"] == pytest.approx(np.quantile(error, level / 100), abs=1e-5)
+        assert row[f"excess_{level:02d}"] == pytest.approx(np.quantile(error - least, level / 100), abs=1e-5)
+    assert row["closest"] == pytest.approx(np.median(closest), abs=1e-5)
+    assert row["path_ratio"] == pytest.approx(np.median(ratio), rel=1e-3)
+    assert row["excursion"] == pytest.approx(np.median(excursion), rel=1e-3)
+    assert row["astray"] == pytest.approx(np.median(error[there == 0]), abs=1e-5)
 
 
 def test_the_report_is_well_formed_and_its_tables_can_be_read(compared, tmp_path):

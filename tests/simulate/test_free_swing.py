@@ -179,6 +179,41 @@ def test_the_motion_is_that_of_an_independent_integrator(rng):
     np.testing.assert_allclose(swing.velocity[::50], expected[1], atol=1e-5)
 
 
+def test_a_swing_below_a_joint_that_is_slid_out_is_that_of_an_integrator(rng):
+    """The joint that lets go carries sliding ones; its inertia and torque are Pinocchio's at where they stand."""
+    arm, q = drawn(rng, types="RPPR")
+    unit = np.eye(4)[0]
+    inertia, damping = dynamics.mass_matrix(arm, q)[0, 0], 0.4
+
+    def rate(_, state):
+        return [state[1], (-dynamics.gravity_torque(arm, q + state[0] * unit)[0] - damping * state[1]) / inertia]
+
+    swing = hf.free_swing(arm, q, 0, damping=damping, duration=1.5)
+    expected = solve_ivp(rate, (0, 1.5), [0, 0], t_eval=swing.time[::50], rtol=1e-9, atol=1e-10).y
+    np.testing.assert_allclose(swing.angle[::50], expected[0], atol=1e-6)
+    np.testing.assert_allclose(swing.velocity[::50], expected[1], atol=1e-5)
+
+
+def test_a_sliding_joint_in_a_chain_falls_in_closed_form_until_its_stop(rng):
+    """Force and mass are constant along a slide: v = F/c (1 - exp(-c t/m)); F is the weight of all it carries."""
+    arm, q = drawn(rng, types="RPRR")
+    chain = oracles.forward(
+        replace(arm, joints=arm.joints[:2], links=arm.links[:2], tool=np.eye(4), payload=None), q[None, :2]
+    )[0]
+    mass = sum(link.mass for link in arm.links[1:]) + arm.payload.mass
+    axis = chain[:3, :3] @ arm.joints[1].axis
+    force, damping = mass * float(arm.gravity @ axis), 1.5 * mass
+    swing = hf.free_swing(arm, q, 1, damping=damping, duration=1.0)
+    final, rate = force / damping, damping / mass
+    t = swing.time
+    expected = final * (t - (1 - np.exp(-rate * t)) / rate)
+    room = np.clip(expected, arm.lower[1] - q[1], arm.upper[1] - q[1])
+    free = (room == expected) & (np.abs(expected - room[-1]) > 1e-3)
+    assert free.sum() > 5
+    np.testing.assert_allclose(swing.angle[free], expected[free], atol=1e-5)
+    np.testing.assert_allclose(swing.velocity[free], (final * (1 - np.exp(-rate * t)))[free], atol=1e-4)
+
+
 def test_the_model_with_all_joints_free_is_the_arm(rng):
     import mujoco
 

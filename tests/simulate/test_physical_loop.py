@@ -95,6 +95,61 @@ def test_the_motion_is_that_of_another_simulator(rng):
     assert moved > 1e-3
 
 
+def test_two_links_move_as_the_textbook_says():
+    """Mass matrix, Coriolis and gravity terms of a planar 2R arm written out, the same servos, and a joint that locks."""
+    l1, l2, c1, c2, m1, m2, i1, i2, g = 0.6, 0.5, 0.25, 0.2, 3.0, 2.0, 0.08, 0.05, 9.81
+    turn = np.array([0.0, 0, 1])
+    arm = hf.Arm(
+        "two links",
+        (
+            hf.Joint("first", "continuous", np.eye(4), turn),
+            hf.Joint("second", "continuous", oracles.pose(position=[l1, 0, 0]), turn),
+        ),
+        (hf.Link(m1, np.array([c1, 0, 0]), i1 * np.eye(3)), hf.Link(m2, np.array([c2, 0, 0]), i2 * np.eye(3))),
+        tool=oracles.pose(position=[l2, 0, 0]),
+        gravity=np.array([0, -g, 0]),
+    )
+    law = hf.control.pseudoinverse(arm, "planar", gain=1.5)
+    q, target = np.array([0.4, 1.1]), np.array([-0.2, 0.7])
+    servos = hf.Servos(bandwidth=3.0, ratio=1.0, rate=50.0, compensation=0.8, step=1e-4)
+    run = hf.simulate_physics(law, q, target, [(1, 0.3)], servos, time_limit=0.6)
+    period, lead = 1 / 50.0, leads(arm, run.stiffness)
+    v, reference, path = np.zeros(2), q.copy(), [q.copy()]
+
+    def matrix(second: float) -> np.ndarray:
+        off = i2 + m2 * (c2**2 + l1 * c2 * np.cos(second))
+        first = i1 + m1 * c1**2 + i2 + m2 * (l1**2 + c2**2 + 2 * l1 * c2 * np.cos(second))
+        return np.array([[first, off], [off, i2 + m2 * c2**2]])
+
+    def weight(at: np.ndarray) -> np.ndarray:
+        far = m2 * c2 * g * np.cos(at.sum())
+        return np.array([(m1 * c1 + m2 * l1) * g * np.cos(at[0]) + far, far])
+
+    for k in range(30):
+        moves = np.array([1.0, 0.0 if k >= 15 else 1.0])
+        if k == 15:
+            m = matrix(q[1])
+            v = np.array([(m @ v)[0] / m[0, 0], 0.0])
+        rates = np.linalg.solve(oracles.planar_jacobian([l1, l2], q), 1.5 * (target - oracles.planar_hand([l1, l2], q)))
+        reference = np.clip(reference + period * rates, q - lead, q + lead)
+
+        def slope(_, y, wanted=reference, rates=rates, moves=moves):
+            at, speed = y[:2], y[2:]
+            h = m2 * l1 * c2 * np.sin(at[1])
+            coriolis = np.array([-h * speed[1] * (2 * speed[0] + speed[1]), h * speed[0] ** 2])
+            torque = run.stiffness * (wanted - at) + run.damping * (rates - speed) + 0.8 * weight(at)
+            left, m = torque - coriolis - weight(at), matrix(at[1])
+            if moves[1]:
+                return np.concatenate([speed, np.linalg.solve(m, left)])
+            return np.array([speed[0], 0.0, left[0] / m[0, 0], 0.0])
+
+        end = solve_ivp(slope, (0, period), np.concatenate([q, v]), rtol=1e-9, atol=1e-12).y[:, -1]
+        q, v = end[:2], end[2:]
+        path.append(q.copy())
+    assert np.ptp(path, axis=0).min() > 0.05
+    np.testing.assert_allclose(run.q[: len(path)], path, atol=1e-4)
+
+
 def test_a_joint_that_locks_while_moving_passes_on_no_momentum_that_is_not_there(panda, home, rng):
     rates, healthy = rng.normal(size=7), np.arange(7) != 3
     after = _Plant(panda, home, rates, np.ones(7, dtype=bool), hf.Servos()).locked(healthy)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import casadi as ca
 import numpy as np
@@ -14,8 +14,9 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast.errors import HoldfastError, InputError
-from holdfast.indices import CustomIndex, Manipulability, RelativeManipulability
+from holdfast.indices import CustomIndex, Manipulability, RelativeManipulability, by_name
 from holdfast.solve import Optimum, optimise
+from holdfast.solve.optimise import objective_ascent
 from holdfast.status import Status
 
 TOLERANCE = 1e-6
@@ -434,3 +435,75 @@ def test_an_arm_that_no_configuration_makes_tolerant(pa10_7, rng):
     position, angle = pose_error(pa10_7, best.q, poses, "pose")
     assert max(position.max(), angle.max()) <= TOLERANCE * 1.001
     assert ((best.q >= pa10_7.lower) & (best.q <= pa10_7.upper)).all()
+
+
+# ---- values that are infinite, or none ---------------------------------------------------------------------------
+
+
+def _climbed(index, poses, first, starts=8):
+    """The ascent from given first configurations, the other starts drawn alike."""
+    ascent = objective_ascent(index)
+    reach = ascent.engine.solve(poses, np.random.SeedSequence(1), 100, TOLERANCE)
+    given = replace(reach, q=np.where(np.isnan(first), reach.q, first))
+    return ascent.solve(poses, given, np.random.SeedSequence(2), starts, TOLERANCE)
+
+
+@pytest.mark.interpreted
+def test_the_share_of_agreeing_starts_after_a_start_of_infinite_value(flat4):
+    """A folded configuration is singular: its infinite condition number was the scale of values, so that all starts agreed."""
+    index = by_name("condition-number", flat4, "planar")
+    folded = np.array([[0.3, np.pi, np.pi, np.pi], [-1.0, np.pi, 0.0, np.pi]])
+    poses = flat4.forward_kinematics(folded)
+    assert np.isinf(index(folded)).all()
+    found = _climbed(index, poses, folded)
+    assert np.isinf(found.start_value).all()
+    ascent = objective_ascent(index)
+    reach = replace(ascent.engine.solve(poses, np.random.SeedSequence(1), 100, TOLERANCE), q=folded)
+    owner, q = ascent._started(poses, reach, np.random.SeedSequence(2), 8, TOLERANCE)
+    owner, q, _ = ascent._followed(ascent._step, owner, q, poses, TOLERANCE, clear=False)
+    close = index(q) <= found.value[owner] * (1 + 1e-3)
+    np.testing.assert_array_equal(found.agreeing, [close[owner == k].mean() for k in range(2)])
+    assert (found.agreeing < 1).any()
+
+
+@pytest.mark.interpreted
+def test_a_formula_without_a_value_has_a_status_of_its_own(flat4, rng):
+    """Its logarithm has none where the first entry of the Jacobian is below 0, and is infinite nowhere."""
+    index = CustomIndex(lambda j: ca.log(j[0, 0]), flat4, "planar", failures=[[3]], name="log")
+    q = rng.uniform(-2, 2, (40, 4))
+    x = -(np.sin(np.cumsum(q, axis=1)) * [1, 0.8, 0.6, 0.4]).sum(axis=1)  # of the first column of the Jacobian, by hand
+    q[0, 2] = np.nan
+    found = index.evaluate(q)
+    want = np.where(x > 0, Status.OK, Status.UNDEFINED)
+    want[0] = Status.BAD_INPUT
+    np.testing.assert_array_equal(found.status, want)
+    np.testing.assert_allclose(found.value[want == Status.OK], np.log(x[want == Status.OK]))
+    assert "formula" in Status(int(index.evaluate(q[np.flatnonzero(want == Status.UNDEFINED)[0]]).status)).advice
+
+
+@pytest.mark.interpreted
+def test_a_first_configuration_without_a_value_is_left_for_one_that_has_one(flat4):
+    """A pose is reached with the last two links above the third joint, where the formula has no value, and below it."""
+    index = CustomIndex(lambda j: ca.log(j[0, 1]) - ca.sumsqr(j), flat4, "planar", failures=[[0]], name="one side")
+    q = np.array([[0.2, -0.9, -0.8, -0.7], [-0.4, 0.9, 0.8, 0.7]])
+    first = index(q)
+    assert np.isnan(first).any()
+    found = _climbed(index, flat4.forward_kinematics(q), q, 32)
+    np.testing.assert_array_equal(np.isnan(found.start_value), np.isnan(first))
+    assert (found.status == Status.OK).all()
+    assert np.isfinite(found.value).all()
+    hopeless = CustomIndex(lambda j: ca.log(-1 - ca.sumsqr(j)), flat4, "planar", failures=[[0]], name="nowhere")
+    found = _climbed(hopeless, flat4.forward_kinematics(q), q)
+    assert (found.status == Status.UNDEFINED).all()
+    assert not found.success.any()
+    assert np.isnan(found.value).all()
+
+
+@pytest.mark.interpreted
+def test_an_infinite_best_value(flat4):
+    """Infinity less infinity is no number: it came with a warning, which fails a test here."""
+    index = CustomIndex(lambda j: ca.if_else(j[0, 0] > 0, ca.inf, j[0, 0]), flat4, "planar", failures=[[3]], name="without end")
+    q = np.array([[0.2, -0.9, -0.8, -0.7], [0.4, 0.9, 0.8, 0.7]])
+    found = _climbed(index, flat4.forward_kinematics(q), q)
+    assert np.isposinf(found.value).any()
+    assert ((found.agreeing >= 0) & (found.agreeing <= 1)).all()

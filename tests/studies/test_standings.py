@@ -102,3 +102,12 @@ def test_an_arm_that_is_0_by_structure_is_level_with_none_and_an_empty_headline_
     assert "is most often a lock of elbow." in line
     assert "nothing keeps nothing: once its elbow locks, it is singular everywhere." in line
     assert "nothing: 0 by structure" in render(Page("t", line, [Section("s", _standings([plain, best]))]))
+
+
+def test_an_index_that_is_not_0_at_a_singularity_is_not_0_by_structure():
+    few = [assessed("ended", np.zeros(6)), assessed("some", np.r_[np.zeros(5), 1.0])]
+    ended = {("ended", "pose", "single"): "its elbow"}
+    assert standings(few, [], {("manipulability", "pose"): 0.5}, ended)[0].ended == {"ended": "its elbow"}
+    assert standings(few, [], {("manipulability", "pose"): 0.0}, ended)[0].ended == {}  # at least 0 is kept everywhere
+    mean = [replace(a, labels=a.labels | {"index": "mean-singular-value"}) for a in few]
+    assert standings(mean, [], {("mean-singular-value", "pose"): 0.5}, ended)[0].ended == {}

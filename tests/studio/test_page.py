@@ -198,6 +198,61 @@ def test_a_motion_is_opened_scrubbed_and_played(studio, visit, tmp_path):
     wait_for(page, lambda: "cannot read motion 'nowhere.csv'" in text_of(page).replace("Cannot", "cannot"))
 
 
+def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):
+    page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
+    page.get_by_role("tab", name="Motion").click()
+    page.get_by_role("button", name="Choose a target").click()
+    wait_for(page, lambda: window.state.target is not None)
+    page.get_by_role("button", name="Move under both laws").click()
+    wait_for(page, lambda: "drag the second handle away" in text_of(page))
+    assert window.settle(60)
+    assert window.state.show == "arm"
+    # Asked for by a command line: no error either.
+    at = (*pose_numbers(window.machine.hand(window.q)),)
+    other, second = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=at, show="laws", **PLANAR))
+    wait_for(other, lambda: "drag the second handle away" in text_of(other))
+    assert second.settle(60)
+
+
+def test_a_swing_plays_by_itself_and_who_takes_the_slider_stops_it(studio, visit):
+    conditions = ("healthy", "free", *["healthy"] * 5)
+    page, window = visit(studio("iiwa14", q=hf.arms.about("iiwa14").home, conditions=conditions))
+    page.get_by_role("tab", name="Fail").click()
+    page.get_by_role("button", name="Let the free joint swing").click()
+    wait_for(page, lambda: window._playing and window.state.time > 0.1)
+    before = np.array(window._ghosts[0])
+    wait_for(page, lambda: np.abs(window._ghosts[0] - before).max() > 0.01)
+    assert np.argmax(np.abs(window._ghosts[0] - before)) == 1
+    window.ask("time", 0.35)
+    assert window.settle(60)
+    assert (window._playing, window.state.time) == (False, 0.35)
+    assert window.panel.play.label == "Play"
+
+
+def test_ghosts_do_not_outlive_what_they_are_of(studio, visit):
+    _, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), **PLANAR))
+
+    def haunted(ask):
+        window.ask("best-worst")
+        assert window.settle(60)
+        assert len(window.stage.ghosts) == 2
+        ask()
+        assert window.settle(60)
+        left = len(window.stage.ghosts)
+        assert (left == 0) or window.state.show == "best-worst"
+        return left
+
+    assert haunted(lambda: window.ask("take0")) == 2  # of the same pose
+    assert haunted(lambda: window.ask("fail", (1, "healthy"))) == 2  # as it was
+    assert haunted(lambda: window.ask("joint", (0, 0.5))) == 0
+    assert haunted(lambda: window.ask("fail", (1, "locked"))) == 0
+    assert haunted(lambda: window.ask("heal")) == 0
+    pose = np.array(pose_numbers(window.machine.hand(np.array([0.4, 0.7, 0.9]))))
+    assert haunted(lambda: window.ask("hand", ("update", pose[:3], pose[3:]))) == 0
+    assert haunted(lambda: window.ask("home")) == 0
+    assert haunted(lambda: window.ask("region")) == 0
+
+
 def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     target = (*pose_numbers(hf.arms.load("planar-3r").forward_kinematics([0.3, 0.9, 0.5])),)
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=target, show="laws", **PLANAR))

@@ -15,6 +15,7 @@ import yaml
 from holdfast.arm import urdf
 from holdfast.arm.dh import DH
 from holdfast.arm.model import Arm, Joint, Link
+from holdfast.checked import checked
 from holdfast.errors import ArmError
 
 DATA = resources.files("holdfast.arm").joinpath("data")
@@ -48,6 +49,7 @@ def names() -> list[str]:
     return list(_entries())
 
 
+@checked
 def about(name: str) -> Builtin:
     """What is known about a built-in arm.
 
@@ -57,6 +59,7 @@ def about(name: str) -> Builtin:
     return _entry(name)[0]
 
 
+@checked
 @cache
 def load(name: str) -> Arm:
     """A built-in arm; the same object each time.

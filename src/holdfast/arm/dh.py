@@ -9,12 +9,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.model import Arm, Joint, JointType, Link, snapped
+from holdfast.arm.model import Arm, Joint, JointType, Link, snapped, transform
+from holdfast.checked import checked_class
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
 
 
+@checked_class
 @dataclass(frozen=True)
 class DH:
     """One row of a Denavit-Hartenberg table.
@@ -122,7 +124,7 @@ def build(
         link = links[k] if links is not None else None
         bodies.append(None if link is None else link.moved(after))
         pending = after
-    hand = after @ (np.eye(4) if tool is None else np.asarray(tool, dtype=np.float64))
+    hand = after if tool is None else after @ transform(tool, f"tool of arm '{name}'")
     return Arm(
         name=name,
         joints=tuple(joints),

@@ -19,6 +19,7 @@ from holdfast.arm import mjcf_limits
 from holdfast.arm.model import Arm, Link, snapped
 from holdfast.arm.tip import listed
 from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
+from holdfast.checked import checked
 from holdfast.errors import ArmError, HoldfastError
 
 Array = NDArray[np.float64]
@@ -52,6 +53,7 @@ def quiet() -> Iterator[None]:
         mujoco.set_mju_user_warning(before)
 
 
+@checked
 def load(
     path: str | Path,
     base: str | None = None,

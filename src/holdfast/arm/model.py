@@ -6,16 +6,16 @@ import hashlib
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.checked import real_numbers
+from holdfast.checked import checked, checked_class, real_numbers
 from holdfast.errors import ArmError, InputError
-from holdfast.kernels import Kernel, recalled
+from holdfast.kept import cached_property
+from holdfast.kernels import SX, Kernel, recalled
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH
@@ -27,6 +27,7 @@ GRAVITY = (0.0, 0.0, -9.81)
 _MOST = 1e12  # of any number, so that their products stay finite
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class Joint:
     """One degree of freedom: its frame sits at ``origin`` in the previous link frame, it moves about or along ``axis``.
@@ -57,7 +58,7 @@ class Joint:
     def __post_init__(self) -> None:
         if self.type not in ("revolute", "continuous", "prismatic"):
             raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
-        object.__setattr__(self, "origin", _transform(self.origin, f"origin of joint '{self.name}'"))
+        object.__setattr__(self, "origin", transform(self.origin, f"origin of joint '{self.name}'"))
         axis = _numbers(self.axis, f"axis of joint '{self.name}'")
         length = float(np.linalg.norm(axis)) if axis.shape == (3,) else 0.0
         if not (np.isfinite(length) and length > 1e-9):
@@ -91,6 +92,7 @@ class Joint:
         return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class Link:
     """Inertial data of a rigid body.
@@ -165,6 +167,7 @@ class Chain:
         return ", ".join([f"base '{self.base}'", *tip, *(f"'{name}' held at {value:g}" for name, value in self.held)])
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class Arm:
     """A serial arm.
@@ -214,9 +217,9 @@ class Arm:
             raise ArmError(f"arm '{self.name}': gravity must be 3 finite numbers, m/s^2, for example {GRAVITY}")
         object.__setattr__(self, "joints", joints)
         object.__setattr__(self, "links", links)
-        object.__setattr__(self, "base", _transform(self.base, f"base of arm '{self.name}'"))
-        object.__setattr__(self, "tool", _transform(self.tool, f"tool of arm '{self.name}'"))
-        object.__setattr__(self, "flange", _transform(self.flange, f"flange of arm '{self.name}'"))
+        object.__setattr__(self, "base", transform(self.base, f"base of arm '{self.name}'"))
+        object.__setattr__(self, "tool", transform(self.tool, f"tool of arm '{self.name}'"))
+        object.__setattr__(self, "flange", transform(self.flange, f"flange of arm '{self.name}'"))
         object.__setattr__(self, "gravity", _frozen(gravity))
         # An arm made by replace() may have other joints than the states were written for.
         states = {name: _frozen(q) for name, q in self.states.items() if np.shape(q) == (len(joints),)}
@@ -225,6 +228,7 @@ class Arm:
     # ---- builders ----------------------------------------------------------------------------------------------
 
     @classmethod
+    @checked
     def from_dh(
         cls,
         rows: Sequence[DH],
@@ -258,6 +262,7 @@ class Arm:
         return build(rows, links, convention, base, tool, gravity, payload, name, source)
 
     @classmethod
+    @checked
     def from_urdf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
         """The chain from link ``base`` to link ``tip`` of a URDF file; see :func:`holdfast.arm.urdf.load`.
 
@@ -269,6 +274,7 @@ class Arm:
         return load(path, base, tip, **options)
 
     @classmethod
+    @checked
     def from_mjcf(cls, path: str | Path, base: str | None = None, tip: str | None = None, **options: Any) -> Arm:
         """The chain from body ``base`` to body or site ``tip`` of an MJCF file; see :func:`holdfast.arm.mjcf.load`.
 
@@ -280,15 +286,18 @@ class Arm:
 
         return load(path, base, tip, **options)
 
+    @checked
     def with_tool(self, tool: ArrayLike) -> Arm:
         """The same arm with another tool, given as ``from_dh`` and URDF files do: (4, 4) in the last link's own frame."""
         chain = None if self.chain is None else replace(self.chain, tip=None)
-        return replace(self, tool=self.flange @ _transform(tool, f"tool of arm '{self.name}'"), chain=chain)
+        return replace(self, tool=self.flange @ transform(tool, f"tool of arm '{self.name}'"), chain=chain)
 
+    @checked
     def with_payload(self, payload: Link | None) -> Arm:
         """The same arm holding another body, given in the last link's own frame; None: nothing."""
         return replace(self, payload=None if payload is None else payload.moved(self.flange))
 
+    @checked
     def with_base(self, base: ArrayLike) -> Arm:
         """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
@@ -349,8 +358,8 @@ class Arm:
             if 0 <= joint < self.n:
                 return int(joint)
             raise InputError(f"joint index {joint} is out of range; '{self.name}' has joints 0 to {self.n - 1}")
-        if joint in self.joint_names:
-            return self.joint_names.index(str(joint))
+        if isinstance(joint, str) and joint in self.joint_names:
+            return self.joint_names.index(joint)
         raise InputError(f"'{self.name}' has no joint '{joint}'; its joints are {', '.join(self.joint_names)}")
 
     @cached_property
@@ -531,7 +540,8 @@ def snapped(a: Array) -> Array:
     return b
 
 
-def _transform(value: ArrayLike, what: str) -> Array:
+def transform(value: ArrayLike, what: str) -> Array:
+    """A pose (4, 4) from a caller, checked; ``what`` is what an error calls it."""
     t = _numbers(value, what)
     if t.shape != (4, 4) or not np.isfinite(t).all():
         raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")

@@ -38,12 +38,14 @@ from holdfast.arm.dh import DH
 from holdfast.arm.dh_table import DHTable
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.urdf import rpy_rotation
+from holdfast.checked import checked
 from holdfast.errors import ArmError, InputError
 from holdfast.yaml_file import Four, Number, Strict, Three, content, sentence
 
 Array = NDArray[np.float64]
 
 
+@checked
 def load(path: str | Path) -> Arm:
     """The arm of a YAML file in the format of this module.
 

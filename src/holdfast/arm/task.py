@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
+from holdfast.checked import checked_class
 from holdfast.errors import TaskError
 from holdfast.kernels import SX
 
@@ -20,6 +21,7 @@ ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
 NAMES = ("pose", "pointing", "position", "planar", "planar-pose")
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class Task:
     """Rows of the hand's twist (linear; angular) that the task prescribes.

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from holdfast import reading
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
+from holdfast.checked import checked
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -28,6 +29,7 @@ XACRO_DEFINITIONS = ("property", "arg", "macro")  # what makes nothing by itself
 XACRO_TERM = re.compile(r"\$[{(]")
 
 
+@checked
 def load(
     path: str | Path,
     base: str | None = None,

@@ -23,6 +23,7 @@ from holdfast.checked import checked
 from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
+from holdfast.interval import check_confidence
 from holdfast.study import Store
 
 if TYPE_CHECKING:
@@ -113,10 +114,12 @@ class Assessment:
             raise InputError("this run was not optimised; assess again with optimise=True")
         return self.optimised
 
+    @checked
     def cdf(self, h: ArrayLike, optimised: bool = False, reachable_only: bool = False) -> Array:
         """``F(h)``: share of poses whose index is below h; one without a configuration counts as 0 unless asked otherwise."""
         return self.of(optimised).cdf(h, reachable_only)
 
+    @checked
     def probability(
         self,
         at_least: float | None = None,
@@ -127,6 +130,7 @@ class Assessment:
         """Probability that the index meets a threshold: ``1 - F(h)``."""
         return self.of(optimised).probability(at_least, at_most, reachable_only)
 
+    @checked
     def interval(
         self,
         at_least: float | None = None,
@@ -138,6 +142,7 @@ class Assessment:
         """That probability with its exact (Clopper-Pearson) interval."""
         return self.of(optimised).interval(at_least, at_most, reachable_only, confidence)
 
+    @checked
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
         """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
 
@@ -152,6 +157,7 @@ class Assessment:
         Raises:
             InputError: The run did not ask; assess again with ``after_lock=True``.
         """
+        check_confidence(confidence)
         if self.survivors is None:
             raise InputError("this run did not look at what survives a lock; assess again with after_lock=True")
         chosen = list(self.plan.locks) if joint is None else [self.arm.joint_index(joint)]
@@ -172,6 +178,7 @@ class Assessment:
         """Where each joint of :meth:`survival` locks: an angle (rad or m), or None for where it was at another pose."""
         return {self.arm.joint_names[k]: angle for k, angle in self.plan.locks.items()}
 
+    @checked
     def expected_survival(self, rates: Mapping[str | int, float]) -> float:
         """Share of the region that is left after a failure, weighted by how often each joint fails.
 
@@ -209,6 +216,7 @@ class Assessment:
             return None
         return self.index.bound - float(d.quantile(0.5))
 
+    @checked
     def if_never_fails(self, joint: str | int, optimised: bool = False) -> Distribution:
         """The distribution that the arm would have if no failure of one joint could happen, at the same configurations.
 
@@ -224,6 +232,7 @@ class Assessment:
         """
         return if_never_fails(self, joint, optimised)
 
+    @checked
     def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
         """Which joint deserves a redundant motor or brake: what each would gain if it could never fail, the largest first.
 
@@ -235,6 +244,7 @@ class Assessment:
         Raises:
             InputError: The threshold is not finite, the rows were not kept, or the run was not optimised.
         """
+        check_confidence(confidence)
         return upgrades(self, self.default_threshold() if threshold is None else threshold, optimised, confidence)
 
     # ---- rows, files -----------------------------------------------------------------------------------------------
@@ -268,6 +278,7 @@ class Assessment:
         }
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
 
+    @checked
     def save(self, path: str | Path) -> Path:
         """Write the run as a results folder that :func:`load` and ``holdfast report`` read.
 
@@ -288,6 +299,7 @@ class Assessment:
             store.note(**provenance(self.seconds))
         return target
 
+    @checked
     def report(self, path: str | Path, threshold: float | None = None) -> Path:
         """Write a self-contained HTML report.
 

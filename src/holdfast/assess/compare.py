@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.failures import failure_sets
 from holdfast.interval import Interval
+from holdfast.kept import cached_property
 
 
 @dataclass(frozen=True)

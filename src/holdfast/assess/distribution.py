@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError
 from holdfast.interval import Interval, Sums, check_confidence
+from holdfast.kept import cached_property
 
 __all__ = ["BINS", "Collector", "Distribution", "Interval"]
 
@@ -412,6 +412,7 @@ class Collector:
         last = len(self._counts) - 1
         if self._bound is not None:  # even bins need no search
             place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
+            place[values >= self._bound] = last  # where many values sit: the product may round to just below
         else:
             place = np.searchsorted(self._edges, values, side="right") - 1
         self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from holdfast.assess.run import provenance
 from holdfast.assess.structure import Structure, structure, structures
 from holdfast.assess.upgrade import sample
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
 from holdfast.report.scenes import Scale, Scene, View

@@ -47,6 +47,7 @@ def places(f: Facts) -> list[Block]:
         f.log,
         not f.larger,
         figures.plain(f"{average.lower()} {f.index.name}"),
+        weights=rows.weight,
     )
     text = (
         f"{average} index of the {f.reached} in each cell, over the whole depth of the region, and below it how many "
@@ -57,7 +58,7 @@ def places(f: Facts) -> list[Block]:
     if f.a.region.kind == "joints":
         text += " Positions are those of the tool."
     if f.d.weighted:
-        text += " Within a cell all count alike."
+        text += f" Within a cell {f.noun}s count by weight; cells without weight are grey."
     return [*blocks, Picture(figures.svg(figure, "map", "Average index over the region"), text)]
 
 

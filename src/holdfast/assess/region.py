@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.assess.poses import PoseList
 from holdfast.assess.weights import Density, check_weights
+from holdfast.checked import checked
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -74,6 +75,7 @@ class Region:
     draw: tuple[Draw, bool] | None = None
 
     @classmethod
+    @checked
     def box(
         cls,
         center: ArrayLike,
@@ -126,6 +128,7 @@ class Region:
         return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name, weight)
 
     @classmethod
+    @checked
     def from_poses(cls, poses: ArrayLike, weights: ArrayLike | None = None, name: str = "list of poses") -> Region:
         """A list of poses: a recorded job, waypoints.
 
@@ -164,6 +167,7 @@ class Region:
         return region
 
     @classmethod
+    @checked
     def joints(cls, lower: ArrayLike, upper: ArrayLike, name: str = "joint range") -> Region:
         """Configurations uniform between (n,) lower and upper joint values, rad and m: no inverse kinematics.
 
@@ -184,6 +188,7 @@ class Region:
         return cls("joints", tuple(((low + high) / 2).tolist()), tuple((high - low).tolist()), name)
 
     @classmethod
+    @checked
     def around(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
         """A region to begin with when none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
 
@@ -405,6 +410,7 @@ class Region:
         return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"], weight)
 
     @classmethod
+    @checked
     def load(cls, path: str | Path) -> Region:
         """A region from a YAML file; see ``docs/files``.
 

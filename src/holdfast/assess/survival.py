@@ -88,7 +88,7 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
         return []
     left = f.a.dataset["survives"].values[rows.number, joint] == 1
     name = f.a.arm.joint_names[joint]
-    figure = before_and_after_figure(rows.position, rows.reached, left, views[0], name)
+    figure = before_and_after_figure(rows.position, rows.reached, left, views[0], name, rows.weight)
     total = len(left)
     text = (
         f"Share of the poses in each cell that are reached, over the whole depth of the region {views[0].title}, and below it "
@@ -96,13 +96,18 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
         f"with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
     )
     if f.d.weighted:
-        text += " Here all poses count alike."
+        text += " Shares count by weight, these numbers do not."
     return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
 
 
 def before_and_after_figure(
-    position: Array, healthy: NDArray[np.bool_], locked: NDArray[np.bool_], view: View, joint: str
+    position: Array,
+    healthy: NDArray[np.bool_],
+    locked: NDArray[np.bool_],
+    view: View,
+    joint: str,
+    weights: Array | None = None,
 ) -> Figure:
-    """Maps of the share of poses (N, 3), m, that are reached (N,) before and after a lock."""
+    """Maps of the share of poses (N, 3), m, that are reached (N,) before and after a lock, by weight (N,) if there is one."""
     panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
-    return maps.share_figure(position, panels, view, "share of the poses reached")
+    return maps.share_figure(position, panels, view, "share of the poses reached", weights=weights)

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -100,6 +101,7 @@ class Capsules:
         return len(self.parts)
 
     @classmethod
+    @checked
     def along(cls, arm: Arm, radius: float | None = None) -> Capsules:
         """One capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
 
@@ -140,6 +142,7 @@ class Capsules:
         return f"{'assumed' if self.assumed(arm) else 'given'} radius {radius:.3g} m along each link"
 
     @classmethod
+    @checked
     def load(cls, path: str | Path, arm: Arm) -> Capsules:
         """The capsules in a YAML file; see :mod:`holdfast.clearance.capsules`.
 

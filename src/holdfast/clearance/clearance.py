@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import combinations
 
 import casadi as ca
@@ -15,9 +14,11 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations, finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
+from holdfast.checked import checked
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import Vector, dot, smallest
 from holdfast.sobol import sobol
@@ -70,6 +71,7 @@ class Clearance:
         ArmError: A capsule on a link that the arm does not have.
     """
 
+    @checked
     def __init__(self, arm: Arm, capsules: Capsules | None = None) -> None:
         self.arm = arm
         self.capsules = Capsules.along(arm) if capsules is None else capsules

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -37,11 +39,13 @@ from holdfast.cli.options import (
 )
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
+from holdfast.whole_file import replaced
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
-    from holdfast.assess import Assessment, Region
+    from holdfast.assess import Assessment, Comparison, Region
 
+_CANDIDATES = "comparison.json"
 
 FailureRateOption = Annotated[
     list[str] | None,
@@ -184,17 +188,10 @@ def assess(
         _finish(results[0], None if out is None else out / "report.html", at_least, rates, json_)
         return
     comparison = compare(results, [c.name for c in candidates], threshold)
-    page = None
+    tools = [c.tool for c in candidates]
     if out is not None:
-        for c, result in zip(candidates, results, strict=True):
-            result.report(out / c.name / "report.html", comparison.threshold)
-        page = comparison.report(out / "report.html")
-    if json_:
-        print_json(comparison_summary(comparison, candidates, at_least, page))
-        return
-    print_comparison(comparison)
-    if page is not None:
-        typer.echo(f"report: {page}")
+        _write_candidates(out, comparison.names, tools)
+    _finish_comparison(comparison, tools, out, None if out is None else out / "report.html", at_least, json_)
 
 
 def report(
@@ -206,18 +203,70 @@ def report(
     failure_rate: FailureRateOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Write the report of a results folder again, also of a run that was stopped.
+    """Write the report of a results folder again, also of a run that was stopped, or of a comparison.
 
     Example: holdfast report results
     """
     from holdfast.assess import load
 
     check_thresholds(at_least)
+    if not reading.exists(folder / "run.json") and reading.exists(folder / _CANDIDATES):
+        if failure_rate:
+            raise InputError(f"'{folder}' holds a comparison; give --failure-rate with the folder of one candidate in it")
+        _report_comparison(folder, to, at_least, json_)
+        return
     result = load(folder)
     rates = read_by_joint(result.arm, failure_rate, "--failure-rate")
     if rates and result.distribution.samples:
         result.expected_survival(rates)  # before anything is written
     _finish(result, to or folder / "report.html", at_least, rates, json_)
+
+
+def _write_candidates(out: Path, names: Sequence[str], tools: Sequence[str | None]) -> None:
+    """Which folders in ``out`` are compared, and in which order."""
+    listed = [{"name": name, "tool": tool} for name, tool in zip(names, tools, strict=True)]
+    try:
+        replaced(out / _CANDIDATES, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
+    except OSError as error:
+        raise StoreError(f"cannot write to '{out}': {error.strerror or error}; choose another folder") from error
+
+
+def _report_comparison(folder: Path, to: Path | None, at_least: list[float] | None, json_: bool) -> None:
+    """Write the report of a comparison again."""
+    from holdfast.assess import compare, load
+    from holdfast.study.folder import is_plain
+
+    file = folder / _CANDIDATES
+    try:
+        listed = [(c["name"], c["tool"]) for c in json.loads(reading.text(file))["candidates"]]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        raise StoreError(f"'{file}' is damaged; give the same command to 'holdfast assess' again") from error
+    if not all(is_plain(name) and (tool is None or isinstance(tool, str)) for name, tool in listed):
+        raise StoreError(f"'{file}' is damaged; give the same command to 'holdfast assess' again")
+    names, tools = [name for name, _ in listed], [tool for _, tool in listed]
+    comparison = compare([load(folder / name) for name in names], names, at_least[0] if at_least else None)
+    _finish_comparison(comparison, tools, None, to or folder / "report.html", at_least, json_)
+
+
+def _finish_comparison(
+    comparison: Comparison,
+    tools: Sequence[str | None],
+    out: Path | None,
+    to: Path | None,
+    at_least: list[float] | None,
+    json_: bool,
+) -> None:
+    """Write the report ``to``, and those of the candidates in ``out``, and say what was found."""
+    if out is not None:
+        for name, result in zip(comparison.names, comparison.assessments, strict=True):
+            result.report(out / name / "report.html", comparison.threshold)
+    page = None if to is None else comparison.report(to)
+    if json_:
+        print_json(comparison_summary(comparison, tools, at_least, page))
+        return
+    print_comparison(comparison)
+    if page is not None:
+        typer.echo(f"report: {page}")
 
 
 def _read_rates(

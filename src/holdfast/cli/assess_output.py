@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,6 @@ from holdfast.cli.options import console, number
 
 if TYPE_CHECKING:
     from holdfast.assess import Assessment, Comparison, Upgrade
-    from holdfast.cli.candidates import Candidate
 
 
 def summary(result: Assessment, at_least: list[float] | None, rates: dict[str | int, float]) -> dict[str, Any]:
@@ -256,13 +256,13 @@ def _gain(u: Upgrade) -> list[str]:
 
 
 def comparison_summary(
-    comparison: Comparison, candidates: list[Candidate], at_least: list[float] | None, page: Path | None
+    comparison: Comparison, tools: Sequence[str | None], at_least: list[float] | None, page: Path | None
 ) -> dict[str, Any]:
     """A comparison for machines: every candidate as an assessment alone, and the table."""
     optimised = all(a.optimised is not None for a in comparison.assessments)
-    each = zip(candidates, comparison.assessments, strict=True)
+    each = zip(comparison.names, tools, comparison.assessments, strict=True)
     return {
-        "candidates": [{"name": c.name, "tool": c.tool, **summary(a, at_least or [comparison.threshold], {})} for c, a in each],
+        "candidates": [{"name": n, "tool": t, **summary(a, at_least or [comparison.threshold], {})} for n, t, a in each],
         "comparison": {
             "threshold": comparison.threshold,
             "table": comparison.table,

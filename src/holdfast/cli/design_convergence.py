@@ -22,14 +22,14 @@ def converging(
     out: Path | None,
     json_: bool,
 ) -> None:
-    """Search, print, and write ``designs.csv`` and ``best-arm.yaml``."""
+    """Search, print, and write the report, ``designs.csv`` and ``best-arm.yaml``; a sampled search that was stopped goes on."""
     from rich.markup import escape
     from rich.table import Table
 
     chosen = read_labelled_law(law or "pseudoinverse", space.arm, task)
     with progress_bar(json_, "designs") as progress:
         found = design_for_convergence(
-            chosen, space, designs=designs, climbs=climbs, keep_reach=keep_reach, seed=seed, progress=progress
+            chosen, space, designs=designs, climbs=climbs, keep_reach=keep_reach, seed=seed, progress=progress, store=out
         )
     files = [] if out is None else found.save(out)
     if json_:

@@ -41,6 +41,7 @@ from holdfast.cli.options import (
 )
 from holdfast.errors import InputError, StoreError
 from holdfast.whole_file import replaced
+from holdfast.written import is_number
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -200,8 +201,9 @@ def _goal(arm: Arm, text: str, degrees: bool) -> tuple[Any, bool]:
     if text in ("", "home") or text in arm.states:
         return text or None, False
     kind, colon, rest = text.partition(":")
-    if not colon:
-        count = len([x for x in text.replace(",", " ").split() if x])
+    words = text.replace(",", " ").split()
+    if not colon and words and is_number(words[0]):
+        count = len(words)
         if arm.n in (3, 6) and count in (3, 6):
             raise InputError(f"--goal '{text}' could be joint values or a pose; write 'q:{text}' or 'pose:{text}'")
         kind, rest = ("q" if count == arm.n else "pose"), text

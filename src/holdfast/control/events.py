@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 
 import casadi as ca
 import numpy as np
@@ -26,6 +26,7 @@ from holdfast.arm.task import Task
 from holdfast.control.resolution import slope_along
 from holdfast.control.trajectory import Event
 from holdfast.indices import Objective
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 
 Array = NDArray[np.float64]

@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked_class
 from holdfast.control import damping_search
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import SX
 
 
+@checked_class
 class FailureTolerant(Law):
     """Damped inverse whose damping minimises the peak velocity error over all single locked joints.
 

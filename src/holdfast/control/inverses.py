@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked_class
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import SX
@@ -30,6 +31,7 @@ class Pseudoinverse(Law):
         return damped_least_norm(j, v, 0.0)
 
 
+@checked_class
 class Weighted(Law):
     """Joint rates of least weighted norm, ``W^-1 J' (J W^-1 J')^-1 v``.
 
@@ -80,6 +82,7 @@ class Weighted(Law):
         return f"{super().phrase()}, weights {', '.join(self._diagonal) or 'as a full matrix'}"
 
 
+@checked_class
 class Damped(Law):
     """Damped least squares with fixed damping, ``J' (J J' + damping^2 I)^-1 v``.
 

@@ -9,9 +9,8 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (5), (6); Goel, Macie
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Sequence
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -22,17 +21,22 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked, real_numbers
 from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
-from holdfast.control.step import Step
+from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 
 Array = NDArray[np.float64]
 
 
-class Law(ABC):
+class Law(Steps):
     """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
+
+    In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);
+    ``step.others`` then holds what else :meth:`outputs` computes.
 
     Args:
         arm: The arm.
@@ -56,6 +60,7 @@ class Law(ABC):
     setting = ""
     source = ""
 
+    @checked
     def __init__(
         self, arm: Arm, task: str | Task | Sequence[str] = "pose", gain: float = 1.0, speed_limit: float | None = None
     ) -> None:
@@ -119,14 +124,10 @@ class Law(ABC):
             f"{self.name}, deviations", [q, v, rates], [deviation.expression(self.jacobian(q), self.scaled(v), rates)]
         )
 
-    @cached_property
-    def step(self) -> Step:
-        """``step(q, v) -> rates`` for one configuration, (n,), (m,) -> (n,): for a control loop, without any checks.
+    def _step_kernel(self) -> tuple[Kernel, int]:
+        return self._velocity_kernel, self.arm.n
 
-        ``step.others`` then holds what else :meth:`outputs` computes.
-        """
-        return Step(self._velocity_kernel, self.arm.n)
-
+    @checked
     def velocity(self, q: ArrayLike, v: ArrayLike) -> Array:
         """Commanded joint rates.
 
@@ -144,6 +145,7 @@ class Law(ABC):
         rates = np.ascontiguousarray(out[:, : self.arm.n])
         return rates[0] if single else rates
 
+    @checked
     def damping(self, q: ArrayLike, v: ArrayLike) -> Any:
         """The damping lambda, not its square, in the unit of the scaled Jacobian; 0 for a law that has none.
 
@@ -159,6 +161,7 @@ class Law(ABC):
         """
         return self._constant(q, v, 0.0)
 
+    @checked
     def deviations(self, q: ArrayLike, v: ArrayLike) -> Deviations:
         """How far the hand's velocity is from the one commanded, for the healthy arm and with each joint locked.
 
@@ -207,16 +210,18 @@ class Law(ABC):
         return out[0] if single else out
 
     def _rows(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array, bool]:
-        a, b = self.arm.check_configurations(q), np.asarray(v, dtype=np.float64)
+        a, b = self.arm.check_configurations(q), real_numbers(v, "the velocity")
         m = self.task.m
         if b.ndim not in (1, 2) or b.shape[-1] != m or (a.ndim == 2 and b.ndim == 2 and len(a) != len(b)):
             raise InputError(
                 f"the velocity has shape {b.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or (N, {m}), "
                 "a row for each configuration"
             )
-        count = max(len(np.atleast_2d(a)), len(np.atleast_2d(b)))
+        lengths = [len(x) for x in (a, b) if x.ndim == 2]
+        count = min(lengths, default=1)
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
 
+    @checked
     def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path, Path, Path]:
         """Write the law as a C99 file that needs nothing but ``math.h``, its header, an example and a test.
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked
 from holdfast.control.failure_tolerant import FailureTolerant
 from holdfast.control.inverses import Damped, Pseudoinverse, Weighted
 from holdfast.control.law import Law
@@ -20,11 +21,13 @@ TaskSpec = str | Task | Sequence[str]
 BY_NAME: dict[str, type[Law]] = {law.slug: law for law in (Pseudoinverse, Weighted, Damped, FailureTolerant)}
 
 
+@checked
 def pseudoinverse(arm: Arm, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None) -> Pseudoinverse:
     """Least-norm joint rates; see :class:`Pseudoinverse`."""
     return Pseudoinverse(arm, task, gain, speed_limit)
 
 
+@checked
 def weighted(
     arm: Arm, weights: ArrayLike, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None
 ) -> Weighted:
@@ -32,11 +35,13 @@ def weighted(
     return Weighted(arm, weights, task, gain, speed_limit)
 
 
+@checked
 def damped(arm: Arm, damping: float, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None) -> Damped:
     """Damped least squares with fixed damping; see :class:`Damped`."""
     return Damped(arm, damping, task, gain, speed_limit)
 
 
+@checked
 def failure_tolerant(
     arm: Arm,
     task: TaskSpec = "pose",
@@ -48,6 +53,7 @@ def failure_tolerant(
     return FailureTolerant(arm, task, pre_failure_error, gain, speed_limit)
 
 
+@checked
 def by_name(name: str, arm: Arm, **options: Any) -> Law:
     """A law from its name on the command line: ``pseudoinverse``, ``weighted``, ``damped`` or ``failure-tolerant``.
 

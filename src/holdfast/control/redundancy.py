@@ -9,6 +9,7 @@ import numpy as np
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked_class
 from holdfast.control.resolution import BLUNT, Resolution, oriented_gradient, oriented_value, slope_along
 from holdfast.errors import InputError
 from holdfast.indices import Objective
@@ -16,6 +17,7 @@ from holdfast.kernels import SX
 from holdfast.linalg import Cholesky, damped_least_norm, gram
 
 
+@checked_class
 class GradientProjection(Resolution):
     """Self-motion down (or up) the gradient of the objective, kept off the task: ``J^+ v -+ gain (I - J^+ J) grad``.
 
@@ -56,6 +58,7 @@ class GradientProjection(Resolution):
         return self.gain * oriented_gradient(self.objective, q, j)
 
 
+@checked_class
 class ExtendedJacobian(Resolution):
     """Keeps the objective at an extremum along the self-motion: the null-space part of its gradient stays 0.
 
@@ -98,6 +101,7 @@ class ExtendedJacobian(Resolution):
         return null @ damped_least_norm(rows @ null, -self.gain * slope - rows @ particular, BLUNT)
 
 
+@checked_class
 class AugmentedJacobian(Resolution):
     """Brings the objective to a wanted value and keeps it there: its gradient is one more row of the task.
 

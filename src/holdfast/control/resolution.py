@@ -16,10 +16,9 @@ one at a time, the most violated first, as by Flacco, De Luca and Khatib 2012.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -29,9 +28,11 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.control.step import Step
+from holdfast.checked import checked_class
+from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import Cholesky, gram, householder, lowest
 from holdfast.status import Status
@@ -63,7 +64,8 @@ class Rates:
     status: NDArray[np.uint8]
 
 
-class Resolution(ABC):
+@checked_class
+class Resolution(Steps):
     """A law that turns a velocity of the hand into joint rates.
 
     Args:
@@ -282,13 +284,8 @@ class Resolution(ABC):
             return Rates(*[x[0] for x in result])
         return Rates(*result)
 
-    @cached_property
-    def step(self) -> Step:
-        """``step(q, twist) -> rates`` for one configuration, (n,), (6,) -> (n,): for a control loop, without any checks.
-
-        ``step.others`` then holds the shares of self-motion and of the task and the damping, as in :class:`Rates`.
-        """
-        return Step(self._kernel, self.arm.n)
+    def _step_kernel(self) -> tuple[Kernel, int]:
+        return self._kernel, self.arm.n
 
     def __repr__(self) -> str:
         return f"<{self.name}, {self.objective.name}, arm {self.arm.name!r}, task {self.task.name!r}>"

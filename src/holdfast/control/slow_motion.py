@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -34,6 +35,7 @@ class SlowMotion:
     satisfied: bool
 
 
+@checked
 def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, bound: ArrayLike) -> SlowMotion:
     """By how much a motion must be stretched in time for its torques to stay close to those at rest.
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.errors import KernelError
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel
 
 Array = NDArray[np.float64]
@@ -40,3 +43,35 @@ class Step:
     def others(self) -> Array:
         """What the kernel tells besides the rates, of the last call: of a resolution the shares and the damping."""
         return self._out[self._n :]
+
+
+class Steps(ABC):
+    """What can be called in a control loop, once it is prepared."""
+
+    @abstractmethod
+    def _step_kernel(self) -> tuple[Kernel, int]:
+        """What a step computes, joint rates first, and the number of joints."""
+
+    @cached_property
+    def _prepared(self) -> Step:
+        return Step(*self._step_kernel())
+
+    def prepare(self) -> Step:
+        """Compile :attr:`step`, which takes up to a few seconds at first use and milliseconds later; returns it.
+
+        A loop that controls a robot calls this before it begins.
+        """
+        return self._prepared
+
+    @property
+    def step(self) -> Step:
+        """``step(q, velocity) -> rates`` for one configuration: for a control loop, without any checks.
+
+        It never compiles; what else was computed is in ``step.others``.
+
+        Raises:
+            KernelError: :meth:`prepare` was not called.
+        """
+        if "_prepared" not in self.__dict__:
+            raise KernelError("the step of this law is not compiled yet; call its prepare() once, before the control loop")
+        return self._prepared

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.control import damping_search, deviation
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel, recalled
@@ -109,6 +110,7 @@ class TradeOff:
         price.plot(self.allowed, self.allowed, color=figures.ORANGE, linestyle=(0, (4.5, 2)), label="all that is allowed")
 
 
+@checked
 def trade_off(
     arm: Arm,
     task: str | Task | Sequence[str] = "pose",

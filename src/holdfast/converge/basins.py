@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.configurations import finite_limits, without_limits
 from holdfast.arm.targets import target_pose
-from holdfast.checked import checked
+from holdfast.checked import LARGEST, checked, real_numbers
 from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind
 from holdfast.converge.rest_system import RestSystem, distinct
@@ -156,9 +156,10 @@ def _starts(
             q[:, k] = low[k] + (high[k] - low[k]) * x.ravel()
         return q
     if np.ndim(starts) == 0:
-        count = int(np.asarray(starts))
-        if count < 1:
-            raise InputError(f"starts is {count}; it must be 1 or more")
+        number = float(real_numbers(starts, "starts"))
+        if not 1 <= number <= LARGEST or number != int(number):
+            raise InputError(f"starts is {number:g}; it must be a whole number of 1 or more, or configurations")
+        count = int(number)
         return np.asarray(generator.uniform(low, high, (count, arm.n)))
     return np.atleast_2d(arm.check_configurations(np.asarray(starts, dtype=np.float64))).copy()
 

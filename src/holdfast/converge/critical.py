@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.kernels import Kernel
+from holdfast.kept import cached_property
+from holdfast.kernels import Kernel, recalled
 from holdfast.solve.inverse import scaled_error, solver
 
 Array = NDArray[np.float64]
@@ -32,8 +33,13 @@ class CriticalPoints:
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
-        self.arm, self.m = arm, task.m
+        self.arm, self.task, self.m = arm, task, task.m
         self.engine = solver(arm, task)
+
+    @cached_property
+    @recalled
+    def _kernel(self) -> Kernel:
+        arm, task = self.arm, self.task
         q = kinematics.joint_symbols(arm)
         p, r, u = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3), ca.SX.sym("u", task.m)
         e, j = scaled_error(arm, task, q, p, r)
@@ -46,7 +52,7 @@ class CriticalPoints:
             ca.horzcat(ca.SX(1, arm.n), 2 * u.T),
         )
         flat = ca.densify(ca.vertcat(residual, ca.vec(slope.T)))
-        self._kernel = Kernel("critical points", [q, u, p, r], [flat])
+        return Kernel("critical points", [q, u, p, r], [flat])
 
     def seeds(self, pose: Array, count: int, generator: np.random.Generator) -> Array:
         """Configurations (S, n) of the pose, S of ``count`` random starts."""

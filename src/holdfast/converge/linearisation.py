@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import IntEnum
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.motion import System
 
@@ -104,8 +105,10 @@ class Linearisation:
         slopes, j, scaled = self._slopes(q, pose[:3, 3], pose[:3, :3])
         # Where the target is reached the rates change by those for -J, as the law is linear there or has no derivative; that
         # of the rotation vector is 0/0 there.
-        for row in np.flatnonzero(scaled < REACHED):
-            slopes[row] = self.law.velocity(q[row], -j[row].T).T
+        n, there = self.law.arm.n, np.flatnonzero(scaled < REACHED)
+        changes = -j[there].transpose(0, 2, 1).reshape(-1, self.law.task.m)  # of the error with each joint in turn
+        rates = self.law.velocity(np.repeat(q[there], n, axis=0), changes)
+        slopes[there] = rates.reshape(-1, n, n).transpose(0, 2, 1)
         return np.asarray(slopes[:, healthy][:, :, healthy])
 
     def eigenvalues(self, q: Array, pose: Array, healthy: NDArray[np.bool_]) -> NDArray[np.complex128]:

@@ -57,8 +57,8 @@ def reachable_when_locked(
         raise InputError(f"at has shape {angles.shape}; give one value, or (N,) of them")
     if restarts < 1:
         raise InputError(f"restarts is {restarts}; it must be 1 or more")
-    if not tolerance > 0:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     low, high = arm.lower[k], arm.upper[k]
     beyond = np.flatnonzero((np.atleast_1d(angles) < low) | (np.atleast_1d(angles) > high))
     if beyond.size:

@@ -15,7 +15,7 @@ from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arm.tip import listed
 from holdfast.assess.region import Region
-from holdfast.checked import checked
+from holdfast.checked import checked, real_numbers
 from holdfast.clearance import Clearance, too_close
 from holdfast.converge.recover_bounds import out_of_reach
 from holdfast.converge.recover_goal import Relaxed, RowsGivenUp, configurations_of, rows_to_give_up
@@ -182,8 +182,8 @@ def home_of(arm: Arm) -> tuple[Array, str]:
 
 def _locks(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
     """Index and angle of every locked joint."""
-    if isinstance(locked, str):
-        locked = [locked]
+    if isinstance(locked, (str, int)) or getattr(locked, "ndim", 1) == 0:
+        locked = [locked if isinstance(locked, str) else int(np.asarray(locked))]
     found: dict[int, float] = {}
     given: list[tuple[str | int, float | None]] = (
         [(k, v) for k, v in locked.items()] if isinstance(locked, Mapping) else [(k, None) for k in locked]
@@ -192,7 +192,8 @@ def _locks(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
         k = arm.joint_index(joint)
         if k in found:
             raise InputError(f"joint '{arm.joint_names[k]}' is locked twice; give each joint once")
-        number = float(at[k]) if value is None else float(value)
+        what = f"the lock of '{arm.joint_names[k]}'"
+        number = float(at[k]) if value is None else float(real_numbers(value, what, "a number"))
         if not np.isfinite(number):
             raise InputError(f"joint '{arm.joint_names[k]}' is locked at {number}; give a finite angle in rad, or m")
         found[k] = number

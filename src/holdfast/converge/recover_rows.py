@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import combinations
 from typing import Literal
 
@@ -15,6 +15,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.solve.inverse import damped_step, pose_error
 
@@ -97,14 +98,27 @@ class RowSolver:
 
     def __init__(self, arm: Arm, rows: Rows) -> None:
         self.arm, self.rows = arm, rows
-        q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        weights, free = ca.SX.sym("w", rows.m), ca.SX.sym("free", arm.n)
-        error, slope = self._error(q, p, r)
+
+    @cached_property
+    def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
+        q, p, r = kinematics.joint_symbols(self.arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        return q, p, r, *self._error(q, p, r)
+
+    @cached_property
+    @recalled
+    def _loop(self) -> Loop:
+        arm = self.arm
+        q, p, r, error, slope = self._symbols
+        weights, free = ca.SX.sym("w", self.rows.m), ca.SX.sym("free", arm.n)
         pull = ca.horzcat(*[weights * slope[:, k] * free[k] for k in range(arm.n)])
         step, residual = damped_step(arm, q, weights * error, pull)
-        self._loop = Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], step, residual)
-        self._errors = Kernel("errors of the rows", [q, p, r], [ca.densify(error)])
-        self._symbols = q, p, r, slope
+        return Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], step, residual)
+
+    @cached_property
+    @recalled
+    def _errors(self) -> Kernel:
+        q, p, r, error, _ = self._symbols
+        return Kernel("errors of the rows", [q, p, r], [ca.densify(error)])
 
     def _error(self, q: SX, p: SX, r: SX) -> tuple[SX, SX]:
         """Error (m,) of the rows and its derivative (m, n), sign turned."""
@@ -135,7 +149,7 @@ class RowSolver:
     @cached_property
     @recalled
     def _slopes(self) -> Kernel:
-        q, p, r, slope = self._symbols
+        q, p, r, _, slope = self._symbols
         return Kernel("slopes of the rows", [q, p, r], [ca.densify(-slope)])
 
     def slopes(self, q: Array, pose: Array) -> Array:

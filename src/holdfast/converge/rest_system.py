@@ -149,8 +149,7 @@ def distinct(arm: Arm, q: Array, known: Array, apart: float) -> Array:
         q = q[joint_space.nearest(free, known, q)[0] > apart]
     keep = np.ones(len(q), dtype=bool)
     if len(q) > 1:
-        pairs = joint_space.tree(free, q).query_pairs(apart, output_type="ndarray")
-        for k, m in pairs[np.lexsort(pairs.T[::-1])]:
+        for k, m in joint_space.pairs(free, q, apart):
             if keep[k]:
                 keep[m] = False
     return q[keep]

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.control.law import Law
-from holdfast.kernels import Loop
+from holdfast.kept import cached_property
+from holdfast.kernels import Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
 
@@ -21,11 +22,16 @@ class Solutions:
 
     def __init__(self, law: Law) -> None:
         self._system = System(law)
+        self.made_of = law
+
+    @cached_property
+    @recalled
+    def _loop(self) -> Loop:
         q = self._system.q
         e, j = self._system.scaled_error(q)
         size = ca.sumsqr(e)
         step = damped_least_norm(j @ ca.diag(self._system.mask), e, 1e-3 * size + 1e-14)
-        self._loop = Loop("solutions", q, self._system.parameters, q + step, ca.sqrt(size))
+        return Loop("solutions", q, self._system.parameters, q + step, ca.sqrt(size))
 
     def search(self, q: Array, pose: Array, mask: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Configurations (N, n) from starts q (N, n), and whether they reach the target."""

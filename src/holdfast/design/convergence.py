@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 from typing import Any, Literal
 
@@ -11,11 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.arm.serial import to_dict
+from holdfast.arm.task import Task
 from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.converge.starts import read_places
 from holdfast.design.arrival import Arrivals, Failures
 from holdfast.design.design_joints import DesignJoints, LawOfDesigns
+from holdfast.design.memory import Memory, Parts
 from holdfast.design.pattern import Box, improved
 from holdfast.design.planar_rest import PlanarRest, Radial
 from holdfast.design.space import DesignSpace, Vary, design_space
@@ -24,10 +28,11 @@ from holdfast.interval import Difference, Interval
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
-Objective = Literal["guaranteed", "arrival"]
+Aim = Literal["guaranteed", "arrival"]
 
 RINGS = 40
 TARGETS, FAILURES = 12, 2  # of a sampled search; each failure is one of every joint
+_CHUNK = 16  # designs that are looked at, and remembered, together
 _FRESH = 8  # times as many targets in the check of a sampled search
 
 
@@ -50,16 +55,18 @@ class ConvergenceDesigns:
         best: Index of the best design.
         checked: Sampled only: shares of the given and of the best arm on targets and failures that the search did not see,
             and their difference.
+        searched: How it was searched, by the names of the options.
     """
 
     law: Law
     space: DesignSpace
     values: Array
     measures: dict[str, Array]
-    objective: Objective
+    objective: Aim
     exact: bool
     best: int
     checked: tuple[Interval, Interval, Difference] | None
+    searched: dict[str, Any] = field(default_factory=dict)
     _rest: PlanarRest | None = field(repr=False, default=None)
     _rings: Array | None = field(repr=False, default=None)
 
@@ -119,27 +126,42 @@ class ConvergenceDesigns:
         return out
 
     def save(self, folder: str | Path) -> list[Path]:
-        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), and ``best-arm.yaml``.
+        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), ``best-arm.yaml`` and
+        ``report.html``.
 
         Raises:
             StoreError: The folder cannot be written.
         """
-        from holdfast.arm.table import text
         from holdfast.whole_file import replaced
 
         lines = [",".join((*self.space.names, *self.measures))]
         columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
         lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        arm = self.arm()
-        best = text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
         files = [Path(folder) / "designs.csv", Path(folder) / "best-arm.yaml"]
         try:
             Path(folder).mkdir(parents=True, exist_ok=True)
-            for path, content in zip(files, ("\n".join(lines) + "\n", best), strict=True):
+            for path, content in zip(files, ("\n".join(lines) + "\n", self.arm_file()), strict=True):
                 replaced(path, content)
         except OSError as error:
             raise StoreError(f"folder '{folder}' cannot be written: {error.strerror or error}") from error
-        return files
+        return [*files, self.report(Path(folder) / "report.html")]
+
+    def arm_file(self) -> str:
+        """The best arm as a file that every command takes."""
+        from holdfast.arm.table import text
+
+        arm = self.arm()
+        return text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
+
+    def report(self, path: str | Path) -> Path:
+        """Write one HTML file that needs nothing else: what to build, what that gains, and how it was found.
+
+        Raises:
+            StoreError: The file cannot be written; what was there is as it was.
+        """
+        from holdfast.design.convergence_report import write
+
+        return write(self, path)
 
 
 @checked
@@ -147,7 +169,7 @@ def design_for_convergence(
     law: Law,
     vary: Vary,
     targets: ArrayLike | int | None = None,
-    objective: Objective = "guaranteed",
+    objective: Aim = "guaranteed",
     designs: int = 256,
     climbs: int = 4,
     keep_reach: bool = False,
@@ -155,6 +177,7 @@ def design_for_convergence(
     failures: int = FAILURES,
     seed: int = 0,
     progress: Progress | None = None,
+    store: str | Path | None = None,
 ) -> ConvergenceDesigns:
     """Search for the arm that arrives most surely when a joint has locked and its controller does not know.
 
@@ -185,9 +208,11 @@ def design_for_convergence(
         failures: Of each joint for each target (sampled).
         seed: Of the designs, and of all random numbers of a sampled search.
         progress: Called with (designs done, designs expected in all).
+        store: Folder in which a sampled search that was stopped is remembered and goes on; an exact one takes seconds.
 
     Raises:
         InputError: Names, bounds or options that do not fit; a law or an arm without exact sets, if ``exact`` is True.
+        StoreError: The folder holds something else, or cannot be written.
 
     Source: Goel, Maciejewski, Balakrishnan 2005, footnote 11, say that their analysis can be extended to design such arms, and
     not how. Measures and search are ours.
@@ -212,7 +237,7 @@ def design_for_convergence(
         return _exact(rest, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
     if keep_reach:
         raise InputError("keep_reach belongs to the exact search for planar arms of three joints; leave it out")
-    return _sampled(law, box, targets, designs, climbs, failures, seed, progress)
+    return _sampled(law, box, targets, designs, climbs, failures, seed, progress, store)
 
 
 def _planar(law: Law, space: DesignSpace) -> PlanarRest:
@@ -243,7 +268,7 @@ def _exact(
     rest: PlanarRest,
     box: Box,
     rings: Array,
-    objective: Objective,
+    objective: Aim,
     designs: int,
     climbs: int,
     seed: int,
@@ -255,7 +280,8 @@ def _exact(
     order = ("guaranteed", "free", "arrival") if objective == "guaranteed" else ("arrival",)
     values, measures = improved(box, measured, order, designs, climbs, seed, progress)
     best = _best(measures, order)
-    return ConvergenceDesigns(rest.law, box.space, values, measures, objective, True, best, None, rest, rings)
+    searched = {"designs": designs, "climbs": climbs, "seed": seed, "keep_reach": box.total is not None}
+    return ConvergenceDesigns(rest.law, box.space, values, measures, objective, True, best, None, searched, rest, rings)
 
 
 def planar_measures(radial: Radial) -> dict[str, Array]:
@@ -287,26 +313,55 @@ def _sampled(
     failures: int,
     seed: int,
     progress: Progress | None,
+    store: str | Path | None,
 ) -> ConvergenceDesigns:
     moved = LawOfDesigns(law, DesignJoints.of(box.space))
     search, check = np.random.SeedSequence(seed).spawn(2)
     given = TARGETS if targets is None else targets
     places = read_places(law.arm, law.task, given, np.random.default_rng(search))
     seen = Failures(moved, places.poses, failures, seed)
+    searched = {"designs": designs, "climbs": climbs, "seed": seed, "failures": failures, "targets": len(places)}
+    own = law.arm, law.describe(), law.label, law.task
+    listed = None if isinstance(given, (int, np.integer)) else places.poses.tolist()
+    memory = None if store is None else Memory(store, _plan(own, box.space, {**searched, "places": listed}))
+    parts = count(1)
 
-    def measured(values: Array) -> dict[str, Array]:
+    def part(name: str, make: Callable[[], Parts]) -> Parts:
+        return make() if memory is None else memory.part(name, make)
+
+    def looked(values: Array) -> Parts:
         a = seen.of(values)
         with np.errstate(invalid="ignore"):
             free = a.arrived.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
         return {"free": free, "arrival": a.arrival, "reached": a.reached}
 
+    def measured(values: Array) -> dict[str, Array]:
+        # What a design is worth does not depend on its company, so that a stopped search loses little.
+        chunks = [values[k : k + _CHUNK] for k in range(0, len(values), _CHUNK)]
+        found = [part(f"designs {next(parts)}", lambda c=c: looked(c)) for c in chunks]  # type: ignore[misc]
+        return {name: np.concatenate([f[name] for f in found]) for name in found[0]}
+
     values, measures = improved(box, measured, ("arrival",), designs, climbs, seed, progress)
     best = _best(measures, ("arrival",))
     # What was chosen for doing well on some failures is judged by others; targets that were given stay what they are.
-    count = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
-    fresh = read_places(law.arm, law.task, count, np.random.default_rng(check))
-    again = Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])
-    return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, _compared(again))
+    more = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
+    fresh = read_places(law.arm, law.task, more, np.random.default_rng(check))
+    judged = part("check", lambda: vars(Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])))
+    compared = _compared(Arrivals(**judged))
+    return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, compared, searched)
+
+
+def _plan(own: tuple[Arm, str, str, Task], space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
+    """What defines a sampled search, as JSON data."""
+    arm, law, label, task = own
+    return {
+        "kind": "design for convergence",
+        "arm": to_dict(arm),
+        "law": [label, law],
+        "task": [task.rows.tolist(), task.frame, task.length],
+        "vary": [p.written for p in space.parameters],
+        **searched,
+    }
 
 
 def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:

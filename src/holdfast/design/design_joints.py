@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -18,6 +17,7 @@ from holdfast.arm.model import Arm, Joint
 from holdfast.control.law import Law
 from holdfast.design.space import DesignSpace
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX
 
 Array = NDArray[np.float64]

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -22,6 +21,7 @@ from holdfast.design.space import OF_TOOL, DesignSpace
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices import Index, by_name
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import householder
 from holdfast.solve.inverse import damped_step, smooth_error, task_error

@@ -18,7 +18,6 @@ Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (22). Turn
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 
 import casadi as ca
@@ -35,6 +34,7 @@ from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.design.design_joints import DesignJoints
 from holdfast.design.space import design_space
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel
 
 Array = NDArray[np.float64]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.design.family import Family
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import dot
 

@@ -17,7 +17,7 @@ from holdfast.assess.run import provenance
 from holdfast.design.choice import SAME, farther
 from holdfast.design.pictures import arms_figure, front_figure
 from holdfast.design.result import Checked, Designs
-from holdfast.design.space import Parameter
+from holdfast.design.space import DesignSpace, Parameter
 from holdfast.failures import failure_sets
 from holdfast.interval import Interval
 from holdfast.report import figures, page
@@ -60,7 +60,7 @@ def build(designs: Designs) -> Page:
     d = designs
     sections = [
         Section("", _remarks(d)),
-        Section("What to build", [_parameters(d)]),
+        Section("What to build", [parameters_table(d.space, d.values[d.best])]),
         Section("Before and after", [] if d.best_is_start else _arms(d)),
         Section("What is guaranteed against how far the arm reaches", _front(d)),
         Section("How the index is distributed, before and after", _distributions(d)),
@@ -136,19 +136,21 @@ def at_bound(p: Parameter, value: float) -> str:
     return "lower" if value <= p.lower + slack else "upper" if value >= p.upper - slack else ""
 
 
+def bounds_callout(space: DesignSpace, best: Array) -> list[Block]:
+    """Numbers of the best design (k,) that are at their bounds, if any are."""
+    stuck = [f"{p.name} ({p.text(x)})" for p, x in zip(space.parameters, best.tolist(), strict=True) if at_bound(p, x)]
+    if not stuck:
+        return []
+    what = "is at its bound" if len(stuck) == 1 else "are at their bounds"
+    text = f"{', '.join(stuck)} of the best design {what}: wider ones may give more, if that can be built."
+    return [Callout(text, title="Bounds")]
+
+
 def _remarks(d: Designs) -> list[Block]:
     blocks: list[Block] = []
     if d.best_is_start:
         return blocks
-    values = d.values[d.best]
-    stuck = [f"{p.name} ({p.text(x)})" for p, x in zip(d.space.parameters, values.tolist(), strict=True) if at_bound(p, x)]
-    if stuck:
-        what = "is at its bound" if len(stuck) == 1 else "are at their bounds"
-        blocks.append(
-            Callout(
-                f"{', '.join(stuck)} of the best design {what}: wider ones may give more, if that can be built.", title="Bounds"
-            )
-        )
+    blocks += bounds_callout(d.space, d.values[d.best])
     lost, lost_before = (c.distribution.unreached_share for c in (d.checked.best, d.checked.given))
     if lost > lost_before + 0.005:
         blocks.append(
@@ -162,9 +164,10 @@ def _remarks(d: Designs) -> list[Block]:
     return blocks
 
 
-def _parameters(d: Designs) -> Table:
+def parameters_table(space: DesignSpace, best: Array) -> Table:
+    """The numbers of the given arm and of the best design (k,)."""
     rows: list[list[Cell]] = []
-    for p, before, after in zip(d.space.parameters, d.space.start.tolist(), d.values[d.best].tolist(), strict=True):
+    for p, before, after in zip(space.parameters, space.start.tolist(), best.tolist(), strict=True):
         factor, unit = p.shown
         row = None if p.row is None else p.row + 1
         side = at_bound(p, after)

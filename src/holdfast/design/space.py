@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -15,6 +14,7 @@ from holdfast.arm import Arm, Link
 from holdfast.arm.dh_table import DHTable, dh_table
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 
 Array = NDArray[np.float64]
 
@@ -309,6 +309,8 @@ def design_space(arm: Arm, vary: Vary) -> DesignSpace:
     if isinstance(vary, Mapping):
         return DesignSpace(arm, tuple(_bounded(name, bounds) for name, bounds in vary.items()))
     listed = [vary] if isinstance(vary, str) else list(vary)
+    if not all(isinstance(x, (str, Parameter)) for x in listed):
+        raise InputError(f"vary is {vary!r}; give names with bounds, parameters, or texts such as 'a3=0.2..0.6'")
     return DesignSpace(arm, tuple(x if isinstance(x, Parameter) else parse_vary(x, arm) for x in listed))
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices import susceptibility
@@ -22,11 +23,13 @@ from holdfast.indices.spectral import SpectralIndex
 TaskSpec = str | Task | Sequence[str]
 
 
+@checked
 def manipulability(arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None) -> Index:
     """Worst-case manipulability of the reduced Jacobian; Abdi et al. 2012, eq. (1), (2)."""
     return Manipulability(arm, task, failures, length)
 
 
+@checked
 def relative_manipulability(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> Index:
@@ -34,6 +37,7 @@ def relative_manipulability(
     return RelativeManipulability(arm, task, failures, length)
 
 
+@checked
 def mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> Index:
@@ -41,6 +45,7 @@ def mean_singular_value(
     return SpectralIndex("mean", arm, task, failures, length)
 
 
+@checked
 def geometric_mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> Index:
@@ -48,6 +53,7 @@ def geometric_mean_singular_value(
     return SpectralIndex("geometric mean", arm, task, failures, length)
 
 
+@checked
 def minimum_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> Index:
@@ -55,6 +61,7 @@ def minimum_singular_value(
     return SpectralIndex("minimum", arm, task, failures, length)
 
 
+@checked
 def condition_number(arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None) -> Index:
     """Worst-case condition number, smaller is better; Abdi et al. 2012, eq. (10)."""
     return SpectralIndex("condition number", arm, task, failures, length)
@@ -71,6 +78,7 @@ BY_NAME: dict[str, Callable[..., Index]] = {
 """The built-in indices by the names used on the command line and in files."""
 
 
+@checked
 def by_name(
     name: str, arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> Index:

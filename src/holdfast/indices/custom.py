@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 from typing import Literal
 
 import casadi as ca
@@ -13,9 +12,11 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked_class
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, slopes_along
 
@@ -23,6 +24,7 @@ Array = NDArray[np.float64]
 Formula = Callable[[SX], SX]
 
 
+@checked_class
 class CustomIndex(Index):
     """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
 

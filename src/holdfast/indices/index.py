@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -15,9 +14,11 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
+from holdfast.checked import checked
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status
@@ -36,7 +37,8 @@ class Evaluation:
         value: (N,) the worst case over the failures.
         by_failure: (N, F) the value for each failure, in the order of ``index.failures``.
         worst: (N,) position in ``index.failures`` of the failure that attains the worst case; the first one of several.
-        status: (N,) ``OK``, ``SINGULAR`` (value by convention) or ``BAD_INPUT``.
+        status: (N,) ``OK``, ``SINGULAR`` (value by convention), ``BAD_INPUT``, or ``UNDEFINED`` where the formula of an index
+            of one's own gives NaN.
     """
 
     value: Array
@@ -77,6 +79,7 @@ class Index(Objective):
     bound: float | None = None
     bound_note = ""
 
+    @checked
     def __init__(
         self,
         name: str,
@@ -129,7 +132,9 @@ class Index(Objective):
         value = by_failure.ravel().take(worst + np.arange(0, by_failure.size, by_failure.shape[1]))
         status = np.full(len(rows), Status.OK, dtype=np.uint8)
         status[singular] = Status.SINGULAR
-        status[np.isnan(value)] = Status.BAD_INPUT
+        unknown = np.isnan(value)
+        if unknown.any():
+            status[unknown] = np.where(np.isfinite(rows[unknown]).all(axis=1), Status.UNDEFINED, Status.BAD_INPUT)
         if single:
             return Evaluation(value[0], by_failure[0], worst[0], status[0])
         return Evaluation(value, by_failure, worst, status)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.checked import checked_class
 from holdfast.errors import InputError, TaskError
 from holdfast.kept import cached_property
 from holdfast.kernels import SX
@@ -125,6 +126,7 @@ class Objective(ABC):
         return WeightedSum([(1.0, self), (-1.0, other)])
 
 
+@checked_class
 class WeightedSum(Objective):
     """A sum of objectives times weights; of English & Maciejewski 1998, section VII, and Abdi et al. 2012 side by side.
 
@@ -222,6 +224,7 @@ class WeightedSum(Objective):
         return f"<{self.name}, arm {self.arm.name!r}>"
 
 
+@checked_class
 class Opposite(Objective):
     """The same number, wanted the other way: for the worst configuration of a pose, to compare the best one with.
 

@@ -8,7 +8,6 @@ factorisation serves every failure.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from math import comb
 
 import casadi as ca
@@ -20,6 +19,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.failures import FailureSpec
 from holdfast.indices.index import Index, WorstCase
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
 from holdfast.status import Status

@@ -7,7 +7,6 @@ one kernel, and rows of the batch that have converged drop out.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Literal
 
 import casadi as ca
@@ -21,6 +20,7 @@ from holdfast.failures import FailureSpec
 from holdfast.indices import secular
 from holdfast.indices.index import SINGULAR_RATIO, Index
 from holdfast.indices.relative import Manipulability
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import HouseholderQR, dot, jacobi_sweep
 

@@ -46,8 +46,8 @@ class Compiled:
 
     def __call__(self, inputs: Array, outputs: Array) -> None:
         """Evaluate columns of contiguous ``inputs (n_in, W)`` into ``outputs (n_out, W)``; W a multiple of the lanes."""
-        width = inputs.shape[1]
-        self._code.call(inputs.ctypes.data, outputs.ctypes.data, width, width)
+        width, code = inputs.shape[1], self._code  # it may be replaced meanwhile, and lives as long as somebody has it
+        code.call(inputs.ctypes.data, outputs.ctypes.data, width, width)
         if not self.level:
             self._count(width)
 
@@ -65,7 +65,7 @@ class Compiled:
             _in_background(self._improve)
 
     def _improve(self) -> None:
-        self._code, self.level = self._make(1), 1
+        self._code, self.level = self._make(1, aside=True), 1
 
     def _lanes(self, level: int) -> int:
         lanes = llvm_backend.host().machine.lanes
@@ -78,13 +78,13 @@ class Compiled:
         data = cache.load(self._key(level, lanes or self._lanes(level)))
         return None if data is None else llvm_backend.Code(data)
 
-    def _make(self, level: int, lanes: int | None = None) -> llvm_backend.Code:
+    def _make(self, level: int, lanes: int | None = None, aside: bool = False) -> llvm_backend.Code:
         lanes = lanes or self._lanes(level)
         program, machine = self._program, Machine(lanes, llvm_backend.host().machine.fused)
         name = self._key(level, lanes)
         data = cache.load(name)
         if data is None:
-            with notice.long(f"compiling '{program.name}'", program.size * llvm_backend.COMPILING[level]):
+            with notice.long(f"compiling '{program.name}'", 0 if aside else program.size * llvm_backend.COMPILING[level]):
                 data = llvm_backend.compile_program(program, level, machine)
             cache.store(name, data)
         return llvm_backend.Code(data)

@@ -54,6 +54,7 @@ class Loop:
         times: How many steps of the caller's one step of the loop takes; only kept for the caller.
 
     Attributes:
+        size: Numbers in a state.
         step: The kernel ``(state, parameters) -> (next state, residual)``.
     """
 
@@ -79,7 +80,7 @@ class Loop:
 
     def _take(self, step: Kernel, ahead: bool, times: int) -> None:
         self.step, self.ahead, self.times = step, ahead, times
-        self._size = step.program.n_out - 1
+        self.size = step.program.n_out - 1
         program, lanes = step.program, step.lanes
         fits = min(_MOST, max(_LEAST, _BYTES // (8 * (program.n_in + program.n_out))))
         # Columns a power of two apart would fall on the same places of the cache.
@@ -116,7 +117,7 @@ class Loop:
 
     def _iterate(self, batch: _Batch, most: int) -> None:
         """Take rows, step them all, put those that are done back and others in their place, until there are none."""
-        result, size, ahead, tolerance = batch.result, self._size, self.ahead, batch.tolerance
+        result, size, ahead, tolerance = batch.result, self.size, self.ahead, batch.tolerance
         left = batch.take(most)
         if not left.size:
             return

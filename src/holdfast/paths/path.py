@@ -5,13 +5,14 @@ from __future__ import annotations
 import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.poses import check_poses
+from holdfast.checked import checked, real_numbers
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 
 Array = NDArray[np.float64]
 
@@ -135,6 +136,7 @@ class Path:
         return f"{' and '.join(parts)}{corners}{'' if self.oriented else '; positions only'}"
 
     @classmethod
+    @checked
     def load(cls, file: str | pathlib.Path) -> Path:
         """A path from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
 
@@ -163,6 +165,7 @@ class Path:
         return out
 
 
+@checked
 def line(start: ArrayLike, end: ArrayLike, name: str = "line") -> Path:
     """A straight line of the hand; the orientation turns at constant speed about one axis, the short way round.
 
@@ -177,6 +180,7 @@ def line(start: ArrayLike, end: ArrayLike, name: str = "line") -> Path:
     return sequence([start, end], name)
 
 
+@checked
 def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> Path:
     """Straight lines from pose to pose, without a stop and without rounding: the twist jumps at the corners.
 
@@ -203,6 +207,7 @@ def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> 
     return Path(t[:-1], shift, t[:-1, :3, 3], none, turn, oriented, name)
 
 
+@checked
 def arc(
     start: ArrayLike,
     via: ArrayLike | None = None,
@@ -321,7 +326,7 @@ def _three(value: ArrayLike, what: str) -> Array:
 
 
 def _share(s: ArrayLike) -> Array:
-    a = np.asarray(s, dtype=np.float64)
+    a = real_numbers(s, "s")
     if a.ndim > 1:
         raise InputError(f"s has shape {a.shape}; it must be one number or (N,)")
     if ((a < -1e-9) | (a > 1 + 1e-9)).any():

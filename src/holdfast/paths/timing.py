@@ -5,13 +5,14 @@ from __future__ import annotations
 import pathlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.checked import checked, checked_class, real_numbers
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
@@ -41,6 +42,7 @@ class Timing(Protocol):
         ...
 
 
+@checked_class
 @dataclass(frozen=True)
 class Trapezoid:
     """From rest to rest: the speed rises evenly, stays, and falls evenly. 20 %, 60 % and 20 % of the time by default.
@@ -101,6 +103,7 @@ class Trapezoid:
         return self.accelerate * self.duration, self.duration - fall, fall
 
 
+@checked_class
 @dataclass(frozen=True)
 class Constant(Trapezoid):
     """Constant speed from the first to the last moment.
@@ -161,6 +164,7 @@ class _Stopping:
         return self.timing.acceleration(local) / share
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class TimedPath:
     """A path and how it is run through: what a controller follows.
@@ -221,6 +225,7 @@ class TimedPath:
         return f"{self.path.describe()}, in {self.duration:.4g} s{', with a stop at each corner' if self.stop else ''}"
 
     @classmethod
+    @checked
     def load(cls, file: str | pathlib.Path) -> TimedPath:
         """A path with its timing from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
 
@@ -247,7 +252,7 @@ def _kept(t: Array, value: Array) -> Array:
 
 
 def _times(t: ArrayLike) -> Array:
-    a = np.asarray(t, dtype=np.float64)
+    a = real_numbers(t, "t")
     if a.ndim > 1:
         raise InputError(f"t has shape {a.shape}; it must be one time or (N,), s")
     return a

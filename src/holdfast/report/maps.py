@@ -24,6 +24,7 @@ def map_figure(
     smaller_is_better: bool,
     label: str,
     bins: int = 6,
+    weights: Array | None = None,
 ) -> Figure:
     """The value over a projection: per cell the mean (the median if smaller is better), and how many points have one.
 
@@ -36,9 +37,12 @@ def map_figure(
         smaller_is_better: Reverses the colours; medians instead of means.
         label: Of the colour bar.
         bins: Cells along the longer edge.
+        weights: (N,) of the points, 0 or more; all count alike if not given.
     """
     low, high = points.min(axis=0), points.max(axis=0)
-    grids = [[_grid(points, values, v, low, high, bins, smaller_is_better) for v in views] for values in samples.values()]
+    grids = [
+        [_grid(points, values, v, low, high, bins, smaller_is_better, weights) for v in views] for values in samples.values()
+    ]
     cells = np.concatenate([g[2].ravel() for row in grids for g in row])
     lost = any(bool(np.isnan(values).any()) for values in samples.values())
     scale = replace(Scale.of(cells[~np.isnan(cells)], log, smaller_is_better), pale=True)
@@ -65,7 +69,12 @@ def map_figure(
 
 
 def share_figure(
-    points: Array, panels: Sequence[tuple[str, NDArray[np.bool_]]], view: View, label: str, bins: int = 6
+    points: Array,
+    panels: Sequence[tuple[str, NDArray[np.bool_]]],
+    view: View,
+    label: str,
+    bins: int = 6,
+    weights: Array | None = None,
 ) -> Figure:
     """The share of points with a property over one projection, a panel for each property, all on one scale from 0 to 1.
 
@@ -75,6 +84,7 @@ def share_figure(
         view: The projection.
         label: Of the colour bar.
         bins: Cells along the longer edge.
+        weights: (N,) of the points, 0 or more; all count alike if not given.
     """
     low, high = points.min(axis=0), points.max(axis=0)
     scale = Scale(0.0, 1.0, pale=True)
@@ -83,7 +93,7 @@ def share_figure(
         figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for a, (title, having) in zip(axes, panels, strict=True):
-            x, y, share, count, _ = _grid(points, having.astype(np.float64), view, low, high, bins, False)
+            x, y, share, count, _ = _grid(points, having.astype(np.float64), view, low, high, bins, False, weights)
             _draw_cells(a, x, y, share, count, count, scale, False)
             a.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=title)
         finish_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
@@ -91,7 +101,7 @@ def share_figure(
 
 
 def _grid(
-    points: Array, values: Array, view: View, low: Array, high: Array, bins: int, median: bool
+    points: Array, values: Array, view: View, low: Array, high: Array, bins: int, median: bool, weights: Array | None = None
 ) -> tuple[Array, Array, Array, Array, Array]:
     pick = [view.right, view.up]
     size = (high - low)[pick]
@@ -109,10 +119,26 @@ def _grid(
     cell = cell[there]
     reached = np.bincount(cell, minlength=total)
     order = np.argsort(cell, kind="stable")
-    groups = np.split(values[there][order], np.cumsum(reached)[:-1])
-    average = np.array([np.nan if not len(g) else float(np.median(g) if median else np.mean(g)) for g in groups])
+    ends = np.cumsum(reached)[:-1]
+    groups = np.split(values[there][order], ends)
+    if weights is None:
+        average = np.array([np.nan if not len(g) else float(np.median(g) if median else np.mean(g)) for g in groups])
+    else:
+        shares = np.split(weights[there][order], ends)
+        average = np.array([_weighted(g, w, median) for g, w in zip(groups, shares, strict=True)])
     shape = (count[1], count[0])
     return x, y, average.reshape(shape), reached.reshape(shape), drawn.reshape(shape)
+
+
+def _weighted(values: Array, weights: Array, median: bool) -> float:
+    """The mean, or the smallest value up to which lies half of the weight; NaN where nothing has weight."""
+    if not weights.sum() > 0:
+        return np.nan
+    if not median:
+        return float(np.average(values, weights=weights))
+    order = np.argsort(values, kind="stable")
+    below = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(below, below[-1] / 2)])
 
 
 def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, drawn: Array, scale: Scale, lost: bool) -> None:

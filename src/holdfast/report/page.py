@@ -113,7 +113,7 @@ class Page:
     footer: Cell = ""
 
 
-def _breakable(cell: Cell) -> Markup:
+def _breakable(cell: Cell) -> Cell:
     """A cell whose long names may be broken behind an underscore, so that those of a file do not push a table off the page."""
     return cell if isinstance(cell, Markup) or len(cell) < _LONG else Markup("_<wbr>").join(cell.split("_"))
 

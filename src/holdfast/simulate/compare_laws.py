@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,10 +14,11 @@ from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.scale import length_unit
-from holdfast.checked import checked
+from holdfast.checked import checked, real_numbers
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
+from holdfast.kept import cached_property
 from holdfast.simulate.closed_loop import RADIUS, TOLERANCE, simulate
 from holdfast.simulate.compiled import ARRIVES
 from holdfast.simulate.healthy_cost import HealthyCost, healthy_cost
@@ -395,7 +395,9 @@ def compare_laws(
             raise InputError(f"law '{name}' is of another arm or task than '{next(iter(named))}'; make both of the same")
     joints = _joints(arm, locked)
     start, _ = configurations(arm, q0)
-    goal = np.asarray(target, dtype=np.float64)
+    goal = real_numbers(target, "target")
+    if not goal.ndim:
+        raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")
     single = 2 if goal.shape[-2:] == (4, 4) else 1
     goal = goal[None] if goal.ndim == single else goal
     count = max(len(start), len(goal)) if min(len(start), len(goal)) else 0

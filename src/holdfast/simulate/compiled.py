@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -15,11 +15,12 @@ from holdfast.arm import kinematics
 from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.simulate.circling import circling
 from holdfast.simulate.cycles import SUBSTEPS, Cycles
-from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, prescribed_way
+from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, prescribed_way
 from holdfast.simulate.nearest import Nearest
 from holdfast.simulate.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
@@ -64,10 +65,13 @@ class Motion:
         self._steps: Steps | Cycles = (
             Cycles(self._system) if self.cycles else Steps(self._system, CLASSIC if self.fixed else DOP853)
         )
+        self.made_of = law, method
+
+    @cached_property
+    @recalled
+    def _at(self) -> Kernel:
         s = self._system
-        here = s.at(s.q)
-        known = ca.vertcat(here.rates, here.hand, here.share, here.squared_error, here.slope)
-        self._at = Kernel("start of a motion", [s.q, *s.given], [known])
+        return Kernel("start of a motion", [s.q, *s.given], [ca.vertcat(*known_at(s.at(s.q)).values())])
 
     @cached_property
     def _nearest(self) -> Nearest:
@@ -88,13 +92,6 @@ class Motion:
         chain = kinematics.chain(law.arm, s.q)
         error = hand_error(law.task, chain.position, chain.rotation, s.target, s.rotation)
         return Kernel("turn", [s.q, s.target, s.rotation], [ca.norm_2(error[3:])])
-
-    @cached_property
-    @recalled
-    def _single(self) -> Kernel:
-        steps = self._steps
-        symbol = ca.SX.sym("state", steps.state.size)
-        return Kernel("one step", [symbol, *steps.parameters], [steps.single()(symbol, *steps.parameters)])
 
     def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs:
         """Runs from q0 (N, n) to target (N, 4, 4) or (N, m), with joints that lock at (N, n), s or cycles.
@@ -132,7 +129,7 @@ class Motion:
         def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
             if flips and not self.cycles:
                 return self._until_caught(states, parameters)
-            result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.unrolled))
+            result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.loop.times))
             return result.state, result.done
 
         states = self._phases(q0[chosen], numbers[chosen], lock_time[chosen], setting, advance)
@@ -190,7 +187,7 @@ class Motion:
         span = LOOK * self._steps.calls
         for looks_left in reversed(range(MOST_STEPS // span)):
             before = parts["time"][left, 0]
-            result = self._steps.loop.run(states[left], parameters[left], 0.0, -(-span // self._steps.unrolled))
+            result = self._steps.loop.run(states[left], parameters[left], 0.0, -(-span // self._steps.loop.times))
             states[left], done[left] = result.state, result.done
             on, left = ~result.done, left[~result.done]
             if not left.size:
@@ -266,7 +263,7 @@ class Motion:
     def _enter(self, states: Array, rows: slice | NDArray[np.int64], parameters: Array) -> None:
         """What is known where a phase begins."""
         parts, n = self._steps.state.values(states), self.law.arm.n
-        known = self._at.rows(parts["q"][rows], *self._inputs(parameters)[:-3])
+        known = self._known(states[rows], parameters)
         good = np.isfinite(known).all(axis=1)
         code = np.where(good, RUNNING, COLLAPSE)
         known[~good] = np.where(np.isfinite(known[~good]), known[~good], 0.0)
@@ -281,6 +278,18 @@ class Motion:
             if not self.fixed:
                 parts["h"][rows, 0] = np.minimum(parts["h"][rows, 0], TURN / np.maximum(rate, TURN))
         parts["code"][rows, 0] = code
+
+    def _known(self, states: Array, parameters: Array) -> Array:
+        """Rates, speed of the hand, share, squared error and its slope where these states are, (N, n + 4)."""
+        layout = self._steps.state
+        if not self._steps.staged:
+            return self._at.rows(layout.values(states)["q"], *self._inputs(parameters)[:-3])
+        # A stage before the first: the law is not compiled a second time.
+        before = states.copy()
+        parts = layout.values(before)
+        parts["stage"][:], parts["code"][:], parts["rates"][:] = -1, RUNNING, 0.0
+        after = layout.values(self._once(before, parameters))
+        return np.concatenate([after[name] for name in ("rates", "hand", "share", "error", "slope")], axis=1)
 
     def _inputs(self, parameters: Array) -> list[Array]:
         """Parameters in rows as the inputs of a kernel."""
@@ -350,8 +359,14 @@ class Motion:
     def _stepped(self, states: Array, parameters: Array) -> Array:
         """States after one step."""
         for _ in range(self._steps.calls):
-            states = self._single.rows(states, *self._inputs(parameters))
+            states = self._once(states, parameters)
         return states
+
+    def _once(self, states: Array, parameters: Array) -> Array:
+        """States after one call of the step: that of the loop, which is compiled already, where it takes one at a time."""
+        loop = self._steps.loop
+        single = loop.step if loop.times == 1 else self._steps.single
+        return single.rows(states, *self._inputs(parameters))[:, : self._steps.state.size]
 
 
 @lru_cache(maxsize=16)

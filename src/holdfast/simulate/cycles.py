@@ -9,7 +9,8 @@ import casadi as ca
 
 from holdfast.arm import kinematics
 from holdfast.arm.scale import length_unit
-from holdfast.kernels import SX
+from holdfast.kept import cached_property
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.simulate.motion import (
     ARRIVED,
     COLLAPSE,
@@ -41,7 +42,8 @@ class Cycles:
     Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``radius`` of the target.
     """
 
-    calls = 1  # of single() in a step
+    calls = 1  # of single in a step
+    staged = False
 
     def __init__(self, system: System) -> None:
         self.system = system
@@ -53,12 +55,20 @@ class Cycles:
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)
         ends = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
         self.state = State(q=n, substep=1, command=m, place=3, **scalars, **ends)
-        self.loop, self.unrolled = loop_of("control cycles", self._next, self.state, self.parameters, SUBSTEPS)
+        self.made_of = system
 
-    def single(self) -> ca.Function:
+    @cached_property
+    @recalled
+    def loop(self) -> Loop:
+        """The sub-steps repeated."""
+        return loop_of("control cycles", self._next, self.state, self.parameters, SUBSTEPS)
+
+    @cached_property
+    @recalled
+    def single(self) -> Kernel:
         """One sub-step of a state."""
         symbol = ca.SX.sym("state", self.state.size)
-        return ca.Function("step", [symbol, *self.parameters], [self.state.join(self._next(self.state.split(symbol)))])
+        return Kernel("one step", [symbol, *self.parameters], [self.state.join(self._next(self.state.split(symbol)))])
 
     def _next(self, parts: dict[str, SX]) -> dict[str, SX]:
         system, q = self.system, parts["q"]

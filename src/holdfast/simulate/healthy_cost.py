@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.poses import check_poses
 from holdfast.control.law import Law
-from holdfast.kernels import Kernel
+from holdfast.kept import cached_property
+from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.closed_loop import CYCLE_LIMIT, simulate
 from holdfast.simulate.motion import prescribed_way
 from holdfast.solve.inverse import task_error
@@ -69,8 +70,13 @@ class _Look:
 
     def __init__(self, law: Law) -> None:
         self._law = law
-        q, p, r = kinematics.joint_symbols(law.arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
-        self._error = Kernel("error of the task", [q, p, r], [task_error(law.arm, law.task, q, p, r)[0]])
+
+    @cached_property
+    @recalled
+    def _error(self) -> Kernel:
+        arm = self._law.arm
+        q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        return Kernel("error of the task", [q, p, r], [task_error(arm, self._law.task, q, p, r)[0]])
 
     def __call__(self, q: Array, poses: Array) -> tuple[Array, Array, Array]:
         """Errors (K, N, m), what is left of the way in directions that the task prescribes (K, N, 3), angles (K, N)."""

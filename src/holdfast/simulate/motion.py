@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.control.law import Law
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Loop
 from holdfast.solve.inverse import scaled_error, task_error
 
@@ -57,6 +58,7 @@ class System:
         self.target, self.rotation = ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         self.parameters = [self.target, self.rotation, self.mask]
         self._turns = law.task.angular or law.task.frame != "base"
+        self.made_of = law
         # What the motion needs to know: no orientation where no row of the task has one.
         self.given = self.parameters if self._turns else [self.target, self.mask]
 
@@ -91,13 +93,20 @@ class System:
         """Speed of the tool point, m."""
         return ca.sqrt(ca.sumsqr(kinematics.jacobian(self.law.arm, q)[:3, :] @ rates))
 
-    def at(self, q: SX) -> Here:
-        """Everything at a configuration q (n,)."""
+    @cached_property
+    def function(self) -> ca.Function:
+        """What :meth:`at` tells, of q and ``given``: a law takes a second to write down, so that is done once."""
+        q = self.q
         e, j = self.error(q)
         v, share = self.command(e)
         rates = self.rates(q, v)
         # Exact also for turns: the length of log R changes with the part of the angular velocity along it.
-        return Here(rates, self.hand_speed(q, rates), share, ca.sumsqr(e), -2 * ca.dot(e, j @ rates))
+        known = [rates, self.hand_speed(q, rates), share, ca.sumsqr(e), -2 * ca.dot(e, j @ rates)]
+        return ca.Function("at", [q, *self.given], known, {"cse": True})
+
+    def at(self, q: SX) -> Here:
+        """Everything at a configuration q (n,)."""
+        return Here(*self.function(q, *self.given))
 
 
 def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
@@ -109,6 +118,17 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
         return np.asarray(way @ into)
     turn = hand[:, :3, :3]
     return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
+
+
+def known_at(here: Here) -> dict[str, SX]:
+    """What a state holds of where it is."""
+    return {
+        "rates": here.rates,
+        "hand": here.hand,
+        "share": here.share,
+        "error": here.squared_error,
+        "slope": here.slope,
+    }
 
 
 class State:
@@ -178,7 +198,7 @@ def watched(parts: dict[str, SX], speed: SX, clock: SX, limit: SX) -> dict[str, 
 
 def loop_of(
     name: str, step: Callable[[dict[str, SX]], dict[str, SX]], state: State, parameters: Sequence[SX], most: int
-) -> tuple[Loop, int]:
+) -> Loop:
     """A loop that repeats a step until the state has a code; cheap steps are taken several at a time.
 
     Args:
@@ -189,13 +209,15 @@ def loop_of(
         most: Steps at most in one call.
 
     Returns:
-        The loop and how many steps one of its own takes.
+        The loop; its ``times`` tells how many steps one of its own takes.
     """
     symbol = ca.SX.sym("state", state.size)
-    once = ca.Function("step", [symbol, *parameters], [state.join(step(state.split(symbol)))], {"cse": True})
-    times = max(1, min(most, UNROLLED // int(once.n_instructions())))
-    after = symbol
-    for _ in range(times):
-        after = once(after, *parameters)
+    after = state.join(step(state.split(symbol)))
+    times = 1
+    if most > 1:
+        once = ca.Function("step", [symbol, *parameters], [after], {"cse": True})
+        times = max(1, min(most, UNROLLED // int(once.n_instructions())))
+        for _ in range(times - 1):
+            after = once(after, *parameters)
     running = ca.if_else(state.split(after)["code"] == RUNNING, 1.0, 0.0)
-    return Loop(name, symbol, parameters, after, running, ahead=True), times
+    return Loop(name, symbol, parameters, after, running, ahead=True, times=times)

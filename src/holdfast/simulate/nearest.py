@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.scale import length_unit
-from holdfast.kernels import Kernel, Loop
+from holdfast.kept import cached_property
+from holdfast.kernels import Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.simulate.motion import System
 
@@ -26,8 +27,13 @@ class Nearest:
     """
 
     def __init__(self, system: System) -> None:
-        self._arm = system.law.arm
-        n = self._arm.n
+        self._system, self._arm = system, system.law.arm
+        self.made_of = system
+
+    @cached_property
+    @recalled
+    def _loop(self) -> Loop:
+        system, n = self._system, self._arm.n
         state = ca.SX.sym("state", n + 1)
         q, damping = state[:n], state[n]
         e, j = system.error(q)
@@ -39,8 +45,13 @@ class Nearest:
         better = ca.sumsqr(system.error(trial)[0] / unit) < ca.sumsqr(e)
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-15), ca.vertcat(q, damping * _HARDER))
         slope = ca.sqrt(ca.sumsqr(healthy.T @ e))
-        self._loop = Loop("nearest point", state, system.parameters, after, ca.if_else(damping > _HOPELESS, 0.0, slope))
-        self._error = Kernel("least error", [system.q, system.target, system.rotation], [ca.norm_2(system.error(system.q)[0])])
+        return Loop("nearest point", state, system.parameters, after, ca.if_else(damping > _HOPELESS, 0.0, slope))
+
+    @cached_property
+    @recalled
+    def _error(self) -> Kernel:
+        s = self._system
+        return Kernel("least error", [s.q, s.target, s.rotation], [ca.norm_2(s.error(s.q)[0])])
 
     def errors(self, q: Array, poses: Array) -> Array:
         """(N,) norms of the task's error, m and rad."""

@@ -14,7 +14,7 @@ from holdfast.arm.model import Arm
 from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.closed_loop import Locked, simulate
 from holdfast.simulate.compiled import ARRIVES, DECAYS
 from holdfast.simulate.motion import HALF, WINDOW, System
@@ -229,6 +229,7 @@ def _model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos) -> 
     return compiled(spec, arm, free)
 
 
+@recalled
 def _command(law: Law) -> Kernel:
     """``(q, p, R) -> rates`` (n,) as the law commands them, by how much the speed limit slows them, and the squared error."""
     system = System(law)

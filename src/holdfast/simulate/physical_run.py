@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.kept import cached_property
 from holdfast.simulate.runs import Path, Runs
 from holdfast.simulate.servos import Servos
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from pathlib import Path as File
 
 import numpy as np
@@ -11,6 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.control.stick_figure import corners, projections
+from holdfast.kept import cached_property
 from holdfast.report import figures, page
 from holdfast.report.animation import Motion, animation, shown_seconds
 from holdfast.report.motion import Panel, drawn_motion, motion_figure

@@ -13,7 +13,8 @@ from itertools import pairwise
 
 import casadi as ca
 
-from holdfast.kernels import SX
+from holdfast.kept import cached_property
+from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.simulate.motion import (
     COLLAPSE,
     FAR,
@@ -21,11 +22,13 @@ from holdfast.simulate.motion import (
     REST,
     RUNNING,
     TIME,
+    UNROLLED,
     Here,
     State,
     System,
     chosen,
     greater,
+    known_at,
     lesser,
     loop_of,
     turning_value,
@@ -59,26 +62,49 @@ class Steps:
         n, stages = system.law.arm.n, len(tableau.rows)
         self._until, self._limit, self._tolerance = (ca.SX.sym(x) for x in ("until", "limit", "tolerance"))
         self.parameters = [*system.given, self._until, self._limit, self._tolerance]
-        size = ca.Function("at", [system.q, *system.given], [system.at(system.q).rates], {"cse": True}).n_instructions()
-        self.staged = int(size) > _SMALL
-        kept = {"stage": 1, "k": n * (stages - 1), "hands": stages - 1, "shares": stages - 1} if self.staged else {}
+        self.made_of = system, tableau
+        kept = {"stage": 1, "k": n * (stages - 1), "hands": stages - 1, "shares": stages - 1}
         scalars = dict.fromkeys(("hand", "share", "error", "slope", "h", "time", "clock", "path", "closest"), 1)
         ends = {"low": n, "high": n, "slowest": 1, "early": 1, "late": 1, "code": 1}
-        self.state = State(q=n, rates=n, **scalars, **ends, **kept)
-        self.calls = stages if self.staged else 1  # of single() in a step
-        self._next = self._stage if self.staged else self._step
-        self.loop, self.unrolled = loop_of(
-            f"closed loop, {tableau.name}",
-            self._next,
-            self.state,
-            self.parameters,
-            _EVALUATIONS if self.staged else max(1, _EVALUATIONS // stages),
-        )
+        self._layouts = State(q=n, rates=n, **scalars, **ends), State(q=n, rates=n, **scalars, **ends, **kept)
 
-    def single(self) -> ca.Function:
+    @cached_property
+    @recalled
+    def loop(self) -> Loop:
+        """The steps, or stages, repeated."""
+        s = self.system
+        size = int(s.function.n_instructions())
+        staged = size > 4 * _SMALL
+        if not staged:
+            staged = int(ca.Function("rates", [s.q, *s.given], [s.at(s.q).rates], {"cse": True}).n_instructions()) > _SMALL
+        most = _EVALUATIONS if staged else _EVALUATIONS // len(self.tableau.rows)
+        if size > UNROLLED:
+            most = 1
+        next_state = self._stage if staged else self._step
+        return loop_of(f"closed loop, {self.tableau.name}", next_state, self._layouts[staged], self.parameters, most)
+
+    @property
+    def staged(self) -> bool:
+        """Whether the loop takes a stage at a time; before a motion one with the stage -1 then notes what is known there."""
+        return self.loop.size == self._layouts[1].size
+
+    @property
+    def state(self) -> State:
+        """What a state is made of."""
+        return self._layouts[self.staged]
+
+    @property
+    def calls(self) -> int:
+        """Of :attr:`single` in a step."""
+        return len(self.tableau.rows) if self.staged else 1
+
+    @cached_property
+    @recalled
+    def single(self) -> Kernel:
         """One step, or one stage of it, of a state: for those who want to see every one."""
         symbol = ca.SX.sym("state", self.state.size)
-        return ca.Function("step", [symbol, *self.parameters], [self.state.join(self._next(self.state.split(symbol)))])
+        after = (self._stage if self.staged else self._step)(self.state.split(symbol))
+        return Kernel("one step", [symbol, *self.parameters], [self.state.join(after)])
 
     def _step(self, parts: dict[str, SX]) -> dict[str, SX]:
         h = lesser(parts["h"], self._until - parts["time"])
@@ -114,6 +140,9 @@ class Steps:
                 *[ca.if_else(parts["stage"] == i, kept, old[i * width : (i + 1) * width]) for i in range(len(rows) - 1)]
             )
         stored["stage"] = parts["stage"] + 1
+        entering = parts["stage"] < 0
+        for name, value in known_at(here).items():
+            stored[name] = ca.if_else(entering, value, parts[name])
         finished["stage"] = ca.SX(0)
         for name in ("k", "hands", "shares"):
             finished[name] = parts[name]

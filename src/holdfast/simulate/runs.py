@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.checked import checked
 from holdfast.errors import InputError
 
 if TYPE_CHECKING:
@@ -141,6 +142,7 @@ class Runs:
         found = np.bincount(np.atleast_1d(self.code), minlength=len(Outcome))
         return {str(name): int(count) for name, count in zip(_NAMES, found, strict=True)}
 
+    @checked
     def least_error(self, restarts: int = 24, seed: int = 0) -> Array:
         """(N,) least norm of the task's error that each arm can have with its joints standing where they stood at the end.
 
@@ -160,6 +162,7 @@ class Runs:
         """(N,) error at the end minus :meth:`least_error`: 0 where the arm ends as close as it still could."""
         return np.asarray(self.error - self.least_error())
 
+    @checked
     def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> Path:
         """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.checked import checked_class
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -19,6 +20,7 @@ CONFIGURATIONS = 64  # at which the inertia that a servo is tuned to is looked f
 LEAD = 1.0  # rad or m: how far a reference may run ahead of a joint without torque limit
 
 
+@checked_class
 @dataclass(frozen=True)
 class Servos:
     """How each joint follows its command.
@@ -56,8 +58,8 @@ class Servos:
     def __post_init__(self) -> None:
         for what in ("bandwidth", "ratio", "rate", "step"):
             value = getattr(self, what)
-            if not (np.isfinite(value) and value > 0):
-                raise InputError(f"{what} of the servos is {value:g}; it must be a finite number above 0")
+            if not 1e-9 < value < 1e9:
+                raise InputError(f"{what} of the servos is {value:g}; it must be above 1e-9 and below 1e9")
         if not (np.isfinite(self.compensation) and self.compensation >= 0):
             raise InputError(f"compensation of the servos is {self.compensation:g}; it must be a finite number of 0 or more")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Literal
 
 import casadi as ca
@@ -19,6 +19,7 @@ from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
 from holdfast.checked import checked
 from holdfast.errors import InputError
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
 from holdfast.solve import joint_space
@@ -413,8 +414,8 @@ def solve_ik(
     targets = check_poses(poses)
     if restarts < 1:
         raise InputError(f"restarts is {restarts}; it must be 1 or more")
-    if not tolerance > 0:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     engine = solver(arm, as_task(arm, task))
     first = None
     if start is not None:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_FEW = 1 << 20
+
 
 def turning(arm: Arm) -> NDArray[np.bool_]:
     """(n,) True for revolute joints without any limit: q and q + 2 pi are the same."""
@@ -35,8 +37,34 @@ def tree(arm: Arm, q: Array) -> KDTree:
 
 def nearest(arm: Arm, points: Array, q: Array) -> tuple[Array, NDArray[np.intp]]:
     """Distance (N,) of configurations q (N, n) from the nearest of the points (P, n), and which one that is."""
+    if _few(q, points):
+        away = _distances(arm, q, points)
+        index = away.argmin(axis=1)
+        return away[np.arange(len(q)), index], index
     distance, index = tree(arm, points).query(folded(arm, q))
     return np.asarray(distance), np.asarray(index)
+
+
+def pairs(arm: Arm, q: Array, apart: float) -> NDArray[np.intp]:
+    """Which configurations q (N, n) are no further than ``apart`` from each other, (M, 2), each k < m, in order."""
+    if _few(q, q):
+        return np.argwhere(np.triu(_distances(arm, q, q) <= apart, 1))
+    found = tree(arm, q).query_pairs(apart, output_type="ndarray")
+    return np.asarray(found[np.lexsort(found.T[::-1])])
+
+
+def _few(a: Array, b: Array) -> bool:
+    """All distances take less time than importing SciPy's trees, which give the same bits."""
+    return 0 < len(a) * len(b) <= _FEW
+
+
+def _distances(arm: Arm, a: Array, b: Array) -> Array:
+    """(N, P) distances of configurations a (N, n) from b (P, n)."""
+    squares = np.zeros((len(a), len(b)))
+    for x, y, turns in zip(folded(arm, a).T, folded(arm, b).T, turning(arm), strict=True):
+        away = np.abs(x[:, None] - y)
+        squares += (np.where(away > np.pi, np.abs(away - 2 * np.pi), away) if turns else away) ** 2
+    return np.sqrt(squares)
 
 
 def wrapped(arm: Arm, q: Array) -> Array:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -23,6 +22,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.checked import checked
 from holdfast.errors import InputError, TaskError
 from holdfast.indices import Objective
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, in_pool, pool, recalled, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
 from holdfast.solve import joint_space
@@ -54,7 +54,8 @@ class Optimum:
         start_value: (N,) of the first configuration that inverse kinematics found: the non-optimised sample.
         start_q: (N, n) that configuration, or the nearest miss.
         status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (nothing better than a singular configuration), ``INFEASIBLE`` (every
-            configuration found runs the arm through itself) or ``BAD_INPUT``.
+            configuration found runs the arm through itself), ``UNDEFINED`` (a formula of the user's own has no value at any
+            configuration found) or ``BAD_INPUT``.
         position_error: (N,) m.
         rotation_error: (N,) rad.
         starts: (N,) starts from which a configuration of the pose was found.
@@ -255,12 +256,14 @@ class Ascent:
 
             def choose(owner: NDArray[np.int64], q: Array, value: Array, chosen: NDArray[np.int64]) -> None:
                 top = best_of_each(owner, value, 1)
-                top = top[value[top] > best[owner[top]]]
+                # A formula of the user's own may have no value at the first configuration: any other is better.
+                top = top[(value[top] > -np.inf) & ~(value[top] <= best[owner[top]])]
                 best_q[owner[top]], best[owner[top]] = q[top], value[top]
                 start = sign * start_value
-                gain = np.subtract(best, start, out=np.zeros(count), where=best != start)  # both may be infinite
-                scale = np.maximum(np.abs(best), np.abs(gain))
-                close = value >= best[owner] - 1e-3 * scale[owner]
+                # Either may be infinite, at a singular configuration or by a formula of the user's own.
+                gain = np.subtract(best, start, out=np.zeros(count), where=np.isfinite(best) & np.isfinite(start))
+                scale = np.where(np.isfinite(best), np.maximum(np.abs(best), np.abs(gain)), 0.0)
+                close = (value >= best[owner] - 1e-3 * scale[owner]) & (value > -np.inf)
                 agreeing[chosen] = np.bincount(owner, close, count)[chosen] / np.maximum(
                     np.bincount(owner, minlength=count)[chosen], 1
                 )
@@ -279,7 +282,9 @@ class Ascent:
                     status[again[best[again] == -np.inf]] = Status.INFEASIBLE
                     best[best == -np.inf] = np.nan
             kept = reached[status[reached] != Status.INFEASIBLE]
-            status[kept[self.objective.statuses(best_q[kept]) == Status.SINGULAR]] = Status.SINGULAR
+            found_there = self.objective.statuses(best_q[kept])
+            for code in (Status.SINGULAR, Status.UNDEFINED):
+                status[kept[found_there == code]] = code
         position_error, rotation_error = engine.errors(best_q, poses)
         return Optimum(
             best_q, sign * best, start_value, first.q, status, position_error, rotation_error, found, agreeing, blocked
@@ -349,8 +354,8 @@ def optimise(
     for name, value in (("starts", starts), ("restarts", restarts)):
         if value is not None and value < 1:
             raise InputError(f"{name} is {value}; it must be 1 or more")
-    if not tolerance > 0:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
     ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
@@ -387,7 +392,7 @@ def objective_ascent(
     if own is not None and task is not None and not own.same_rows(task):
         raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
     chosen = own or task or as_task(objective.arm, "pose")
-    made = objective.ascents
+    made: dict[object, Ascent] = objective.ascents
     key = (chosen.rows.tobytes(), chosen.frame, clearance, margin)
     if key not in made:
         made[key] = Ascent(objective, chosen, clearance, margin)

@@ -394,8 +394,7 @@ class Tracer:
         if not len(q):
             return q
         keep = np.ones(len(q), dtype=bool)
-        pairs = joint_space.tree(self.arm, q).query_pairs(spacing * (1 - 1e-12), output_type="ndarray")  # each k < m
-        for k, m in pairs[np.lexsort(pairs.T[::-1])]:
+        for k, m in joint_space.pairs(self.arm, q, spacing * (1 - 1e-12)):
             if keep[k]:
                 keep[m] = False
         return q[keep]

@@ -13,6 +13,7 @@ from holdfast.studies.results import Assessed, Driven
 
 Key = tuple[str, str]  # index and task
 Ended = tuple[str, str, str]  # arm, task and failures
+_NOT_ZERO = ("mean-singular-value",)  # at a singular configuration
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,9 @@ def standings(
             shares = [(a, a.interval(h, optimised)) for a in mine]
             named = [(place(a.labels, [x.labels for x in mine]), a, p) for a, p in shares if p is not None]
             entries = [(name, p) for name, _, p in named]
-            over = {name: why for name, a, _ in named if (why := (ended or {}).get(row_of(a))) is not None}
+            # A mean of singular values is not 0 where one of them is, and a threshold of 0 is met there too.
+            hit = index not in _NOT_ZERO and (h > 0 or sign == "≤")
+            over = {name: why for name, a, _ in named if hit and (why := (ended or {}).get(row_of(a))) is not None}
             if entries:
                 counts = [a.plain.samples for a in mine if a.plain is not None]
                 about = f"{counted_range(counts)} poses"

@@ -50,7 +50,12 @@ def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
         found.append(optimise(machine.arm, machine.hand(q), wanted, task=machine.task, starts=STARTS))
     if not all(bool(f.success) for f in found):
         raise InputError("no configuration of this pose was found; move the hand and try again")
-    return Extremes((found[0].q, found[1].q), (float(found[0].value), float(found[1].value), float(both[0](q))))
+    # The searches are local: where the arm is may beat what they found.
+    here, sign = float(both[0](q)), 1.0 if both[0].better == "larger" else -1.0
+    best, worst = ((f.q, float(f.value)) for f in found)
+    best = (q, here) if sign * here > sign * best[1] else best
+    worst = (q, here) if sign * here < sign * worst[1] else worst
+    return Extremes((best[0], worst[0]), (best[1], worst[1], here))
 
 
 def laws(machine: Machine, state: State, progress: Progress) -> list[Motion]:

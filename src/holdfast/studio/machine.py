@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -17,6 +16,7 @@ from holdfast.arm.task import Task
 from holdfast.control import Law
 from holdfast.errors import ArmError, HoldfastError, TaskError
 from holdfast.indices import BY_NAME, Index, Objective, by_name, susceptibility
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.solve.inverse import solver
 from holdfast.studio.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
@@ -191,6 +191,15 @@ class Machine:
         free = np.ones(self.arm.n)
         free[list(failed)] = 0.0
         return engine.near(q, pose, free, TOLERANCE)
+
+    def apart(self, q: Array, pose: Array) -> float:
+        """How far the hand at q (n,) is from a pose (4, 4), by the rows of the task; m and rad."""
+        from scipy.spatial.transform import Rotation
+
+        hand = self.hand(q)
+        turn = hand[:3, :3].T if self.task.frame == "tool" else np.eye(3)
+        angular = Rotation.from_matrix(pose[:3, :3] @ hand[:3, :3].T).as_rotvec()
+        return float(np.linalg.norm(self.task.rows @ np.r_[turn @ (pose[:3, 3] - hand[:3, 3]), turn @ angular]))
 
     def slide(self, q: Array, along: Array, failed: Sequence[int]) -> tuple[Array, Array]:
         """One step along the self-motion of q (n,) in the direction nearest to ``along`` (n,), whose norm is its length.

@@ -94,7 +94,7 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         runs = simulate(law, np.array(state.q), target, list(state.failed))
         progress(2 * k + 1, 4)
         # The last approach to rest takes most of the time and moves nothing.
-        path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain))
+        path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain) or None)
         off = f"error {float(runs.error):.2g}" + (" m and rad" if law.task.angular else " m")
         past = [name for name, passed in zip(state.names, runs.limits_passed, strict=True) if passed]
         limits = f", past the limits of {' and '.join(past)}" if past else ""

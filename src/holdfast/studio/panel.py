@@ -83,7 +83,11 @@ class Panel:
             group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: stands still. Free: swings under gravity.")
             self._on(group.on_click, "fail", partial(_pressed, k))
         self._button("All healthy", "heal", "No joint has failed.")
-        self._button("Let the free joint swing", "swing", "From the physics, all other joints held (needs holdfast[physics]).")
+        self._button(
+            "Let the free joint swing",
+            "swing",
+            "From the physics, all other joints held (needs holdfast[physics]). Scrub it in the tab Motion.",
+        )
         self.susceptibility = self.gui.add_dropdown(
             "susceptibility", tuple(SUSCEPTIBILITIES), initial_value=state.susceptibility
         )

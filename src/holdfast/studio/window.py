@@ -17,7 +17,7 @@ from holdfast.studio.aside import Aside
 from holdfast.studio.body import Part
 from holdfast.studio.cloud import Cloud
 from holdfast.studio.compute import Extremes
-from holdfast.studio.machine import SLIDE, Machine, sentence
+from holdfast.studio.machine import SLIDE, TOLERANCE, Machine, sentence
 from holdfast.studio.motions import Motion, read_motion
 from holdfast.studio.panel import Panel
 from holdfast.studio.saving import Saver
@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 Check = Callable[[], None]
 
 TICK = 1 / 30  # s between two pictures of what moves by itself
+OF_HERE = ("best-worst", "laws", "swing")  # what is of where the arm is, and of what has failed
+ROUNDING = 1e-9  # of an index: below it a number says nothing
 SPEED = 0.8  # rad/s along a self-motion at the end of its slider
 
 
@@ -147,6 +149,7 @@ class Window:
         q, joint = self.q, self.machine.arm.joints[k]
         q[k] = min(max(x, joint.lower), joint.upper)  # the ends of a slider are rounded
         self._held = k
+        self._leave(q)
         self._place(q)
         self._held = None
 
@@ -155,6 +158,7 @@ class Window:
         self._held = None if phase == "end" else "hand"
         q, on = self.machine.reach(self.q, pose_of(position, quaternion), self.state.failed)
         stands = f" with {self._failed_names()} standing" if self.state.failed else ""
+        self._leave(q)
         self._place(q)
         if on:
             self.panel.say("The hand follows.")
@@ -165,6 +169,10 @@ class Window:
         self._rate = float(value)
         if self._rate == 0.0:
             return
+        if self._playing:
+            self._on_play(None)
+        if self.state.show != "best-worst":  # of the pose, which stays
+            self._leave()
         self._clock.start(self._slide_on)
 
     def _on_way(self, value: int) -> None:
@@ -198,7 +206,18 @@ class Window:
         self._place(q)
 
     def _on_home(self, _: Any) -> None:
+        self._leave(np.array(self._start.q))
         self._place(np.array(self._start.q))
+
+    def _leave(self, q: Array | None = None) -> None:
+        """Give up what was found for where the arm is, before it goes to q or changes: ghosts of elsewhere only mislead."""
+        if self.state.show not in OF_HERE or (q is not None and np.array_equal(q, self.q)):
+            return
+        self.work.cancel()
+        if self._ghosts:
+            self.panel.say("The ghosts were of where the arm stood; ask again for here.")
+        self._drop_ghosts()
+        self.state = replace(self.state, show="arm", time=0.0)
 
     def _take(self, k: int) -> None:
         if k >= len(self._ghosts):
@@ -218,6 +237,8 @@ class Window:
         self._fail(("healthy",) * self.machine.arm.n)
 
     def _fail(self, conditions: tuple[Any, ...]) -> None:
+        if conditions != self.state.conditions:
+            self._leave()
         self.state = replace(self.state, conditions=conditions)
         self._along = np.zeros(self.machine.arm.n)
         for k, condition in enumerate(conditions):
@@ -234,6 +255,7 @@ class Window:
 
     def _start_work(self, text: str, job: str, show: Callable[[Any], None]) -> None:
         """Do a job beside the page; what it finds is shown by the live thread, unless something newer was asked for."""
+        self._drop_ghosts()
         self.panel.say(f"{text} ...")
         self.state = state = replace(self.state, show=job)  # type: ignore[arg-type]
 
@@ -252,7 +274,7 @@ class Window:
         name = self.state.objective
 
         def show(found: Extremes) -> None:
-            best, worst, here = (f"{x:.4g}" for x in found.values)
+            best, worst, here = ("0" if abs(x) < ROUNDING else f"{x:.4g}" for x in found.values)
             words = [f"best: {best}", f"worst: {worst}"]
             self._haunt(
                 list(found.q), words, f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here."
@@ -276,13 +298,21 @@ class Window:
                 return
         if self.state.target is None:
             self._on_target(None)
-            self.panel.say("Drag the second handle to where the hand should go, then move under both laws.")
+        if self._arrived():
+            self.panel.say(
+                "The hand is at the target already: drag the second handle away, then move under both laws.", bad=True
+            )
             return
 
         def show(motions: list[Motion]) -> None:
             self._show_motions(motions, (GREEN, ORANGE), "  |  ".join(m.label for m in motions))
 
         self._start_work("Simulating the motion under both laws", "laws", show)
+
+    def _arrived(self) -> bool:
+        """The hand is where the target says, as far as the task looks."""
+        target = self.state.target
+        return target is not None and self.machine.apart(self.q, pose_of(target[:3], target[3:])) < TOLERANCE
 
     def _on_swing(self, _: Any) -> None:
         self._start_work(
@@ -292,6 +322,7 @@ class Window:
     def _on_file(self, _: Any) -> None:
         path = self.panel.file.value.strip().strip("'\"")
         motion = read_motion(self.machine.arm, path)
+        self._drop_ghosts()
         self.state = replace(self.state, file=path, show="file")
         self.work.cancel()
         self._show_motions([motion], (), f"{motion.label}: {len(motion.time)} rows")
@@ -317,16 +348,16 @@ class Window:
         if not np.isfinite(self._cloud.q[k]).all():
             self.panel.say("No configuration of this pose was found.", bad=True)
             return
+        self._leave(self._cloud.q[k])
         self.panel.say(f"Configuration of point {k + 1}: index {self._cloud.values[k]:.4g}.")
         self._place(self._cloud.q[k])
 
     def _on_clear(self, _: Any) -> None:
         self.work.cancel()
-        self._drop_motions()
-        self.stage.lay()
+        self._drop_ghosts()
         self.stage.draw_cloud(None, lambda _: None)
         self.stage.target.visible = False
-        self._cloud, self._ghosts = None, []
+        self._cloud = None
         self.state = replace(self.state, show="arm", target=None, file=None, region=None, time=0.0)
         self.panel.say("Cleared.")
         self._refresh()
@@ -361,7 +392,16 @@ class Window:
         begin = min(self.state.time, end) if self.state.time > 0 else 0.0
         self.panel.time_range(end, begin, f"time, {motions[0].unit}" if motions[0].unit != "rad" else "travel, rad")
         self.panel.say(text)
-        self._on_time(begin)
+        self._seek(begin)
+        # What was asked for moves at once; a view that a command line brought back stands where it stood.
+        if colors and end > 0 and not begin:
+            self._on_play(None)
+
+    def _drop_ghosts(self) -> None:
+        """Take ghosts and motions away."""
+        self._drop_motions()
+        self.stage.lay()
+        self._ghosts = []
 
     def _drop_motions(self) -> None:
         self._clock.stop()
@@ -371,6 +411,11 @@ class Window:
         self.panel.time_range(0.0, 0.0, "")
 
     def _on_time(self, value: float) -> None:
+        if self._playing:
+            self._on_play(None)  # who takes the slider stops what plays
+        self._seek(value)
+
+    def _seek(self, value: float) -> None:
         if not self._motions:
             return
         self.state = replace(self.state, time=float(value))
@@ -400,7 +445,7 @@ class Window:
 
         def on() -> None:
             now = self.state.time + TICK * pace
-            self._on_time(min(now, end))
+            self._seek(min(now, end))
             if now >= end:
                 self._on_play(None)
 

@@ -27,7 +27,7 @@ def is_plain(name: object) -> bool:
     return (
         isinstance(name, str)
         and name not in ("", ".", "..")
-        and not set(name) & set('/\\:*?"<>|\0')
+        and not set(name) & set("/\\\0")
         and len(name.encode(errors="replace")) < 256
     )
 

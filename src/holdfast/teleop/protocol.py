@@ -27,7 +27,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
@@ -40,6 +39,7 @@ from holdfast import arms, reading
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.kept import cached_property
 from holdfast.teleop.drive import Rules
 from holdfast.teleop.order import Indices, scenario_orders, williams
 from holdfast.teleop.plant import SUBSTEPS, Plant

@@ -13,12 +13,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE, Formula
 from holdfast.indices.susceptibility.measure import Evaluation, JointStatus, Susceptibility, Together
 from holdfast.indices.susceptibility.weights import WeightSpec, largest_static_torque
 
 
+@checked
 def torque(arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     """The torque or force that holds each joint against gravity; English and Maciejewski 1998, eq. (7), (8), (12).
 
@@ -29,6 +31,7 @@ def torque(arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     return Susceptibility(TORQUE, arm, weights)
 
 
+@checked
 def acceleration(arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     """How fast each joint would accelerate as it fails, the others held; English and Maciejewski 1998, eq. (22).
 
@@ -41,6 +44,7 @@ def acceleration(arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     return Susceptibility(ACCELERATION, arm, weights)
 
 
+@checked
 def swing_angle(arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     """How far each turning joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
 
@@ -62,6 +66,7 @@ BY_NAME: dict[str, Callable[..., Susceptibility]] = {
 """The susceptibilities by the names used on the command line and in files."""
 
 
+@checked
 def by_name(name: str, arm: Arm, weights: WeightSpec = None) -> Susceptibility:
     """A susceptibility by name.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import cached_property
 
 import casadi as ca
 import numpy as np
@@ -18,6 +17,7 @@ from holdfast.errors import InputError
 from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
+from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.status import Status, require_ok
