@@ -94,6 +94,26 @@ def test_going_on_computes_only_what_is_missing(folder):
         np.testing.assert_array_equal(s.dataset()[name].values, values)
 
 
+def test_a_run_of_the_earlier_backend_is_read_but_not_resumed(folder):
+    """Its last digits differ: rows of both in one folder would be neither's."""
+    fill(folder, [0, 1])
+    file = folder / "run.json"
+    file.write_text(json.dumps(json.loads(file.read_text()) | {"version": 1}))
+    before = snapshot(folder)
+    with pytest.raises(StoreError) as error:
+        make(folder)
+    assert "computed by an earlier holdfast" in sentence(error)
+    assert snapshot(folder) == before
+    np.testing.assert_array_equal(Store.open(folder).read(0, ["x"])["x"], rows(0, CHUNK)["x"])
+
+
+def test_a_finished_run_of_the_earlier_backend_is_there(folder):
+    fill(folder)
+    file = folder / "run.json"
+    file.write_text(json.dumps(json.loads(file.read_text()) | {"version": 1}))
+    assert make(folder).complete
+
+
 def test_the_plan_is_what_json_makes_of_it(folder):
     make(folder, plan={"pair": (1, 2), "x": 0.1})
     assert Store.open(folder).plan == {"pair": [1, 2], "x": 0.1}
@@ -240,7 +260,7 @@ DAMAGED = {
     "a list": lambda text: "[1, 2]",
     "a number": lambda text: "3",
     "other format": lambda text: text.replace("holdfast-run", "someone-else"),
-    "other version": lambda text: text.replace('"version": 1', '"version": 2'),
+    "other version": lambda text: text.replace('"version": 2', '"version": 3'),
     "nested too deep": lambda text: "[" * 100_000,
 }
 
@@ -258,8 +278,8 @@ def test_a_damaged_run_file_is_a_sentence(how, folder):
         message = sentence(caught)
         assert str(folder) in message
         if how == "other version":
-            assert "format 2" in message
-            assert "format 1" in message
+            assert "format 3" in message
+            assert "formats up to 2" in message
     assert snapshot(folder) == before
 
 

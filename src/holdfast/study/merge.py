@@ -79,6 +79,7 @@ class _Merge:
             if not other.entries(k):
                 continue
             source = other.store(k)
+            source.check_current()
             mine = Store.create(self._study.folder(k), source.plan, source.columns, *source.shape, journal=True)
             if source.done and k not in self._study.begun:
                 self._study.note_begun(k)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _FORMAT = "holdfast-run"
-_VERSION = 1
+_VERSION = 2  # of what computes the rows: 1 was the backend before LLVM, whose last digits differ
 _RUN = "run.json"
 _SAMPLES = "samples.zarr"
 _LOCK = "run.lock"
@@ -104,6 +104,8 @@ class Store:
                     f"'{folder}' holds another run: {_difference(old, plan, store._run, rows, chunk)}; "
                     "give another folder, or the same options to go on with it"
                 )
+            if not store.complete:
+                store.check_current()
             if not store.done:  # perhaps stopped while it was being made
                 try:
                     store._make_arrays(columns)
@@ -153,12 +155,26 @@ class Store:
             ) from error
         if not isinstance(run, dict) or run.get("format") != _FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a holdfast run")
-        if run.get("version") != _VERSION:
-            raise StoreError(f"'{folder}' was written in format {run.get('version')}; this holdfast reads format {_VERSION}")
+        if run.get("version") not in range(1, _VERSION + 1):
+            raise StoreError(
+                f"'{folder}' was written in format {run.get('version')}; this holdfast reads formats up to {_VERSION}"
+            )
         wrong = _wrong(run)
         if wrong:
             raise StoreError(f"'{file}' is damaged: its {wrong} is missing or wrong; start the run again in a new folder")
         return cls(folder, run)
+
+    def check_current(self) -> None:
+        """Refuse to add to rows that an earlier backend computed.
+
+        Raises:
+            StoreError: They are.
+        """
+        if self._run["version"] != _VERSION:
+            raise StoreError(
+                f"'{self.path}' was computed by an earlier holdfast, whose results differ in their last digits; it can be read, "
+                "but not resumed or merged: start the run again in a new folder"
+            )
 
     @contextmanager
     def writing(self) -> Iterator[None]:
