@@ -172,8 +172,8 @@ class Store:
         """
         if self._run["version"] != _VERSION:
             raise StoreError(
-                f"'{self.path}' was computed by an earlier holdfast, whose results differ in their last digits; it can be read, "
-                "but not resumed or merged: start the run again in a new folder"
+                f"'{self.path}' was computed by an earlier holdfast, whose results differ in their last digits; it can be "
+                "read, but not resumed or merged: start the run again in a new folder"
             )
 
     @contextmanager
