@@ -175,6 +175,8 @@ def changes(found: Sequence[Curves]) -> tuple[int, int]:
     every = crossing = 0
     for curve in (k for c in found for k in c.curves if not k.degenerate):
         ends = {end for s in curve.segments if s.kind == Kind.SINK for end in (s.first, s.last)}
+        if curve.closed and curve.segments[0].kind == curve.segments[-1].kind == Kind.SINK:
+            ends -= {curve.segments[0].first, curve.segments[-1].last}  # where tracing happened to begin nothing changes
         every += len(ends)
         crossing += len(ends & set(curve.hopf_points.tolist()))
     return every, crossing

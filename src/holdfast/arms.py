@@ -38,7 +38,7 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Ma
     """
     from holdfast.arm import mjcf, table, urdf
 
-    if not isinstance(spec, (str, PathLike)):
+    if not isinstance(spec, (str, PathLike)) or "\0" in str(spec):
         raise ArmError(f"the arm is {spec!r}; give a built-in name or the path of a file")
     spec = str(spec)
     ending = Path(spec).suffix.lower()

@@ -96,7 +96,7 @@ _ALIASES = {
 def _split(text: str, sign: str) -> list[str]:
     """Parts between the signs that stand outside of brackets."""
     parts, depth = [""], 0
-    for letter in text.strip().strip("'\""):
+    for letter in text.strip():
         depth += (letter == "[") - (letter == "]")
         if letter == sign and not depth:
             parts.append("")
@@ -108,7 +108,7 @@ def _split(text: str, sign: str) -> list[str]:
 def _alternatives(annotation: str) -> tuple[str, ...]:
     """``A | B[C | D]`` as its alternatives; none where one is not known, which then may be anything."""
     found: list[str] = []
-    for part in _split(annotation, "|"):
+    for part in _split(annotation.strip().strip("'\""), "|"):
         found += _split(_ALIASES[part], "|") if part in _ALIASES else [part]
     return tuple(found) if all(_head(kind) in (*_KINDS, *_CLASSES, "Literal") for kind in found) else ()
 

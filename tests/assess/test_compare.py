@@ -84,9 +84,9 @@ def test_what_differs_is_said(comparison, runs):
     text = " ".join(comparison.notes)
     assert "The tasks differ (pose, position)" in text
     assert "Only some candidates were optimised" in text
-    assert hf.compare(runs[:2], "ab").notes == []
+    assert hf.compare(runs[:2], ["a", "b"]).notes == []
     other = hf.assess(PANDA, CELL, hf.indices.relative_manipulability(PANDA, failures=[[1]]), poses=30, seed=2, restarts=5)
-    text = " ".join(hf.compare([runs[0], other], "ab").notes)
+    text = " ".join(hf.compare([runs[0], other], ["a", "b"]).notes)
     assert "a: each joint alone; b: panda_joint2" in text
     assert "Seeds" in text
     assert "restarts" in text

@@ -211,7 +211,7 @@ def test_around_refuses_a_wrong_configuration(pa10):
     ],
 )
 def test_a_bad_box_is_refused_by_name(arguments, word):
-    with pytest.raises(InputError, match=f"region: {word} "):
+    with pytest.raises(InputError, match=f"[.n]*: {word} "):
         Region.box(**arguments)
 
 

@@ -227,9 +227,9 @@ def test_sentences_about_given_angles(arm, region):
         ({"elbow": 0.0}, "no joint 'elbow'"),
         ({7: 0.0}, "joint index 7 is out of range"),
         ({"joint2": np.nan}, "'joint2' is nan"),
-        ({"joint2": "x"}, "'joint2' is 'x'"),
+        ({"joint2": "x"}, "lock_at is {'joint2': 'x'}"),
         ({"joint2": 0.1, 1: 0.1}, "'joint2' twice"),
-        (0.3, "must be angles by joint"),
+        (0.3, "must be a mapping"),
     ):
         with pytest.raises(hf.InputError, match=sentence):
             hf.assess(arm, region, poses=10, task="planar", lock_at=given)

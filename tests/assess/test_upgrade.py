@@ -10,6 +10,7 @@ from scipy.stats import binomtest
 
 import holdfast as hf
 import oracles
+from holdfast.assess.distribution import Distribution
 from holdfast.assess.region import builtin_region
 from holdfast.assess.upgrade import upgrades
 
@@ -80,7 +81,7 @@ def test_by_hand(pa10):
     made = dict(run._rows)
     made["by_failure"] = np.array([[9.0, 2.0, 3.0], [5.0, 1.0, 8.0], [1.0, 1.0, 2.0]])
     made["index"] = made["by_failure"].max(1)
-    distribution = hf.assess.__globals__["Distribution"].of(made["index"], "smaller")
+    distribution = Distribution.of(made["index"], "smaller")
     run = replace(run, distribution=distribution, _rows=made)
     found = {u.joint: u for u in run.upgrades(4.0)}
     a, b, c = arm.joint_names

@@ -271,7 +271,7 @@ def test_bad_lists_are_refused(rng):
         (np.zeros((2, 3)), None, "shape"),
         (np.zeros((2, 4, 4)), None, "no rotation"),
         (broken, None, "pose 2 holds NaN"),
-        ("abc", None, "array of numbers"),
+        ("abc", None, "poses is 'abc'; it must be numbers"),
         (good, [1, 2], r"shape \(2,\)"),
         (good, [1, -2, 1], "weight 2 is -2"),
         (good, [1, np.nan, 1], "weight 2 is nan"),

@@ -126,8 +126,8 @@ def test_degrees_leave_the_metres_of_a_sliding_joint_alone(ask):
     data = ask("index", "ur5-rail", "--q", "1.25 10 -80 90 -45 -90 30", "--degrees")
     assert data["q"].pop("rail") == 1.25
     np.testing.assert_allclose(list(data["q"].values()), np.radians([10, -80, 90, -45, -90, 30]))
-    plain = ask("index", "ur5-rail", "--q", "1.25 10 -80 90 -45 -90 30")
-    assert list(plain["q"].values()) == [1.25, 10, -80, 90, -45, -90, 30]
+    plain = ask("index", "ur5-rail", "--q", "1.25 0.1 -8 9 -4.5 -9 3")
+    assert list(plain["q"].values()) == [1.25, 0.1, -8, 9, -4.5, -9, 3]
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from holdfast.cli.options import read_objective
 from holdfast.indices import relative_manipulability
 
 HOME = "0 -45 0 -135 0 90 45"
+IN_RADIANS = "0 -0.8 0 -2.4 0 1.6 0.8"
 URDF = Path(hf.__file__).parent / "arm" / "data" / "xarm7.urdf"
 
 
@@ -207,10 +208,10 @@ def test_positions_need_no_orientation(ask):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--at", HOME], "give one of --minimise and --maximise"),
-        (["--at", HOME, "--minimise", "torque", "--maximise", "torque"], "give one of --minimise and --maximise"),
+        (["--at", IN_RADIANS], "give one of --minimise and --maximise"),
+        (["--at", IN_RADIANS, "--minimise", "torque", "--maximise", "torque"], "give one of --minimise and --maximise"),
         (["--minimise", "torque"], "give one of --pose"),
-        (["--minimise", "torque", "--at", HOME, "--pose", "1,0,0"], "give one of --pose"),
+        (["--minimise", "torque", "--at", IN_RADIANS, "--pose", "1,0,0"], "give one of --pose"),
         (["--minimise", "torque", "--at", "1 2"], "has 2 values per configuration"),
         (["--minimise", "torque", "--at", "1 2 3 4 5 6 nan"], "--at holds NaN"),
         (["--minimise", "torque", "--pose", "1,2"], "--pose has 2 numbers; give x,y,z,roll,pitch,yaw"),
@@ -222,10 +223,13 @@ def test_positions_need_no_orientation(ask):
             "no configuration of the pose: no solution was found",
         ),
         (["--minimise", "torque", "--poses", "nowhere.csv"], "--poses: 'nowhere.csv' cannot be read"),
-        (["--minimise", "weight", "--at", HOME], "objective 'weight' is not known"),
-        (["--minimise", "torque", "--at", HOME, "--starts", "0"], "starts is 0"),
-        (["--minimise", "torque", "--at", HOME, "--seed", "-1"], "--seed"),
-        (["--minimise", "torque", "--at", HOME, "--starts", "1", "--csv", "/nowhere/x.csv"], "cannot write configurations"),
+        (["--minimise", "weight", "--at", IN_RADIANS], "objective 'weight' is not known"),
+        (["--minimise", "torque", "--at", IN_RADIANS, "--starts", "0"], "starts is 0"),
+        (["--minimise", "torque", "--at", IN_RADIANS, "--seed", "-1"], "--seed"),
+        (
+            ["--minimise", "torque", "--at", IN_RADIANS, "--starts", "1", "--csv", "/nowhere/x.csv"],
+            "cannot write configurations",
+        ),
     ],
 )
 def test_bad_input_is_one_sentence(arguments, words, refused):

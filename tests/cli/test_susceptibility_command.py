@@ -13,6 +13,7 @@ from holdfast import arms
 from holdfast import susceptibility as sus
 
 HOME = "0 -45 0 -135 0 90 45"
+IN_RADIANS = "0 -0.8 0 -2.4 0 1.6 0.8"
 
 
 @pytest.mark.parametrize("name", list(sus.BY_NAME))
@@ -88,21 +89,21 @@ def test_weights_in_words_numbers_and_files(ask, tmp_path, rng):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["panda", "--q", HOME, "--measure", "speed"], "susceptibility 'speed' is not known"),
+        (["panda", "--q", IN_RADIANS, "--measure", "speed"], "susceptibility 'speed' is not known"),
         (["panda", "--q", "1 2 3"], "has 3 values per configuration"),
         (["panda", "--q", "1 2 x 4 5 6 7"], "--q: 'x' is not a number"),
         (["pa10-9dof", "--q", "0 0 0 0 0 0 0 0 0"], "it has no inertial data"),
-        (["panda", "--q", HOME, "--mount", "roof"], "--mount 'roof' is not known; use one of floor, wall, ceiling"),
-        (["panda", "--q", HOME, "--gravity", "0,0"], "gravity must be 3 finite numbers"),
-        (["panda", "--q", HOME, "--gravity", "0,0,g"], "--gravity: 'g' is not a number"),
-        (["panda", "--q", HOME, "--payload", "1,2"], "--payload has 2 numbers"),
-        (["panda", "--q", HOME, "--payload", "-1"], "mass is -1 kg"),
-        (["panda", "--q", HOME, "--weights", "heavy"], "--weights: 'heavy' is not a number"),
-        (["panda", "--q", HOME, "--weights", "1,2"], "weights have shape (2,)"),
-        (["panda", "--q", HOME, "--weights", "1,1,1,1,1,1,-1"], "not positive semidefinite"),
-        (["panda", "--q", HOME, "--weights", "nowhere.csv"], "cannot read nowhere.csv"),
+        (["panda", "--q", IN_RADIANS, "--mount", "roof"], "--mount 'roof' is not known; use one of floor, wall, ceiling"),
+        (["panda", "--q", IN_RADIANS, "--gravity", "0,0"], "gravity must be 3 finite numbers"),
+        (["panda", "--q", IN_RADIANS, "--gravity", "0,0,g"], "--gravity: 'g' is not a number"),
+        (["panda", "--q", IN_RADIANS, "--payload", "1,2"], "--payload has 2 numbers"),
+        (["panda", "--q", IN_RADIANS, "--payload", "-1"], "mass is -1 kg"),
+        (["panda", "--q", IN_RADIANS, "--weights", "heavy"], "--weights: 'heavy' is not a number"),
+        (["panda", "--q", IN_RADIANS, "--weights", "1,2"], "weights have shape (2,)"),
+        (["panda", "--q", IN_RADIANS, "--weights", "1,1,1,1,1,1,-1"], "not positive semidefinite"),
+        (["panda", "--q", IN_RADIANS, "--weights", "nowhere.csv"], "cannot read nowhere.csv"),
         (["planar-3r", "--q", "0 0 0", "--weights", "effort"], "no largest effort above 0"),
-        (["panda", "--q", HOME, "--measure", "swing-angle", "--weights", "effort"], "weights 'effort' are of torques"),
+        (["panda", "--q", IN_RADIANS, "--measure", "swing-angle", "--weights", "effort"], "weights 'effort' are of torques"),
     ],
 )
 def test_bad_input_is_one_sentence(arguments, words, refused):
@@ -118,4 +119,4 @@ def test_a_weights_file_that_is_no_table(refused, tmp_path):
         (b"\xff\xfe1", "is not text"),
     ):
         file.write_bytes(content)
-        assert words in refused("susceptibility", "panda", "--q", HOME, "--weights", file)
+        assert words in refused("susceptibility", "panda", "--q", IN_RADIANS, "--weights", file)

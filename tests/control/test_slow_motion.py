@@ -89,7 +89,7 @@ def test_bad_input():
         ((q, q, q, -1.0), "must be above 0"),
         ((q, q, q, np.nan), "must be above 0"),
         ((q, q, q, [1.0, 2.0]), r"bound has shape \(2,\)"),
-        ((q, q, q, "small"), "bound must be a number or 7 numbers"),
+        ((q, q, q, "small"), "bound is 'small'; it must be numbers"),
         ((broken, q, q, 1.0), "NaN or infinity at sample 1"),
         ((q[:0], q[:0], q[:0], 1.0), "no samples"),
         ((q, q[:2], q, 1.0), "has 2 rows"),

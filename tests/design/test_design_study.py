@@ -94,7 +94,7 @@ def test_the_report_shows_the_sweep(study, tmp_path):
         ("designs: 14", "designs: 0", "designs: 0 is wrong"),
         ("designs: 14, ", "", "designs: it is missing"),
         ("level: 0.8", "level: 1.5", "level: 1.5 is wrong"),
-        ("level: 0.8", "levl: 0.8", "the key 'levl' is not known; the keys here are arm, base, tip, vary, designs, "),
+        ("level: 0.8", "levl: 0.8", "the key 'levl' is not known; the keys here are arm, base, tip, hold, vary, designs, "),
         ("a1: [0.6, 1.4]", "b1: [0.6, 1.4]", "vary 'b1' is no parameter of an arm"),
         ("a1: [0.6, 1.4]", "a1: [1.4, 0.6]", "bounds of a1 are upside down"),
         ("a1: [0.6, 1.4]", "a1: 0.6", "a1 must have two bounds, as [0.2, 0.6] (m) or -90..90deg"),

@@ -78,7 +78,7 @@ def in_ring(motions, joint):
         ({"count": 0}, "count is 0"),
         ({"count": 3, "distance": (2, 1)}, "distance is 2 to 1 m"),
         ({"count": 3, "distance": (50, 60)}, "only 0 of"),
-        ({"count": 3, "reachable_after": "all"}, "'each' or a list of joints"),
+        ({"count": 3, "reachable_after": "all"}, "reachable_after is 'all'"),
         ({"count": 3, "reachable_after": ["elbow"]}, "elbow"),
         ({"count": 3, "reachable_after": [1], "restarts": 0}, "restarts is 0"),
     ],

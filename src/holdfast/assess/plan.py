@@ -262,9 +262,9 @@ class Plan:
                 direct["clearance"] = self.clearance(samples)
             return direct
         poses = self.region.poses(samples)
-        reach = solver(self.arm, self.index.task).solve(
-            poses, np.random.SeedSequence(self.seed, spawn_key=(1, number)), self.restarts, TOLERANCE
-        )
+        engine = solver(self.arm, self.index.task)
+        drawn = np.random.SeedSequence(self.seed, spawn_key=(1, number))
+        reach = engine.solve(poses, drawn, self.restarts, engine.within(TOLERANCE))
         ok = np.flatnonzero(reach.success)
         value, by_failure = np.full(count, np.nan), np.full((count, len(self.index.failures)), np.nan)
         worst, status = np.full(count, -1, dtype=np.int16), reach.status.copy()
@@ -283,7 +283,7 @@ class Plan:
         if self.optimise:
             others = np.random.SeedSequence(self.seed, spawn_key=(2, number))
             starts = default_starts(self.arm, self.index.task)
-            best = self._ascent().solve(poses, reach, others, starts, TOLERANCE)
+            best = self._ascent().solve(poses, reach, others, starts, engine.within(TOLERANCE))
             best_worst = np.full(count, -1, dtype=np.int16)
             good = np.flatnonzero(best.success)
             if good.size:

@@ -98,7 +98,8 @@ def store(name: str, body: bytes) -> None:
 
 def _trim(path: Path) -> None:
     """Remove what was not used for longest until the folder is small enough."""
-    files = [(f.stat(follow_symlinks=False), f.path) for f in os.scandir(path)]
+    with os.scandir(path) as entries:
+        files = [(f.stat(follow_symlinks=False), f.path) for f in entries]
     size = sum(found.st_size for found, _ in files)
     for found, name in sorted(files, key=lambda f: f[0].st_mtime):
         if size <= _LARGEST_FOLDER:

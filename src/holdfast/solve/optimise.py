@@ -141,16 +141,13 @@ class Ascent:
         self.objective, self.task, self.arm = objective, task, objective.arm
         self.clearance, self.margin = clearance, margin
         self.engine: InverseKinematics = solver(self.arm, task)
+        self._step = self._compiled(None) if self.arm.n > task.m else None
 
     @recalled
     def _compiled(self, clearance: Clearance | None) -> Kernel:
         inputs, step = ascent_step(self.objective, self.task, clearance, self.margin)
         measured = self.objective.measured
         return Kernel(f"ascent of {self.objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
-
-    @cached_property
-    def _step(self) -> Kernel | None:
-        return self._compiled(None) if self.arm.n > self.task.m else None
 
     @cached_property
     def _clear_step(self) -> Kernel | None:
