@@ -28,7 +28,7 @@ PACKAGES = (
     "numpy",
     "scipy",
     "casadi",
-    "heyoka",
+    "llvmlite",
     "jax",
     "numba",
     "pin",

@@ -24,7 +24,6 @@ WORKLOADS = (
     "w13_design",
     "w14_first_use",
     "spectral",
-    "start_up",
     "memory",
 )
 KEPT = ("agreement_closed_loop",)  # sections of programs that run_all.py does not run

@@ -1,4 +1,4 @@
-"""Other routes to the same numbers: numpy transforms, singular values, long doubles, Pinocchio. No CasADi, no heyoka.
+"""Other routes to the same numbers: numpy transforms, singular values, long doubles, Pinocchio. No CasADi, no compiled kernels.
 
 Functions take batches ``q (N, n)``. The Jacobian is the exact derivative of the product of transforms, not ``z x (p - p_k)``.
 """
