@@ -45,7 +45,7 @@ class Interval:
 
     @classmethod
     def of_share(cls, share: float, effective: float, confidence: float = 0.95) -> Interval:
-        """A share of weighted samples with the interval of ``effective`` equal ones; see :attr:`Sums.effective`."""
+        """A share of weighted samples with the interval of ``effective`` equal ones; see ``Sums.effective``."""
         return cls(share, *_ends(cls.of(share * effective, effective, confidence)), confidence)
 
     @classmethod
@@ -92,7 +92,7 @@ class Difference:
         The interval holds 0 wherever the test does not refuse it. It is no theorem that it covers: of 700 random cases for each
         of N = 5 to 30 (measured) nearly all cover 0.95 or more, and the worst, where the two nearly always differ, 0.91.
 
-        Source: Newcombe 1998, method 10, here with the exact limits of both shares (:meth:`Interval.of`) in place of Wilson's,
+        Source: Newcombe 1998, method 10, here with the exact limits of both shares (``Interval.of``) in place of Wilson's,
         with which the worst case covers 0.82; McNemar's exact test for the p value.
         """
         from scipy import stats
@@ -117,7 +117,7 @@ class Difference:
     def of_fractions(cls, differences: Array, confidence: float = 0.95) -> Difference:
         """Mean of independent differences (N,), one or more, between -1 and 1, with an interval that always covers.
 
-        See :meth:`Interval.of_fractions`; the p value is one over the capital of the gambler who bets against no difference,
+        See ``Interval.of_fractions``; the p value is one over the capital of the gambler who bets against no difference,
         so that 1 is common.
         """
         halves = (1 + differences) / 2

@@ -57,7 +57,7 @@ class Objective(ABC):
     unit: str = "1"
 
     @cached_property
-    def ascents(self) -> dict[object, Any]:
+    def _ascents(self) -> dict[object, Any]:
         """Compiled ascents of this objective, for :func:`holdfast.solve.optimise.objective_ascent`."""
         return {}
 

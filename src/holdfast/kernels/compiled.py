@@ -23,7 +23,7 @@ from holdfast.kernels.program import Program
 Array = NDArray[np.float64]
 
 AT_ONCE = 1500  # operations that level 1 compiles in less than a tenth of a second
-WIDE = 8000  # operations up to which level 1 handles two registers of rows; beyond, compiling them takes three times as long
+WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
 LONG = 40_000  # operations: nobody waits for level 1 of more
 WORTH = 500_000  # rows after which level 1 repays its compiling, whatever the size of the program
 
@@ -36,20 +36,27 @@ class Compiled:
 
     Attributes:
         level: Of the code in use.
+        lanes: Widths of columns are multiples of this.
     """
 
     def __init__(self, program: Program) -> None:
         self._program, self._rows = program, 0
+        self.lanes = self._lanes(1)
         best = self._stored(1)
         self.level = 1 if best or program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1" else 0
         self._code = best or self._make(self.level)
 
-    def __call__(self, inputs: Array, outputs: Array) -> None:
-        """Evaluate columns of contiguous ``inputs (n_in, W)`` into ``outputs (n_out, W)``; W a multiple of the lanes."""
-        width, code = inputs.shape[1], self._code  # it may be replaced meanwhile, and lives as long as somebody has it
-        code.call(inputs.ctypes.data, outputs.ctypes.data, width, width)
-        if not self.level:
-            self._count(width)
+    def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
+        """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes."""
+        places, width = (inputs.ctypes.data, outputs.ctypes.data), inputs.shape[1]
+
+        def call(kept: tuple[Array, Array] = (inputs, outputs)) -> None:
+            code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
+            code.call(*places, width, width)
+            if not self.level:
+                self._count(width)
+
+        return call
 
     @cached_property
     def one(self) -> llvm_backend.Code:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 import os
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.errors import InputError, KernelError
-from holdfast.kernels import casadi_backend, llvm_backend
+from holdfast.kernels import casadi_backend
 from holdfast.kernels.compiled import Compiled
 from holdfast.kernels.program import SX, Program
 from holdfast.kernels.threads import in_pool, pool, thread_count
@@ -68,17 +68,17 @@ class Kernel:
         self.program, self.name, self.backend = program, program.name, backend
         if self.backend not in BACKENDS:
             raise KernelError(f"backend '{self.backend}' is not known; use one of {', '.join(BACKENDS)}")
-        self.lanes = llvm_backend.host().machine.lanes if self.backend == "llvm" else 1
+        self._compiled = Compiled(program) if backend == "llvm" else None
+        self.lanes = 1 if self._compiled is None else self._compiled.lanes
         rows = _SCRATCH_BYTES // (8 * (self.program.n_in + self.program.n_out))
         self._chunk = max(self.lanes * 4, 1 << (max(rows, 1).bit_length() - 1))
-        self._compiled = Compiled(self.program) if self.backend == "llvm" else None
         self._scratch = threading.local()
         self._in_dims = [_squeeze(s) for s in self.program.input_shapes]
         self._out_dims = [_squeeze(s) for s in self.program.output_shapes]
 
     @property
     def made_of(self) -> str | None:
-        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled.recalled`."""
         return self.program.recipe
 
     def __call__(self, *inputs: ArrayLike) -> Any:
@@ -158,16 +158,19 @@ class Kernel:
         Raises:
             KernelError: Arrays of another shape, type or layout.
         """
+        self.bound(inputs, outputs)()
+
+    def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
+        """:meth:`evaluate_columns` of these arrays, to be called again and again: their contents may change."""
         if self._compiled is None:
-            casadi_backend.call(self.program.function, inputs, outputs)
-            return
+            return lambda: casadi_backend.call(self.program.function, inputs, outputs)
         for a, rows in ((inputs, self.program.n_in), (outputs, self.program.n_out)):
             if a.dtype.char != "d" or not a.flags.c_contiguous or a.shape != (rows, inputs.shape[1]) or a.shape[1] % self.lanes:
                 raise KernelError(
                     f"kernel '{self.name}': columns have shape {a.shape} and type {a.dtype}; they must be contiguous doubles "
                     f"of shape ({rows}, W), W a multiple of {self.lanes}"
                 )
-        self._compiled(inputs, outputs)
+        return self._compiled.bound(inputs, outputs)
 
     def single(self) -> Single:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""

@@ -88,7 +88,7 @@ class Loop:
 
     @property
     def made_of(self) -> str | None:
-        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled.recalled`."""
         return self.step.made_of
 
     def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> LoopResult:
@@ -123,13 +123,14 @@ class Loop:
             return
         columns = self._columns(batch.inputs(left))
         out = np.empty((size + 1, columns.shape[1]))
+        step = self.step.bound(columns, out)
         begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
         now, last = int(ahead), batch.most_steps  # steps taken where a residual is measured; when a row gives up
         while True:
-            self.step.evaluate_columns(columns, out)
+            step()
             residual = out[-1, : left.size]
             small = residual <= tolerance
-            if now < last and not small.any():  # a few rows may take many steps: nothing else is done for them
+            if now < last and not np.count_nonzero(small):  # a few rows may take many steps: nothing else is done for them
                 columns[:size] = out[:size]
                 now += 1
                 continue
@@ -154,6 +155,7 @@ class Loop:
                 columns = self._columns(columns[:, still])
                 left, begun, waiting = left[still], begun[still], waiting[still]
                 out = np.empty((size + 1, columns.shape[1]))
+                step = self.step.bound(columns, out)
             elif gone.size:
                 idle = np.flatnonzero(~waiting)  # they do what another row does, so that nobody needs to look at them
                 columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]

@@ -389,7 +389,7 @@ def objective_ascent(
     if own is not None and task is not None and not own.same_rows(task):
         raise TaskError(f"{objective.name} is defined for the task '{own.name}', not for '{task.name}'; make it for that task")
     chosen = own or task or as_task(objective.arm, "pose")
-    made: dict[object, Ascent] = objective.ascents
+    made: dict[object, Ascent] = objective._ascents
     key = (chosen.rows.tobytes(), chosen.frame, clearance, margin)
     if key not in made:
         made[key] = Ascent(objective, chosen, clearance, margin)
