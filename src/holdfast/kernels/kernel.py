@@ -208,7 +208,7 @@ class Kernel:
 
 
 class Single:
-    """A kernel for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the bits of :meth:`Kernel.rows`.
+    """A kernel for one row at a time: ``single(row)``, (n_in,) to a new (n_out,), with the bits of ``Kernel.rows``.
 
     Without any checks, and not for several threads at once. Everything is compiled when it is made.
 

@@ -21,7 +21,7 @@ def recalled(build: Callable[P, K]) -> Callable[P, K]:
     """A function or method that builds a kernel or a loop, called only where its result is not known from before.
 
     What it builds may depend on nothing but its arguments and the sources of holdfast. Where an argument has no digest
-    (:mod:`holdfast.kernels.recipe`), it is called as ever.
+    (``holdfast.kernels.recipe``), it is called as ever.
     """
 
     @wraps(build)
