@@ -10,6 +10,7 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_KILLS      of a program that writes records, 40
     HOLDFAST_FLIPS      single bits changed in a folder of records, 10000
     HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
+    HOLDFAST_FORKS      rounds of two child processes, forked while kernels are compiled and run, 500; an eighth as many spawned
     HOLDFAST_INPUTS     mutated input files of every kind, 40000
     HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
@@ -42,6 +43,7 @@ FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server
 OUTAGE = ("browser/test_session.py",)
 KILLED = ("teleop/test_records.py",)
 FLIPPED = ("cli/test_teleop_verify_command.py",)
+FORKED = ("kernels/test_kernel_levels.py",)
 COMPILED = ("arm", "test_kinematics.py")
 
 
@@ -69,6 +71,8 @@ def main() -> int:
     survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
     flips = option("FLIPS", "10000")
     seen, flips_s = _tests(FLIPPED, "changed_bit", "HOLDFAST_FLIPS", flips)
+    forks = option("FORKS", "500")
+    alive, forks_s = _tests(FORKED, "child_process", "HOLDFAST_FORKS", forks)
     inputs = fuzz_inputs.fuzz(int(option("INPUTS", "40000")), fuzz_inputs.SEED, os.cpu_count() or 1)
     compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
@@ -90,6 +94,7 @@ def main() -> int:
             f"{inputs.counts.total()} mutated input files",
             f"{len(inputs.failed)} failed, the longest took {inputs.slowest:.1f} s",
         ),
+        (f"{forks} rounds of forks", f"{'no deadlock' if alive else 'FAILED'} ({forks_s:.0f} s)"),
         ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
@@ -97,7 +102,7 @@ def main() -> int:
         print(f"  {name:<50} {value}")
     lost = figures.lost != 0 or figures.differing != 0 or attack.lost != 0
     slow = figures.p99 > MOST or attack.p99 > MOST_ATTACKED or attack.log > LOG
-    return int(lost or slow or bool(inputs.failed) or not (fuzzed and kept and survived and seen and compiled))
+    return int(lost or slow or bool(inputs.failed) or not (fuzzed and kept and survived and seen and alive and compiled))
 
 
 if __name__ == "__main__":

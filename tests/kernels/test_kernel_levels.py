@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import multiprocessing
+import os
 import threading
 
 import casadi as ca
@@ -13,6 +14,8 @@ import pytest
 from holdfast.kernels import Kernel, compiled, llvm_backend, pool, settle
 from holdfast.kernels.llvm_ir import LIBRARY, Machine
 from holdfast.kernels.program import Program
+
+ROUNDS = int(os.environ.get("HOLDFAST_FORKS", "8"))  # of two child processes
 
 
 def long_function(rounds=400):
@@ -149,7 +152,7 @@ def test_a_child_process_has_threads_and_a_compiler_of_its_own(method, fresh, th
     busy.start()
     try:
         context = multiprocessing.get_context(method)
-        for _ in range(8 if method == "fork" else 1):
+        for _ in range(ROUNDS if method == "fork" else max(ROUNDS // 8, 1)):
             with context.Pool(2) as workers:
                 assert workers.map_async(_in_a_child, [rows] * 2).get(timeout=120) == [expected] * 2
     finally:
