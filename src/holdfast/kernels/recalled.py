@@ -21,12 +21,13 @@ def recalled(build: Callable[P, K]) -> Callable[P, K]:
     """A function or method that builds a kernel or a loop, called only where its result is not known from before.
 
     What it builds may depend on nothing but its arguments and the sources of holdfast. Where an argument has no digest
-    (``holdfast.kernels.recipe``), it is called as ever.
+    (``holdfast.kernels.recipe``), and outside of holdfast, whose sources count, it is called as ever.
     """
 
     @wraps(build)
     def from_memory(*args: P.args, **kwargs: P.kwargs) -> K:
-        recipe = digest_of(build.__module__, build.__qualname__, args, kwargs) if default_backend() == "llvm" else None
+        ours = build.__module__.partition(".")[0] == "holdfast" and default_backend() == "llvm"
+        recipe = digest_of(build.__module__, build.__qualname__, args, kwargs) if ours else None
         if recipe is None:
             return build(*args, **kwargs)
         entry = cache.key(recipe, "facts")

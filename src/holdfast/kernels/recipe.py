@@ -31,8 +31,8 @@ class _Unknown(Exception):
 
 def digest_of(*parts: object) -> str | None:
     """SHA-256 of what something is made of; None if any part of it has no digest."""
-    h = hashlib.sha256(_sources().encode())
     try:
+        h = hashlib.sha256(_sources().encode())
         for part in parts:
             for piece in _pieces(part, ()):
                 h.update(len(piece).to_bytes(8, "little") + piece)
@@ -43,8 +43,10 @@ def digest_of(*parts: object) -> str | None:
 
 @functools.lru_cache(maxsize=1)
 def _sources() -> str:
-    h = hashlib.sha256(version("casadi").encode())
-    for path in sorted(_PACKAGE.rglob("*.py")):
+    h, files = hashlib.sha256(version("casadi").encode()), sorted(_PACKAGE.rglob("*.py"))
+    if not files:  # they lie in an archive
+        raise _Unknown
+    for path in files:
         h.update(str(path.relative_to(_PACKAGE)).encode())
         h.update(path.read_bytes())
     return h.hexdigest()

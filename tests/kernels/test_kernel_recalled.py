@@ -1,0 +1,128 @@
+"""Kernels found by what they are made of: only where nothing else can have changed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.indices import CustomIndex
+from holdfast.kernels import Kernel, Loop, recalled, recipe
+from holdfast.kernels.recipe import digest_of
+
+BUILT: list[str] = []
+
+
+def ours(function):
+    """As if it stood in holdfast, whose sources are part of every digest."""
+    function.__module__ = "holdfast.made_in_a_test"
+    return function
+
+
+@recalled
+@ours
+def line(slope, offset=0.0):
+    BUILT.append("line")
+    x = ca.SX.sym("x", 2)
+    return Kernel("line", [x], [slope * x + offset, x[0] * x[1]])
+
+
+@recalled
+@ours
+def root(times):
+    BUILT.append("root")
+    y, p = ca.SX.sym("y"), ca.SX.sym("p")
+    return Loop("root", y, [p], (y + p / y) / 2, ca.fabs(y * y - p), times=times)
+
+
+@pytest.fixture(autouse=True)
+def fresh(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
+    BUILT.clear()
+
+
+def test_the_second_call_builds_nothing_and_gives_the_same_bits(rng):
+    x = rng.normal(size=(40, 2))
+    first, again = line(3.0), line(3.0)
+    assert BUILT == ["line"]
+    for a, b in zip(first(x), again(x), strict=True):
+        np.testing.assert_array_equal(a, b)
+    assert repr(again) == repr(first)
+    assert BUILT == ["line"]
+    # Who asks for its operations has it built, and finds the same.
+    assert again.program.instructions == first.program.instructions
+    assert BUILT == ["line", "line"]
+
+
+def test_another_argument_is_another_kernel(rng):
+    x = rng.normal(size=2)
+    line(3.0)
+    np.testing.assert_allclose(line(np.nextafter(3.0, 4.0))(x)[0], 3 * x)
+    np.testing.assert_allclose(line(3.0, offset=1.0)(x)[0], 3 * x + 1)
+    assert BUILT == ["line"] * 3
+
+
+def test_loops_keep_what_the_caller_put_there():
+    root(7)
+    again = root(7)
+    assert BUILT == ["root"]
+    assert again.times == 7
+    found = again.run(np.ones((5, 1)), np.full((5, 1), 2.0), 1e-12, 50)
+    np.testing.assert_allclose(found.state[:, 0], np.sqrt(2), rtol=1e-15)
+
+
+def test_the_machine_of_casadi_always_builds(monkeypatch):
+    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
+    line(3.0)
+    line(3.0)
+    assert BUILT == ["line", "line"]
+
+
+def test_a_function_of_somebody_else_is_always_called():
+    @recalled
+    def foreign():
+        BUILT.append("foreign")
+        x = ca.SX.sym("x")
+        return Kernel("foreign", [x], [x])
+
+    foreign()
+    foreign()
+    assert BUILT == ["foreign", "foreign"]
+
+
+def test_changed_sources_are_another_recipe(monkeypatch):
+    line(3.0)
+    monkeypatch.setattr(recipe, "_sources", lambda: "other")
+    line(3.0)
+    assert BUILT == ["line", "line"]
+
+
+def test_equal_things_have_equal_digests_and_others_others(rng):
+    arm, other = (oracles.random_arm(np.random.default_rng(3), types="RRRR", limits=limits) for limits in (2.0, 2.1))
+    same = oracles.random_arm(np.random.default_rng(3), types="RRRR", limits=2.0)
+    assert digest_of(arm) == digest_of(same) != digest_of(other)
+    a, b = (hf.indices.relative_manipulability(x, "position") for x in (arm, same))
+    a(rng.uniform(-1, 1, (3, 4)))  # what an object keeps at hand does not count
+    assert digest_of(a) == digest_of(b) != digest_of(hf.indices.manipulability(same, "position"))
+    assert digest_of(1.0) != digest_of(1)
+    assert digest_of((1, (2,))) != digest_of((1, 2))
+    assert digest_of("ab", "c") != digest_of("a", "bc")
+    assert digest_of(np.zeros(4)) != digest_of(np.zeros((2, 2)))
+    assert digest_of(0.0) != digest_of(-0.0)
+
+
+@dataclass(frozen=True)
+class Mine:
+    value: float
+
+
+def test_what_is_somebody_elses_has_no_digest(mixed5):
+    """Its code may change where nobody looks."""
+    holds_itself: list[object] = []
+    holds_itself.append(holds_itself)
+    for thing in (Mine(1.0), lambda x: x, CustomIndex(ca.sumsqr, mixed5, "position"), ca.SX.sym("x"), {1, 2}, holds_itself):
+        assert digest_of(thing) is None
