@@ -16,6 +16,7 @@ from holdfast.studies import template
 from holdfast.teleop import protocol
 from holdfast.teleop.serve import texts
 from holdfast.whole_file import replaced, writing
+from holdfast.written import ArmSpec
 
 
 @contextmanager
@@ -85,7 +86,7 @@ def arm():
 
 WRITERS = {
     "waypoints": lambda arm, to: write_waypoints(arm, np.zeros((20, arm.n)), to),
-    "study file": lambda arm, to: template.write(to, ["planar-3r"], 10, 5, 0),
+    "study file": lambda arm, to: template.write(to, [ArmSpec("planar-3r")], 10, 5, 0),
     "texts": lambda arm, to: texts.copy(to),
     "protocol": lambda arm, to: protocol.read().write(to),
     "figure": lambda arm, to: save_png(_figure(), to),
