@@ -178,12 +178,19 @@ class Plan:
             StoreError: It is not the plan of an assessment.
         """
         try:
-            return cls.from_dict(store.plan, poses)
+            plan = cls.from_dict(store.plan, poses)
         except HoldfastError as error:
             raise StoreError(f"'{store.path}' is damaged: {error}; start the run again in a new folder") from error
         except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
             reason = f"lacks {error}" if isinstance(error, KeyError) else f"cannot be read ({reprlib.repr(str(error))})"
             raise StoreError(f"'{store.path}' is damaged: its plan {reason}; start the run again in a new folder") from error
+        wanted = {c.name: c.dims for c in plan.columns()}
+        for c in store.columns:
+            if c.dims != wanted.get(c.name, c.dims):
+                raise StoreError(
+                    f"'{store.path}' is damaged: its column '{c.name}' does not fit its plan; run it again in a new folder"
+                )
+        return plan
 
     def columns(self) -> list[Column]:
         """What each row holds."""
