@@ -58,6 +58,12 @@ export class Connection {
     this.flush();
   }
 
+  /** Nothing is sent any more. */
+  close(): void {
+    this.closed = true;
+    this.leave();
+  }
+
   private connect(): void {
     const socket = new WebSocket(this.address);
     this.socket = socket;
@@ -165,8 +171,7 @@ export class Connection {
   }
 
   private end(reason: string | null): void {
-    this.closed = true;
-    this.leave();
+    this.close();
     this.listener.over(reason);
   }
 

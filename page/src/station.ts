@@ -81,7 +81,11 @@ export class Station {
       acknowledged: () => this.acknowledged(),
       over: (reason) => this.stop(reason),
     });
-    window.addEventListener("pagehide", () => this.keep());
+    window.addEventListener("pagehide", () => {
+      this.keep();
+      // What is sent from now on would not be kept, and its number would be given again.
+      this.connection.close();
+    });
     // A page that the browser had put aside has lost its connection and its trial: begin anew.
     window.addEventListener("pageshow", (event) => event.persisted && location.reload());
   }

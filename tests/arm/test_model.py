@@ -69,7 +69,7 @@ BAD: list[tuple[Any, str]] = [
     (lambda: Joint("j", "revolute", np.diag([1, 1, 1, 2]), AXIS), "origin of joint 'j': its last row is"),
     (lambda: Joint("j", "revolute", np.full((4, 4), np.nan), AXIS), "must be a 4x4 array of finite numbers"),
     (lambda: Joint("j", "revolute", np.eye(4), np.zeros(3)), "axis of joint 'j' is"),
-    (lambda: Joint("j", "revolute", np.eye(4), np.ones(2)), "it must be 3 finite numbers, not all 0"),
+    (lambda: Joint("j", "revolute", np.eye(4), np.ones(2)), "it must be 3 finite numbers below 1e12, not all 0"),
     (lambda: Joint("j", "revolute", np.eye(4), np.array([np.nan, 0, 1])), "axis of joint 'j' is"),
     (
         lambda: Joint("j", "revolute", np.eye(4), AXIS, 1, -1),

@@ -16,6 +16,7 @@ from holdfast.kept import cached_property
 
 Array = NDArray[np.float64]
 
+_FARTHEST = 1e12  # m; beyond, squares overflow
 _SAME = 1e-12  # m and rad: poses closer than this are one pose
 _SMOOTH = 1e-9  # relative jump of the twist below which a corner is none
 
@@ -303,6 +304,8 @@ def _poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:
     for k, value in enumerate(given):
         if value.shape not in ((3,), (4, 4)) or not np.isfinite(value).all():
             raise InputError(f"pose {k} of the path has shape {value.shape}; it must be (4, 4) or (3,), finite numbers")
+        if np.abs(value).max() > _FARTHEST:
+            raise InputError(f"pose {k} of the path holds {np.abs(value).max():.3g}; numbers must be at most {_FARTHEST:g}")
         whole[k] = value.shape == (4, 4)
         if whole[k]:
             out[k] = check_poses(value)[0]
