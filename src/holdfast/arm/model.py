@@ -60,7 +60,7 @@ class Joint:
             raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
         object.__setattr__(self, "origin", transform(self.origin, f"origin of joint '{self.name}'"))
         axis = _numbers(self.axis, f"axis of joint '{self.name}'")
-        length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < 1e12 else 0.0
+        length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < _MOST else 0.0
         if not (np.isfinite(length) and length > 1e-9):
             raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers below 1e12, not all 0")
         # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.

@@ -43,8 +43,10 @@ class Compiled:
         self._program, self._rows = program, 0
         self.lanes = self._lanes(1)
         best = self._stored(1)
-        self.level = 1 if best or program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1" else 0
-        self._code = best or self._make(self.level)
+        if best is None and (program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1"):
+            best = self._make(1)
+        self.level = 0 if best is None else 1
+        self._code = best or self._stored(0) or self._make(0)
 
     def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
         """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes."""
@@ -61,7 +63,8 @@ class Compiled:
     @cached_property
     def one(self) -> llvm_backend.Code:
         """The code for a single row: for loops that control. The same bits again."""
-        return self._stored(1, 1) or self._make(int(self._program.size <= LONG), 1)
+        level = int(self._program.size <= LONG)
+        return self._stored(level, 1) or self._make(level, 1)
 
     # ---- levels ------------------------------------------------------------------------------------------------
 
@@ -72,7 +75,7 @@ class Compiled:
             _in_background(self._improve)
 
     def _improve(self) -> None:
-        self._code, self.level = self._make(1, aside=True), 1
+        self._code, self.level = self._stored(1) or self._make(1, aside=True), 1
 
     def _lanes(self, level: int) -> int:
         lanes = llvm_backend.host().machine.lanes
@@ -88,12 +91,9 @@ class Compiled:
     def _make(self, level: int, lanes: int | None = None, aside: bool = False) -> llvm_backend.Code:
         lanes = lanes or self._lanes(level)
         program, machine = self._program, Machine(lanes, llvm_backend.host().machine.fused)
-        name = self._key(level, lanes)
-        data = cache.load(name)
-        if data is None:
-            with notice.long(f"compiling '{program.name}'", 0 if aside else program.size * llvm_backend.COMPILING[level]):
-                data = llvm_backend.compile_program(program, level, machine)
-            cache.store(name, data)
+        with notice.long(f"compiling '{program.name}'", 0 if aside else program.size * llvm_backend.COMPILING[level]):
+            data = llvm_backend.compile_program(program, level, machine)
+        cache.store(self._key(level, lanes), data)
         return llvm_backend.Code(data)
 
 

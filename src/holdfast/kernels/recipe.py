@@ -68,7 +68,8 @@ def _pieces(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         _ours(x)
         yield f"{x.__module__}.{x.__qualname__}".encode()
     elif isinstance(x, FunctionType):
-        if x.__closure__ or "<" in x.__qualname__ or x.__module__.partition(".")[0] != "holdfast":
+        _ours(x)
+        if x.__closure__:
             raise _Unknown
         yield f"{x.__module__}.{x.__qualname__}".encode()
     elif isinstance(x, Enum):
@@ -96,7 +97,7 @@ def _several(items: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _pieces(item, inside)
 
 
-def _ours(kind: type) -> None:
+def _ours(kind: type | FunctionType) -> None:
     if kind.__module__.partition(".")[0] != "holdfast" or "<" in kind.__qualname__:
         raise _Unknown
 
