@@ -11,8 +11,8 @@ import holdfast as hf
 import javascript as browser
 import oracles
 from holdfast.arm.task import as_task
-from holdfast.control.laws import BY_NAME
 from holdfast.errors import TaskError
+from holdfast.registry import LAWS
 from holdfast.teleop import protocol
 from holdfast.teleop.plant import Plant
 from holdfast.teleop.point_task import Scenario
@@ -55,7 +55,7 @@ to+=m;
 def every_law(arm, rows, substeps, rng):
     """The paper's experiment with another arm, and a scenario for each registered law."""
     options = {"weighted": {"weights": rng.uniform(0.5, 2, arm.n).tolist()}, "damped": {"damping": 0.1}}
-    scenarios = tuple(Scenario(k + 1, name, False, options.get(name, {})) for k, name in enumerate(BY_NAME))
+    scenarios = tuple(Scenario(k + 1, name, False, options.get(name, {})) for k, name in enumerate(LAWS))
     return dataclasses.replace(protocol.read(), arm=arm, rows=as_task(arm, rows), scenarios=scenarios, substeps=substeps)
 
 

@@ -71,7 +71,7 @@ def _evaluate(measure: Index, q: NDArray[np.float64]) -> dict[str, Any]:
     names = measure.failure_names
     return {
         **measure.arm.entry(),
-        "index": measure.slug,
+        "index": measure.label,
         "task": measure.task.name,
         "characteristic_length_m": measure.task.length,
         "unit": measure.unit,

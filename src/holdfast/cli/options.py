@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 
 from holdfast import reading
 from holdfast.errors import InputError
+from holdfast.grammar import is_number
+from holdfast.registry import INDICES, SUSCEPTIBILITIES, unknown
 from holdfast.written import check_unit_of_joints as check_unit_of_joints
 from holdfast.written import check_unit_of_places as check_unit_of_places
 from holdfast.written import default_task as default_task
 from holdfast.written import each_arm as each_arm
-from holdfast.written import is_number, read_hold
 from holdfast.written import read_failures as read_failures
+from holdfast.written import read_hold
 from holdfast.written import read_joint as read_joint
 from holdfast.written import read_numbers as read_numbers
 from holdfast.written import read_task as read_task
@@ -63,10 +65,11 @@ IndexOption = Annotated[
     str,
     typer.Option(
         "--index",
-        help="relative-manipulability, manipulability, mean-singular-value, geometric-mean-singular-value, "
-        "minimum-singular-value or condition-number.",
+        help=f"{INDICES.usage}.",
     ),
 ]
+OBJECTIVES = f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:0,1,0, torque:joint2 for one joint \
+alone), or an index: {', '.join(e.usage for e in INDICES.values())}"
 PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 BasesOption = Annotated[
     list[str] | None,
@@ -200,8 +203,7 @@ def read_weights(option: str, text: str) -> Any:
 def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Objective:
     """--minimise or --maximise as the library takes it: ``0.5*torque:effort + 0.1*acceleration``.
 
-    A summand is the name of an index or a susceptibility; after a colon follow the weights of a susceptibility, or the one
-    joint that counts.
+    A summand is the label of an index or a susceptibility; of this, after the colon may also be the one joint that counts.
     """
     from holdfast.indices import Opposite, WeightedSum
 
@@ -230,18 +232,15 @@ _SUMMAND = re.compile(
 
 
 def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task) -> Objective:
-    from holdfast import indices
-    from holdfast.indices import susceptibility
-
-    if name in indices.BY_NAME:
-        if weights is not None:
-            raise InputError(f"{option}: {name} takes no weights, got '{weights}'; only {_listed(susceptibility.BY_NAME)} do")
-        return indices.by_name(name, arm, task)
-    if name not in susceptibility.BY_NAME:
-        raise InputError(
-            f"{option}: objective '{name}' is not known; use one of {', '.join([*susceptibility.BY_NAME, *indices.BY_NAME])}"
-        )
-    return susceptibility.by_name(name, arm, None if weights is None else _joint_weights(arm, option, name, weights))
+    found: Objective
+    if name in SUSCEPTIBILITIES:
+        given = {} if weights is None else {"weights": _joint_weights(arm, option, name, weights)}
+        found = SUSCEPTIBILITIES.make(name, arm, option=option, **given)
+    elif name in INDICES:
+        found = INDICES.make(name if weights is None else f"{name}:{weights}", arm, option=option, task=task)
+    else:
+        raise InputError(f"{option}: {unknown('objective', name, SUSCEPTIBILITIES, INDICES)}")
+    return found
 
 
 def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
@@ -264,11 +263,6 @@ def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
             "alone as joint2"
         )
     return numbers
-
-
-def _listed(names: Iterable[str]) -> str:
-    *most, last = names
-    return f"{', '.join(most)} and {last}"
 
 
 def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:

@@ -1,20 +1,19 @@
 """How to move: control laws that do not know of a failure, and redundancy resolution that serves an objective before one."""
 
 from holdfast.control.deviation import Deviations
-from holdfast.control.failure_tolerant import FailureTolerant
+from holdfast.control.failure_tolerant import FailureTolerant, failure_tolerant
 from holdfast.control.follow import METHODS, follow
-from holdfast.control.inverses import Damped, Pseudoinverse, Weighted
-from holdfast.control.law import Law
-from holdfast.control.laws import BY_NAME, by_name, damped, failure_tolerant, pseudoinverse, weighted
+from holdfast.control.inverses import Damped, Pseudoinverse, Weighted, damped, pseudoinverse, weighted
+from holdfast.control.law import Law, by_name
 from holdfast.control.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.control.resolution import Rates, Resolution
 from holdfast.control.slow_motion import SlowMotion, slow_enough
 from holdfast.control.step import Step
 from holdfast.control.trade_off import TradeOff, trade_off
 from holdfast.control.trajectory import Event, Trajectory
+from holdfast.control.transpose import JacobianTranspose, jacobian_transpose
 
 __all__ = [
-    "BY_NAME",
     "METHODS",
     "AugmentedJacobian",
     "Damped",
@@ -23,6 +22,7 @@ __all__ = [
     "ExtendedJacobian",
     "FailureTolerant",
     "GradientProjection",
+    "JacobianTranspose",
     "Law",
     "Pseudoinverse",
     "Rates",
@@ -36,6 +36,7 @@ __all__ = [
     "damped",
     "failure_tolerant",
     "follow",
+    "jacobian_transpose",
     "pseudoinverse",
     "slow_enough",
     "trade_off",
