@@ -54,8 +54,8 @@ to+=m;
 
 def every_law(arm, rows, substeps, rng):
     """The paper's experiment with another arm, and a scenario for each registered law."""
-    options = {"weighted": {"weights": rng.uniform(0.5, 2, arm.n).tolist()}, "damped": {"damping": 0.1}}
-    scenarios = tuple(Scenario(k + 1, name, False, options.get(name, {})) for k, name in enumerate(LAWS))
+    named = [LAWS.read(label) for label in LAWS.labels(arm, rows)]
+    scenarios = tuple(Scenario(k + 1, law.name, False, options) for k, (law, options) in enumerate(named))
     return dataclasses.replace(protocol.read(), arm=arm, rows=as_task(arm, rows), scenarios=scenarios, substeps=substeps)
 
 
