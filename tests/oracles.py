@@ -272,8 +272,12 @@ def singular_values(j: np.ndarray) -> np.ndarray:
 def directional_velocity(kept: np.ndarray, whole: np.ndarray, of: hf.indices.Index) -> np.ndarray:
     """The size t of the task velocity ``t u`` whose joint rates of least norm have norm 1; 0 where u cannot be had."""
     direction = np.asarray(of.settings["direction"], dtype=float)
-    u = of.task.rows[:, :3] @ direction / np.linalg.norm(direction)
-    u = u / np.where(np.abs(of.task.rows[:, :3]).max(axis=1) > 0, of.task.length, 1.0)
+    rows = of.task.rows
+    if of.task.name.startswith("planar"):  # the axes in the plane are those of :func:`task_jacobian`
+        rows = np.zeros((whole.shape[-2], 6))
+        rows[:2, :3] = null_space(plane(of.arm)[None]).T
+    u = rows[:, :3] @ direction / np.linalg.norm(direction)
+    u = u / np.where(np.abs(rows[:, :3]).max(axis=1) > 0, of.task.length, 1.0)
     rates = np.linalg.pinv(kept) @ u
     had = np.linalg.norm(np.einsum("nij,nj->ni", kept, rates) - u, axis=1) < 1e-6 * np.linalg.norm(u)
     return np.where(had, 1 / np.linalg.norm(rates, axis=1), 0.0)

@@ -1,7 +1,7 @@
 """What can be named: the indices, control laws and susceptibilities, with their parameters. One registry for each kind.
 
-Registered is what a package exports and :func:`constructor` marks; nothing else lists it. An entry is read from the text of its
-constructor, so that help, menus and error messages can be written without importing what computes.
+Registered is what the stub of a package exports and :func:`constructor` marks; nothing else lists it. An entry is read from
+the text of its constructor, so that help, menus and error messages can be written without importing what computes.
 """
 
 from __future__ import annotations
@@ -191,14 +191,12 @@ class Registry(Mapping[str, Entry]):
 
     @cached_property
     def _entries(self) -> dict[str, Entry]:
-        found = {}
-        for node in ast.parse(_text(f"{self._package.replace('.', '/')}/__init__.py")).body:
+        offered: dict[str, set[str]] = {}
+        for node in ast.parse(_text(f"{self._package.replace('.', '/')}/__init__.pyi")).body:
             if isinstance(node, ast.ImportFrom) and node.module:
-                exported = {a.name for a in node.names}
-                for entry in _constructors(self.kind, node.module):
-                    if entry.function in exported:
-                        found[entry.name] = entry
-        return found
+                offered.setdefault(node.module, set()).update(a.name for a in node.names)
+        known = (entry for module, names in offered.items() for entry in _constructors(self.kind, module, names))
+        return {entry.name: entry for entry in known}
 
     def __getitem__(self, name: str) -> Entry:
         return self._entries[name]
@@ -298,7 +296,7 @@ def _text(path: str) -> str:
     return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
-def _constructors(kind: str, module: str) -> Iterator[Entry]:
+def _constructors(kind: str, module: str, offered: set[str]) -> Iterator[Entry]:
     text = _text(module.removeprefix("holdfast.").replace(".", "/") + ".py")
     if "\n@constructor(" not in text:
         return
@@ -306,7 +304,7 @@ def _constructors(kind: str, module: str) -> Iterator[Entry]:
     aliases = {ast.unparse(node.targets[0]): node.value for node in body if isinstance(node, ast.Assign)}
     for node in body:
         marks = [d for d in getattr(node, "decorator_list", []) if ast.unparse(d).startswith("constructor(")]
-        if isinstance(node, ast.FunctionDef) and marks:
+        if isinstance(node, ast.FunctionDef) and marks and node.name in offered:
             mark = marks[0]
             assert isinstance(mark, ast.Call)
             facts = dict(zip(("formula",), mark.args, strict=False)) | {k.arg: k.value for k in mark.keywords if k.arg}

@@ -19,6 +19,7 @@ from holdfast.kernels import SX
 from holdfast.linalg import Vector, dot
 from holdfast.registry import Parameter, constructor
 
+Array = NDArray[np.float64]
 TaskSpec = str | Task | Sequence[str]
 _DEPENDENT = 1e-24  # square of the sine of an angle that is rounding noise
 
@@ -61,14 +62,12 @@ class DirectionalVelocity(FormulaIndex):
         shown = ", ".join(f"{x:g}" for x in u)
         super().__init__(f"directional velocity along {shown}", arm, task, failures, length)
         self.direction = u
-        twist = np.concatenate([u / np.linalg.norm(u), np.zeros(3)])
-        rows = self.task.rows
-        if np.linalg.norm(twist @ rows.T @ np.linalg.pinv(rows).T - twist) > 1e-9:
+        if not _prescribes(self.task, u):
             raise TaskError(
                 f"task '{self.task.name}' does not prescribe the direction {shown}; give one in which its "
                 "rows point, or a task with more rows"
             )
-        self._along = self.task.scale(self.task.length) @ rows @ twist
+        self._along = self.task.scale(self.task.length) @ self.task.rows[:, :3] @ (u / np.linalg.norm(u))
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -101,11 +100,18 @@ def _rest(row: Vector, basis: list[Vector]) -> tuple[Vector, SX]:
     return row, ca.if_else(square > _DEPENDENT * whole, square, 0.0)
 
 
-def _prescribed(arm: Arm, task: TaskSpec) -> NDArray[np.float64]:
-    """The first direction that a task prescribes."""
-    linear = as_task(arm, task).rows[:, :3]
-    found: NDArray[np.float64] = next((row for row in linear if row.any()), np.eye(3)[2])
-    return found
+def _prescribes(task: Task, direction: Array) -> bool:
+    """Whether a velocity along a direction, without rotation, is one that the rows of a task can tell from all others."""
+    twist = np.concatenate([direction, np.zeros(3)])
+    return bool(np.linalg.norm(np.linalg.pinv(task.rows) @ task.rows @ twist - twist) < 1e-9 * np.linalg.norm(direction))
+
+
+def _prescribed(arm: Arm, task: TaskSpec) -> Array:
+    """A direction that a task prescribes: an axis if one is."""
+    made = as_task(arm, task)
+    still = made.rows.T @ np.linalg.svd(made.rows[:, 3:].T)[2][-1]  # of all combinations of rows the one that turns least
+    candidates: list[Array] = [*np.eye(3), *made.rows[:, :3], still[:3]]
+    return next((u for u in candidates if u.any() and _prescribes(made, u)), candidates[0])
 
 
 @constructor("1 / √( uᵀ (<sup>S</sup>J <sup>S</sup>Jᵀ)<sup>−1</sup> u )")

@@ -8,28 +8,6 @@ the workspace, so that every term is 0 to 1).
 Source: English and Maciejewski 1998.
 """
 
-from holdfast.indices.susceptibility.formulas import Formula
-from holdfast.indices.susceptibility.measure import (
-    Evaluation,
-    JointStatus,
-    Susceptibility,
-    Together,
-    acceleration,
-    by_name,
-    swing_angle,
-    torque,
-)
-from holdfast.indices.susceptibility.weights import largest_static_torque
+from holdfast._lazy import offer
 
-__all__ = [
-    "Evaluation",
-    "Formula",
-    "JointStatus",
-    "Susceptibility",
-    "Together",
-    "acceleration",
-    "by_name",
-    "largest_static_torque",
-    "swing_angle",
-    "torque",
-]
+offer(__name__)
