@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.linalg import null_space
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
@@ -230,10 +229,11 @@ def jacobian_slope(arm: hf.Arm, j: np.ndarray) -> np.ndarray:
 
 
 def plane(arm: hf.Arm) -> np.ndarray:
-    """Normal of a planar arm's plane: the null space of the linear velocities it can have (sign open)."""
+    """Normal of a planar arm's plane: the null space of the linear velocities it can have, its largest entry above 0."""
     q = np.random.default_rng(0).uniform(-1, 1, (8, arm.n))
     velocities = np.concatenate(list(jacobian(arm, q)[:, :3].transpose(0, 2, 1)))
-    return np.linalg.svd(velocities)[2][-1]
+    normal = np.linalg.svd(velocities)[2][-1]
+    return normal * np.sign(normal[np.argmax(np.abs(normal))])
 
 
 def task_jacobian(arm: hf.Arm, q: np.ndarray, task, frame: str = "base", length: float = 1.0) -> np.ndarray:
@@ -245,7 +245,9 @@ def task_jacobian(arm: hf.Arm, q: np.ndarray, task, frame: str = "base", length:
     j = np.concatenate([j[:, :3] / np.asarray(length, q.dtype), j[:, 3:]], axis=1)
     if task in ("planar", "planar-pose"):
         normal = plane(arm)
-        across = null_space(normal[None]).T.astype(q.dtype)
+        first = np.eye(3)[np.argmin(np.abs(normal))]  # the axes in the plane, as the task has them
+        first = (first - normal * (normal @ first)) / np.linalg.norm(first - normal * (normal @ first))
+        across = np.array([first, np.cross(normal, first)]).astype(q.dtype)
         flat = across @ j[:, :3]
         return flat if task == "planar" else np.concatenate([flat, (normal @ j[:, 3:])[:, None]], axis=1)
     if isinstance(task, str):
@@ -273,9 +275,6 @@ def directional_velocity(kept: np.ndarray, whole: np.ndarray, of: hf.indices.Ind
     """The size t of the task velocity ``t u`` whose joint rates of least norm have norm 1; 0 where u cannot be had."""
     direction = np.asarray(of.settings["direction"], dtype=float)
     rows = of.task.rows
-    if of.task.name.startswith("planar"):  # the axes in the plane are those of :func:`task_jacobian`
-        rows = np.zeros((whole.shape[-2], 6))
-        rows[:2, :3] = null_space(plane(of.arm)[None]).T
     u = rows[:, :3] @ direction / np.linalg.norm(direction)
     u = u / np.where(np.abs(rows[:, :3]).max(axis=1) > 0, of.task.length, 1.0)
     rates = np.linalg.pinv(kept) @ u

@@ -69,7 +69,7 @@ class Parameter:
         found = grammar.value(text)
         if self.kind in ("float", "int"):
             if isinstance(found, tuple):
-                raise InputError(f"{what} has {len(found)} numbers, {text}; give one")
+                raise InputError(f"{what} has {len(found)} numbers for {self.key}; give one")
             if isinstance(found, str):
                 raise InputError(f"{what}: '{text}' is not a number; give {self.describe()}")
             return int(found) if self.kind == "int" and found == int(found) else found
@@ -187,12 +187,12 @@ class Registry(Mapping[str, Entry]):
     """
 
     def __init__(self, kind: str, package: str, error: type[HoldfastError]) -> None:
-        self.kind, self._package, self._error = kind, package, error
+        self.kind, self.package, self._error = kind, f"holdfast.{package}", error
 
     @cached_property
     def _entries(self) -> dict[str, Entry]:
         offered: dict[str, set[str]] = {}
-        for node in ast.parse(_text(f"{self._package.replace('.', '/')}/__init__.pyi")).body:
+        for node in ast.parse(_text(f"{self.package.partition('.')[2].replace('.', '/')}/__init__.pyi")).body:
             if isinstance(node, ast.ImportFrom) and node.module:
                 offered.setdefault(node.module, set()).update(a.name for a in node.names)
         known = (entry for module, names in offered.items() for entry in _constructors(self.kind, module, names))
