@@ -15,7 +15,8 @@ import pytest
 
 import holdfast
 
-PACKAGES = ["holdfast", "holdfast.assess", "holdfast.converge", "holdfast.report", "holdfast.simulate"]
+OFFERING = ("assess", "control", "converge", "report", "simulate", "solve")
+PACKAGES = ["holdfast", *(f"holdfast.{name}" for name in OFFERING)]
 MODULES = {"arms", "control", "indices", "paths", "susceptibility"}  # the public names that are modules
 EXTRAS = ("teleop", "studio", "study.cluster", "simulate.mujoco", "arm.mjcf")  # need, or may need, what is not installed
 

@@ -18,7 +18,7 @@ def offer(package: str, names: Mapping[str, str]) -> None:
 
     Args:
         package: Its ``__name__``; ``__all__`` says what it offers.
-        names: Of each module, relative to the package, the names in it, separated by spaces.
+        names: Of each module, relative to the package (``.arm.poses`` is beside it), the names in it, separated by spaces.
     """
     module = sys.modules[package]
     module.__dict__["_homes"] = {name: home for home, several in names.items() for name in several.split()}
@@ -30,7 +30,7 @@ class _OnDemand(ModuleType):
 
     def __getattr__(self, name: str) -> Any:
         if name in self._homes:
-            value = getattr(import_module(f"{self.__name__}.{self._homes[name]}"), name)
+            value = getattr(import_module(f".{self._homes[name]}", self.__name__), name)
         elif not name.startswith("_") and find_spec(f"{self.__name__}.{name}") is not None:
             value = import_module(f"{self.__name__}.{name}")
         else:

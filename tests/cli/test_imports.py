@@ -33,7 +33,11 @@ LEAN = [
     (["simulate", "--help"], EVERYTHING | {"casadi"}),
     (["--version"], EVERYTHING | {"casadi"}),
     (["arms"], EVERYTHING),
-    (["describe", "planar-3r"], EVERYTHING),
+    (["describe", "planar-3r"], EVERYTHING | {"holdfast.yaml_file"}),
+    (
+        ["export", "planar-3r", "--law", "damped", "--damping", "0.1", "--out", "c"],
+        EVERYTHING | {"holdfast.yaml_file", "llvmlite"},
+    ),
     (["index", "planar-3r", "--task", "planar", *Q], EVERYTHING),
     (["susceptibility", "planar-3r", *Q], EVERYTHING),
     (["configure", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], EVERYTHING),
@@ -54,9 +58,9 @@ def modules(*arguments, **options):
 
 
 @pytest.mark.parametrize(("arguments", "unused"), LEAN, ids=lambda x: " ".join(x[:2]) if isinstance(x, list) else "")
-def test_a_command_imports_what_it_uses(arguments, unused, monkeypatch):
+def test_a_command_imports_what_it_uses(arguments, unused, monkeypatch, tmp_path):
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")  # what compiles is another question
-    found = modules(*arguments)
+    found = modules(*arguments, cwd=tmp_path)
     assert found & unused == set()
     if not arguments[0].startswith("-"):
         own = {f"holdfast.cli.{COMMANDS[arguments[0]]}"}

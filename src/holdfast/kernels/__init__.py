@@ -4,7 +4,7 @@ from holdfast.kernels.compiled import settle
 from holdfast.kernels.kernel import BACKENDS, Kernel, Single, default_backend
 from holdfast.kernels.loop import Loop, LoopResult
 from holdfast.kernels.program import SX, Program
-from holdfast.kernels.recalled import recalled
+from holdfast.kernels.recalled import recalled, recalled_data
 from holdfast.kernels.threads import in_pool, pool, set_threads, thread_count
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "in_pool",
     "pool",
     "recalled",
+    "recalled_data",
     "set_threads",
     "settle",
     "thread_count",
