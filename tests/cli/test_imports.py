@@ -28,6 +28,7 @@ print(json.dumps(sorted(sys.modules)), file=sys.stderr)
 """
 Q = ["--q", "0.3 0.5 0.7"]
 PLANAR = ["planar-3r", "--target", "1.5,1.5"]
+PLANAR_STUCK = ["planar-3r", "--lock", "2=1", "--at", "0.3 1 0.7", "--goal", "home"]
 LEAN = [
     (["--help"], EVERYTHING | {"casadi"}),
     (["simulate", "--help"], EVERYTHING | {"casadi"}),
@@ -44,6 +45,7 @@ LEAN = [
     (["simulate", *PLANAR, "--start", "0.3 0.5 0.7", "--lock", "2"], EVERYTHING),
     (["stationary", *PLANAR, "--lock", "2", "--at", "1"], EVERYTHING),
     (["self-motion", *PLANAR, "--bounds"], EVERYTHING),
+    (["recover", *PLANAR_STUCK], EVERYTHING),
     (["teleop", "protocol"], EVERYTHING),
     (["teleop", "allocation"], EVERYTHING),
 ]
