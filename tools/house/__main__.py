@@ -9,13 +9,13 @@ from tools.house.ratchet import Lists, counted
 
 def main(arguments: list[str]) -> int:
     """Print the counts and what is new or gone."""
-    count, lists = counted(), Lists.load()
-    if arguments == ["--tighten"]:
-        lists = lists.tightened(count)
-        lists.save()
-    elif arguments:
+    if arguments not in ([], ["--tighten"]):
         print(__doc__)
         return 2
+    count, lists = counted(), Lists.load()
+    if arguments:
+        lists = lists.tightened(count)
+        lists.save()
     for rule, sins in count.sins.items():
         print(f"{rule:<22}{sum(sins.values()) if rule == 'retired words' else len(sins):>7,}")
     print(f"{'circles of files':<22}{len(count.circles):>7,}")

@@ -58,7 +58,7 @@ def texts(root: Path, files: dict[str, File]) -> Iterator[tuple[str, bool, str]]
         for text in file.docstrings:
             yield "cli" if cli else "docstrings", teleop, text
         for text in file.strings:
-            place = "names" if len(text.split()) < 2 else "cli" if cli else "messages"
+            place = ("cli" if cli else "messages") if re.search(r"\s", text) else "names"
             yield place, teleop, text
     pages = [
         path for path in sorted((root / "docs").rglob("*.md")) if not {"_build", "gallery"} & set(path.relative_to(root).parts)
