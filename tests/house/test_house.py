@@ -138,7 +138,11 @@ class Kept:
 """
     names = '__all__ = ["f", "g", "Law", "Plain", "Made", "Mine", "Kept"]'
     files = package({"__init__.py": first + names, "p/__init__.py": "from toy.a import f\n__all__ = ['f']", "a.py": body})
-    assert rules.positional(files) == {"toy.Law": 4, "toy.Mine": 4, "toy.Plain.made": 4, "toy.Plain.many": 4, "toy.f": 4}
+    found = {"toy.Law": 4, "toy.Mine": 4, "toy.Plain.made": 4, "toy.Plain.many": 4, "toy.f": 4}
+    assert rules.positional(files) == found
+    stub = "".join(f"from toy.a import {name} as {name}\n" for name in ("f", "Law", "Plain", "Mine", "not_public"))
+    files = package({"__init__.py": "", "__init__.pyi": stub, "a.py": body})
+    assert rules.positional(files) == found | {"toy.not_public": 4}
 
 
 def test_long_files_and_full_folders(package):

@@ -18,6 +18,7 @@ class File:
         imports: What it imports anywhere, as ``(module, name or None)``.
         offers: The names that it imports when it is imported or type-checked, with their modules and names there.
         defines: The names that it defines itself, with where.
+        public: The names of a package for its users: those of its stub, or else ``__all__``.
         docstrings: Of everything in it, those of attributes included.
         strings: All others, pieces of f-strings included.
     """
@@ -28,6 +29,7 @@ class File:
     imports: list[tuple[str, str | None]] = field(default_factory=list)
     offers: dict[str, tuple[str, str]] = field(default_factory=dict)
     defines: dict[str, ast.stmt] = field(default_factory=dict)
+    public: list[str] = field(default_factory=list)
     docstrings: list[str] = field(default_factory=list)
     strings: list[str] = field(default_factory=list)
 
@@ -40,7 +42,8 @@ def read(folder: Path, package: str) -> dict[str, File]:
         name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
         made = files[name] = _file(path, name)
         if path.with_suffix(".pyi").exists():
-            made.offers |= _file(path.with_suffix(".pyi"), name).offers
+            stub = _file(path.with_suffix(".pyi"), name)
+            made.offers, made.public = made.offers | stub.offers, sorted(stub.offers)
     return files
 
 
@@ -68,6 +71,9 @@ def _file(path: Path, name: str) -> File:
                 file.offers |= {alias.asname or alias.name: (module, alias.name) for alias in node.names}
         elif id(node) in top:
             file.defines |= dict.fromkeys(_named(node), node)
+    listed = file.defines.get("__all__")
+    if file.package and isinstance(listed, ast.Assign):
+        file.public = ast.literal_eval(listed.value)
     return file
 
 

@@ -78,7 +78,7 @@ class Lists:
         for rule, old in self.sins.items():
             found = count.sins[rule]
             sins[rule] = {name: min(number, found[name]) for name, number in old.items() if name in found}
-        limits = {name: min(limit, -(-count.lines[name] // 100) * 100) for name, limit in self.limits.items()}
+        limits = {name: min(limit, -(-count.lines[name] // SLACK) * SLACK) for name, limit in self.limits.items()}
         return Lists(sins, limits, self.aims)
 
     def broken(self, count: Count) -> list[str]:

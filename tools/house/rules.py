@@ -66,11 +66,7 @@ def positional(files: dict[str, File]) -> dict[str, int]:
 def published(files: dict[str, File]) -> Iterator[tuple[str, str, ast.stmt]]:
     """Each public name with its module and definition: the shortest name of what several packages offer comes first."""
     for package in sorted((name for name, file in files.items() if file.package), key=lambda name: (name.count("."), name)):
-        parts = package.split(".")
-        listed = files[package].defines.get("__all__")
-        if listed is None or not isinstance(listed, ast.Assign) or any(part.startswith("_") for part in parts):
-            continue
-        for name in ast.literal_eval(listed.value):
+        for name in files[package].public:
             module = home(files, package, name)
             if module is not None and name in files[module].defines:
                 yield f"{package}.{name}", module, files[module].defines[name]
