@@ -9,7 +9,7 @@ from pathlib import Path
 
 import yaml
 from tools.house import rules, words
-from tools.house.imports import circles, graph, read
+from tools.house.imports import File, circles, graph, read
 
 ROOT = Path(__file__).parents[2]
 LISTS = Path(__file__).with_name("ratchet.yaml")
@@ -32,22 +32,28 @@ class Count:
 
 
 @cache
-def counted(root: Path = ROOT) -> Count:
-    """What there is in a checkout."""
-    source, papers = read(root / "src" / "holdfast", "holdfast"), read(root / "papers", "papers")
+def source() -> dict[str, File]:
+    """The files of holdfast."""
+    return read(ROOT / "src" / "holdfast", "holdfast")
+
+
+@cache
+def counted() -> Count:
+    """What there is in this checkout."""
+    files, papers = source(), read(ROOT / "papers", "papers")
     sins = {
-        "imports in circles": rules.in_circles(source) | rules.in_circles(papers),
-        "shadowed names": rules.shadowed(source),
-        "positional arguments": rules.positional(source),
-        "long files": rules.long_files(source),
-        "full folders": rules.full_folders(source),
-        "retired words": words.count(words.texts(root, source)),
+        "imports in circles": rules.in_circles(files) | rules.in_circles(papers),
+        "shadowed names": rules.shadowed(files),
+        "positional arguments": rules.positional(files),
+        "long files": rules.long_files(files),
+        "full folders": rules.full_folders(files),
+        "retired words": words.count(words.texts(ROOT, files)),
     }
     lines = {
-        "src": sum(file.lines for file in source.values()),
-        "cli": sum(file.lines for name, file in source.items() if name.startswith("holdfast.cli")),
+        "src": sum(file.lines for file in files.values()),
+        "cli": sum(file.lines for name, file in files.items() if name.startswith("holdfast.cli")),
     }
-    return Count(sins, lines, [group for files in (source, papers) for group in circles(graph(files))])
+    return Count(sins, lines, circles(graph(files)) + circles(graph(papers)))
 
 
 @dataclass(frozen=True)
