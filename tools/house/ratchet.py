@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 
 import yaml
+
 from tools.house import rules, words
 from tools.house.imports import File, circles, graph, read
 
