@@ -134,8 +134,8 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
     file = Path(path)
     data = io.BytesIO()
     with style():
-        FigureCanvasAgg(figure)
-        figure.savefig(data, format="png", dpi=dpi)
+        figure.dpi = dpi
+        FigureCanvasAgg(figure).print_png(data)  # savefig would draw it once more, for its layout
     try:
         replaced(file, data.getvalue())
     except OSError as error:
