@@ -11,7 +11,9 @@ def drawn(rng):
     """Rotations by small, ordinary and nearly or exactly half turns."""
     axes = rng.normal(size=(600, 3))
     axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-    angles = np.concatenate([rng.uniform(0, np.pi, 400), 10.0 ** rng.uniform(-16, -1, 100), np.pi - 10.0 ** rng.uniform(-9, -1, 100)])
+    angles = np.concatenate(
+        [rng.uniform(0, np.pi, 400), 10.0 ** rng.uniform(-16, -1, 100), np.pi - 10.0 ** rng.uniform(-9, -1, 100)]
+    )
     return np.concatenate([axes * angles[:, None], np.zeros((1, 3)), np.pi * np.eye(3)])
 
 
@@ -27,7 +29,9 @@ def test_rotation_vectors_there_and_back(rng):
 
 
 def test_half_turns_go_the_way_they_always_went():
-    exact = np.array([np.diag([1.0, -1, -1]), np.diag([-1.0, 1, -1]), np.diag([-1.0, -1, 1]), [[0, 1, 0], [1, 0, 0], [0, 0, -1]]])
+    exact = np.array(
+        [np.diag([1.0, -1, -1]), np.diag([-1.0, 1, -1]), np.diag([-1.0, -1, 1]), [[0, 1, 0], [1, 0, 0], [0, 0, -1]]]
+    )
     np.testing.assert_allclose(rotations.to_vectors(exact), Rotation.from_matrix(exact).as_rotvec(), rtol=0, atol=1e-15)
 
 
@@ -46,3 +50,12 @@ def test_shapes(shape, rng):
 
 def test_nan_stays_nan():
     assert np.isnan(rotations.of_vectors([np.nan, 0, 0])).all()
+
+
+def test_angles_about_z_y_and_x(rng):
+    angles = rng.uniform([-np.pi, -np.pi / 2, -np.pi], [np.pi, np.pi / 2, np.pi], (300, 3))
+    np.testing.assert_allclose(rotations.to_zyx(Rotation.from_euler("ZYX", angles).as_matrix()), angles, rtol=0, atol=1e-12)
+    upright = Rotation.from_euler("ZYX", [[0.3, np.pi / 2, 0.5], [0.3, -np.pi / 2, 0.5]]).as_matrix()
+    found = rotations.to_zyx(upright)
+    np.testing.assert_allclose(Rotation.from_euler("ZYX", found).as_matrix(), upright, rtol=0, atol=1e-12)
+    assert (found[:, 2] == 0).all()

@@ -45,3 +45,13 @@ def to_vectors(rotations: ArrayLike) -> Array:
     q = np.where(q[..., 3:] < 0, -q, q)
     half = np.arctan2(np.linalg.norm(q[..., :3], axis=-1, keepdims=True), q[..., 3:])
     return np.asarray(q[..., :3] * 2 / np.sinc(half / np.pi))
+
+
+def to_zyx(rotations: ArrayLike) -> Array:
+    """Angles (..., 3) a, b, c, rad, of rotations ``Rz(a) Ry(b) Rx(c)``, b within +-90 degrees; where b is that, c is 0."""
+    r = np.asarray(rotations, dtype=np.float64)
+    level = np.hypot(r[..., 0, 0], r[..., 1, 0])
+    upright = level < 1e-12
+    a = np.arctan2(np.where(upright, -r[..., 0, 1], r[..., 1, 0]), np.where(upright, r[..., 1, 1], r[..., 0, 0]))
+    c = np.where(upright, 0.0, np.arctan2(r[..., 2, 1], r[..., 2, 2]))
+    return np.stack([a, np.arctan2(-r[..., 2, 0], level), c], axis=-1)

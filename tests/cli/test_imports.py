@@ -63,6 +63,30 @@ def test_a_command_imports_what_it_uses(arguments, unused, monkeypatch):
         assert {name for name in found if name.endswith("_commands")} == own
 
 
+PATH = """
+name: across
+line: {from: {xyz: [1.2, 0.4, 0]}, to: {xyz: [0.8, 0.4, 0]}}
+timing: {duration: 1}
+"""
+
+
+def test_a_motion_is_drawn_without_matplotlib(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
+    (tmp_path / "path.yaml").write_text(PATH)
+    follow = ["follow", "planar-3r", "path.yaml", "--task", "planar", "--minimise", "torque", "--samples", "11", "--out", "m"]
+    assert modules(*follow, cwd=tmp_path) & (EVERYTHING - {"jinja2"}) == set()
+    assert (tmp_path / "m" / "report.html").exists()
+
+
+def test_a_report_is_written_without_what_its_numbers_do_not_need(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
+    modules("assess", "planar-3r", "--poses", "20", "--seed", "1", "--out", "r", cwd=tmp_path)
+    (tmp_path / "r" / "report.html").unlink()
+    unused = {"xarray", "pandas", "pyarrow", "dask", "scipy.spatial", "matplotlib.pyplot", *PHYSICS, *STATISTICS, *SERVING}
+    assert modules("report", "r", cwd=tmp_path) & unused == set()
+    assert (tmp_path / "r" / "report.html").exists()
+
+
 def test_the_library_waits_for_what_is_asked():
     code = "import holdfast as hf, sys; print(sorted({'numpy', 'casadi', 'yaml'} & set(sys.modules))); hf.ArmError, hf.Status"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -256,7 +256,7 @@ class Assessment:
 
     @property
     def columns(self) -> Mapping[str, Any]:
-        """The rows by column, (N, ...) each, read when it is sliced: the numbers of :attr:`dataset` without its names and units.
+        """The rows by column, (N, ...) each, read when it is sliced: :attr:`dataset` without names and units.
 
         Raises:
             InputError: The rows were not kept; give ``store`` or ``keep=True``.

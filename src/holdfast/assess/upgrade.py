@@ -79,7 +79,9 @@ def sample(a: Assessment, optimised: bool) -> Sample:
     status = columns["status"][:]
     keep = np.flatnonzero(status != Status.NOT_COMPUTED)
     reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
-    if optimised and "optimised_status" in columns:  # where every configuration runs the arm through itself there is no best one
+    if (
+        optimised and "optimised_status" in columns
+    ):  # where every configuration runs the arm through itself there is no best one
         reached &= columns["optimised_status"][:][keep] != Status.INFEASIBLE
     weight = columns["weight"][:][keep] if "weight" in columns else None
     before = "optimised_" if optimised else ""
