@@ -92,7 +92,7 @@ class AxisScale:
         if self._kind == "linear":
             return bent
         if self._kind == "log":
-            return 10.0**bent
+            return float(10.0**bent)
         size = abs(bent)
         return math.copysign(self._small * (size / _LINEAR if size <= _LINEAR else 10.0 ** (size - _LINEAR)), bent)
 
