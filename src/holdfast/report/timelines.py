@@ -175,5 +175,5 @@ def _way(x: Array, y: Array) -> str:
     """A line through points (T,), broken where one has no place."""
     there = np.isfinite(y)
     begins = there & ~np.r_[False, there[:-1]]
-    points = np.round(np.stack([x, y], axis=1)[there], 2).tolist()
+    points = np.round(np.stack([x, y], axis=1)[there], 1).tolist()
     return "".join(f"{'M' if new else 'L'}{a:g} {b:g}" for new, (a, b) in zip(begins[there].tolist(), points, strict=True))
