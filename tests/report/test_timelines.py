@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from wellformed import check
 
-from holdfast.report.timelines import Line, Timeline, small_multiples, timelines
+from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
 
 TIME = np.linspace(0, 4, 50)
 
@@ -22,7 +22,7 @@ def paths(text):
 
 def test_a_line_is_where_the_ticks_say():
     values = 3 + 20 * np.sin(TIME)
-    text = timelines(TIME, [Timeline([Line(values, "a", "first")], "deg", "A title")], "about")
+    text = stacked_panels(TIME, [Timeline([Line(values, "a", "first")], "deg", "A title")], "about")
     ((way, _),) = paths(text)
     found = points(way)
     ticks = re.findall(r'<text x="([\d.]+)" y="([\d.]+)" text-anchor="(middle|end)">([−\d.]+)</text>', text)
@@ -35,7 +35,7 @@ def test_a_line_is_where_the_ticks_say():
 
 def test_lines_are_broken_where_they_have_no_value():
     values = np.where(abs(TIME - 2) < 0.5, np.nan, TIME)
-    ((way, _),) = paths(timelines(TIME, [Timeline([Line(values, "a")], "", "")], ""))
+    ((way, _),) = paths(stacked_panels(TIME, [Timeline([Line(values, "a")], "", "")], ""))
     assert way.count("M") == 2
     assert len(points(way)) == np.isfinite(values).sum()
 
@@ -50,7 +50,7 @@ def figures():
     ]
 
 
-@pytest.mark.parametrize("drawn", [timelines, small_multiples])
+@pytest.mark.parametrize("drawn", [stacked_panels, small_multiples])
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_everything_is_drawn_once_and_inside(drawn, count):
     text = drawn(TIME, figures()[:count], 'It\'s "about" <this>')
@@ -69,7 +69,7 @@ def test_everything_is_drawn_once_and_inside(drawn, count):
         assert 0 < float(y) < height
 
 
-@pytest.mark.parametrize("drawn", [timelines, small_multiples])
+@pytest.mark.parametrize("drawn", [stacked_panels, small_multiples])
 def test_lines_of_a_panel_can_be_told_apart(drawn):
     text = drawn(TIME, figures()[:1], "about")
     looks = re.findall(r'<path d="M[^"hvHV]+" (fill="none" stroke="[^/]+)/>', text)
@@ -78,5 +78,5 @@ def test_lines_of_a_panel_can_be_told_apart(drawn):
 
 def test_long_names_leave_room_for_the_lines():
     lines = [Line(TIME, "x" * 200), Line(-TIME, "y")]
-    ((way, _), *_) = paths(timelines(TIME, [Timeline(lines, "", "t" * 300)], ""))
+    ((way, _), *_) = paths(stacked_panels(TIME, [Timeline(lines, "", "t" * 300)], ""))
     assert np.ptp(points(way)[:, 0]) > 300

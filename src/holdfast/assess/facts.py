@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast import rotations
+from holdfast.arm import rotations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task
 from holdfast.assess.assess import ZERO, Assessment

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.rotations import to_zyx
 from holdfast.assess.distribution import Distribution
 from holdfast.assess.facts import Facts, Rows
 from holdfast.assess.region import Region
@@ -13,7 +14,6 @@ from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.report.scenes import View
 from holdfast.report.words import counted, fixed, number
-from holdfast.rotations import to_zyx
 
 Array = NDArray[np.float64]
 

@@ -277,7 +277,7 @@ def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Arr
 
 @recalled
 def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) -> Kernel:
-    """From q and a target pose, or a twist of the hand if ``given`` is 1, to the next q, the rates to it, and the shares."""
+    """From q and a target pose, or a twist if ``given`` is 1, to the next q, the rates to it, and the shares."""
     arm = law.arm
     q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     twist, given = ca.SX.sym("twist", 6), ca.SX.sym("given")

@@ -15,7 +15,7 @@ from holdfast.errors import ArmError
 from holdfast.report import page
 from holdfast.report.animation import Motion, animation, shown_seconds
 from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
-from holdfast.report.timelines import Line, Timeline, small_multiples, timelines
+from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
 from holdfast.report.words import as_given
 from holdfast.versions import versions
 
@@ -124,7 +124,7 @@ class _Facts:
     # ---- curves ------------------------------------------------------------------------------------------------
 
     def _figure(self, panels: list[Timeline], about: str, caption: str) -> Picture:
-        return Picture(timelines(self.t.time, panels, about), caption)
+        return Picture(stacked_panels(self.t.time, panels, about), caption)
 
     def criterion(self) -> list[Block]:
         """The objective, and each joint's measure."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast import rotations
+from holdfast.arm import rotations
 from holdfast.arm.model import Arm
 from holdfast.clearance import Clearance
 

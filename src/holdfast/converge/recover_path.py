@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast import rotations
+from holdfast.arm import rotations
 from holdfast.converge.recover_goal import RowsGivenUp, configurations_of
 from holdfast.converge.recover_route import Metric, Space
 from holdfast.converge.recover_rows import RowSolver, preferred, subsets

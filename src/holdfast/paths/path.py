@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast import rotations
+from holdfast.arm import rotations
 from holdfast.arm.poses import check_poses
 from holdfast.checked import checked, real_numbers
 from holdfast.errors import InputError

@@ -33,7 +33,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
-from holdfast import reading, rotations
+from holdfast import reading
+from holdfast.arm import rotations
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
 from holdfast.paths.path import Path, arc, line, sequence

@@ -64,7 +64,7 @@ class Timeline:
     small: float = 1.0
 
 
-def timelines(time: Array, panels: Sequence[Timeline], about: str) -> Markup:
+def stacked_panels(time: Array, panels: Sequence[Timeline], about: str) -> Markup:
     """Panels below each other over one time (T,), s, each with a legend to its right if it has several lines.
 
     Args:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from holdfast import rotations
+from holdfast.arm import rotations
 
 
 def drawn(rng):
