@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 _TINY = 1e-300
+_MOST = 100_000  # terms: a bound that is never met up to 1e8
 
 
 def quantile(a: float, b: float, p: float) -> float:
@@ -15,7 +16,7 @@ def quantile(a: float, b: float, p: float) -> float:
     Source: Numerical Recipes, section 6.4, for the continued fraction; Loader 2000 for its factor, in which nothing cancels.
     """
     a, b, low, high, x = float(a), float(b), 0.0, 1.0, float(a / (a + b))
-    while True:
+    for _ in range(100):
         factor = _factor(a, b, x)
         if x < (a + 1) / (a + b + 2):
             missed = factor * _fraction(a, b, x) / a - p
@@ -27,7 +28,8 @@ def quantile(a: float, b: float, p: float) -> float:
             return min(max(new, low), high)
         x = new if low < new < high else (low + high) / 2
         if x in (low, high):
-            return x
+            break
+    return x
 
 
 def _factor(a: float, b: float, x: float) -> float:
@@ -53,12 +55,12 @@ def _deviance(x: float, mean: float) -> float:
 def _fraction(a: float, b: float, x: float) -> float:
     """The continued fraction of the incomplete beta function, by Lentz's method."""
     c, d = 1.0, 1 / (1 - (a + b) * x / (a + 1) or _TINY)
-    value, k = d, 0
-    while True:
-        k += 1
+    value = d
+    for k in range(1, _MOST):
         for term in (k * (b - k) / (a + 2 * k - 1), -(a + k) * (a + b + k) / (a + 2 * k + 1)):
             t = term * x / (a + 2 * k)
             c, d = 1 + t / c or _TINY, 1 / (1 + t * d or _TINY)
             value *= c * d
-        if abs(c * d - 1) < 1e-16:
-            return value
+        if abs(c * d - 1) < 1e-15:
+            break
+    return value

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm import rotations
 from holdfast.arm.model import Arm
-from holdfast.arm.tree import rodrigues
 from holdfast.clearance import Clearance
 
 Array = NDArray[np.float64]
@@ -104,7 +104,7 @@ def _moved(arm: Arm, k: int, value: float) -> Array:
     if joint.prismatic:
         out[:3, 3] = value * joint.axis
     else:
-        out[:3, :3] = rodrigues(joint.axis, np.cos(value), np.sin(value))
+        out[:3, :3] = rotations.of_vectors(value * joint.axis)
     return out
 
 
