@@ -18,7 +18,7 @@ from holdfast.kernels.llvm_ir import LIBRARY, Machine
 from holdfast.kernels.program import Program
 
 # Of two child processes, or of four threads.
-ROUNDS = dict.fromkeys(("fork", "spawn", "threads"), int(os.environ.get("HOLDFAST_ROUNDS", "8")))
+ROUNDS = dict.fromkeys(("fork", "spawn", "threads"), int(os.environ.get("HOLDFAST_ROUNDS", "4")))
 if "HOLDFAST_ROUNDS" not in os.environ:
     ROUNDS["spawn"] = 1  # a child starts Python anew: seconds
 
@@ -228,3 +228,30 @@ def test_a_fork_while_better_code_is_made_waits_for_it_and_not_for_ever(fresh):
     """In a process of its own: where it fails, it never ends."""
     done = subprocess.run([sys.executable, "-c", FORK_WHILE_IMPROVING], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+FORK_AT_THE_END = """
+import atexit, os
+
+
+def late():
+    child = os.fork()
+    if child == 0:
+        os._exit(0)
+    os.waitpid(child, 0)
+    print("forked")
+
+
+atexit.register(late)  # before holdfast, and so called after what holdfast does at the end
+import casadi as ca
+from holdfast.kernels import Kernel
+
+x = ca.SX.sym("x")
+Kernel("some", [x], [x + 1])(1.0)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork") or sys.version_info >= (3, 12), reason="nothing forks here when a program ends")
+def test_a_program_may_fork_at_its_end(fresh):
+    done = subprocess.run([sys.executable, "-c", FORK_AT_THE_END], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "forked\n", "")

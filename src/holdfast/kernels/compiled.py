@@ -100,7 +100,7 @@ class Compiled:
 _jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
 _worker: threading.Thread | None = None
 _busy = threading.RLock()  # held while a job runs, during a fork, and from the end of the program on, when it may still fork
-_let_go: Callable[[], None] = lambda: None  # what the fork under way holds of LLVM
+_fork = contextlib.ExitStack()  # what the fork under way holds of LLVM
 
 
 def _in_background(job: Callable[[], None]) -> None:
@@ -131,20 +131,19 @@ def _hold() -> None:
 
     In this order: a job that runs needs LLVM to come to its end.
     """
-    global _let_go
     _busy.acquire()
-    _let_go = llvm_backend.hold()
+    _fork.enter_context(llvm_backend.lock())
 
 
 def _go_on() -> None:
-    _let_go()
+    _fork.close()
     _busy.release()
 
 
 def _forget() -> None:
     """In a child process: its compiler thread is gone, and what waited for it stays at level 0."""
     global _worker, _jobs, _busy
-    _let_go()
+    _fork.close()
     _worker, _jobs, _busy = None, queue.SimpleQueue(), threading.RLock()
 
 

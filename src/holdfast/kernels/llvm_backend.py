@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import sys
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -59,16 +60,10 @@ def _llvm() -> Any:
     return binding
 
 
-def hold() -> Callable[[], None]:
-    """For a fork: wait until no thread is in LLVM, and let none in until what is returned is called, in parent and child.
-
-    One thread at a time uses LLVM: none may be left in the middle of it in a child process that does not have it.
-    """
+def lock() -> AbstractContextManager[Any]:
+    """What the one thread that uses LLVM holds: in a fork none may be in the middle of it, as the child does not have it."""
     library = getattr(sys.modules.get("llvmlite.binding.ffi"), "lib", None)
-    if library is None:
-        return lambda: None
-    library._lock.__enter__()
-    return lambda: library._lock.__exit__()
+    return nullcontext() if library is None else library._lock
 
 
 def version() -> str:
