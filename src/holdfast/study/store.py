@@ -377,7 +377,12 @@ class Store:
         start, stop = self.span(chunk)
         try:
             group = zarr.open_group(self.path / _SAMPLES, mode="r")
-            return {name: np.asarray(group[name][start:stop]) for name in names}
+            found = {name: np.asarray(group[name][start:stop]) for name in names}
+            for c in self.columns:
+                shape = (stop - start, *(n for _, n in c.dims))
+                if c.name in found and (found[c.name].shape != shape or found[c.name].dtype != c.dtype):
+                    raise ValueError(f"'{c.name}' has another shape or type")
+            return found
         except Exception as error:  # zarr raises many kinds for damaged files
             raise self._damaged(error) from error
 
