@@ -140,8 +140,12 @@ def cos_sin(angle: float) -> tuple[float, float]:
 
 
 def turn(axis: Array, angle: float) -> Array:
-    """(3, 3) rotation about a unit axis (Rodrigues)."""
-    c, s = cos_sin(angle)
+    """(3, 3) rotation about a unit axis; quarter turns are exact."""
+    return rodrigues(axis, *cos_sin(angle))
+
+
+def rodrigues(axis: Array, c: float, s: float) -> Array:
+    """(3, 3) rotation about a unit axis by the angle with this cosine and sine."""
     x, y, z = axis
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))
