@@ -71,12 +71,12 @@ class Parameter:
             if isinstance(found, tuple):
                 raise InputError(f"{what} has {len(found)} numbers for {self.key}; give one")
             if isinstance(found, str):
-                raise InputError(f"{what}: '{text}' is not a number; give {self.describe()}")
+                raise InputError(f"{what}: '{text}' is not a number; give one: {self.describe()}")
             return int(found) if self.kind == "int" and found == int(found) else found
         if isinstance(found, str) and "," in text:
             wrong = next(x for x in text.split(",") if not grammar.is_number(x))
             raise InputError(f"{what}: '{wrong.strip()}' is not a number; give {self.describe()}")
-        return np.atleast_1d(found) if not isinstance(found, str) else found
+        return found if isinstance(found, str) else np.atleast_1d(found).tolist()
 
 
 def constructor(

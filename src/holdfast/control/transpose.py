@@ -32,7 +32,7 @@ class JacobianTranspose(Law):
 
 @constructor()
 def jacobian_transpose(
-    arm: Arm, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None
+    arm: Arm, task: TaskSpec = "pose", *, gain: float = 1.0, speed_limit: float | None = None
 ) -> JacobianTranspose:
     """Joint rates along the slope of the error, with the step that leaves the least of it; Buss 2004."""
     return JacobianTranspose(arm, task, gain, speed_limit)

@@ -51,6 +51,7 @@ class DirectionalVelocity(FormulaIndex):
         arm: Arm,
         direction: ArrayLike,
         task: TaskSpec = "pose",
+        *,
         failures: FailureSpec = "single",
         length: float | None = None,
     ) -> None:
@@ -119,8 +120,9 @@ def directional_velocity(
     arm: Arm,
     direction: Annotated[ArrayLike, Parameter("1", "x,y,z in the axes of the task's frame", example="_prescribed")],
     task: TaskSpec = "pose",
+    *,
     failures: FailureSpec = "single",
     length: float | None = None,
 ) -> DirectionalVelocity:
     """Worst-case largest speed along a direction for joint rates of norm 1, the other rows of the task at rest; Chiu 1988."""
-    return DirectionalVelocity(arm, direction, task, failures, length)
+    return DirectionalVelocity(arm, direction, task, failures=failures, length=length)
