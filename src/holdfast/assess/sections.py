@@ -6,6 +6,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from holdfast import grammar
 from holdfast.assess import collisions
 from holdfast.assess.assess import Assessment
 from holdfast.assess.facts import Facts
@@ -236,6 +237,8 @@ def method(f: Facts) -> list[Block]:
         ).format(worst, Markup(formula))
         if "σ" in formula:
             definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
+    for name, value in index.settings.items() if formula else ():
+        definition += Markup("; {} {}").format(name, grammar.written(value))
     if index.source:
         definition += Markup(". Source: {}").format(index.source)
     box = a.region.kind != "joints"

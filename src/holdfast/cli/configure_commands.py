@@ -239,7 +239,7 @@ class _Result:
                 )
             elif isinstance(measure, Index):
                 units = (measure.unit,) * self.arm.n
-                found[measure.slug] = measure.slug, units, measure.by_joint(self.before), measure.by_joint(self.optimum.q)
+                found[measure.label] = measure.label, units, measure.by_joint(self.before), measure.by_joint(self.optimum.q)
         return list(found.values())
 
 
