@@ -170,6 +170,17 @@ def test_what_has_no_label_says_so():
             INDICES.label(made)
 
 
+def test_a_law_without_a_label_is_not_stored(tmp_path):
+    """Two matrices of weights are told by the same words, so that one analysis would go on with the rows of the other."""
+    arm = hf.arms.load("planar-3r")
+    law = hf.control.weighted(arm, np.eye(3) + 0.1, "planar")
+    with pytest.raises(InputError, match="cannot be written in a label"):
+        hf.workspace(law, [1.5, 1.5], 2, store=tmp_path / "run")
+    with pytest.raises(InputError, match="cannot be written in a label"):
+        hf.design_for_convergence(law, {"a2": (0.5, 1.0)}, targets=2, store=tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
 @pytest.mark.parametrize(
     ("label", "error", "words"),
     [

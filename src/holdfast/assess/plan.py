@@ -113,18 +113,14 @@ class Plan:
     # ---- files -----------------------------------------------------------------------------------------------------
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data that :meth:`from_dict` reads; ``poses`` is kept by the folder.
-
-        Raises:
-            InputError: The index is a function of the user's own.
-        """
+        """JSON data that :meth:`from_dict` reads if the plan is storable; ``poses`` is kept by the folder."""
         index, task = self.index, self.index.task
         data: dict[str, Any] = {
             "kind": "assess",
             "arm": to_dict(self.arm),
             "fingerprint": self.arm.fingerprint,
             "region": self.region.to_dict(),
-            "index": INDICES.label(index),
+            "index": index.label,
             "task": task.to_dict(),
             "failures": [[self.arm.joint_names[k] for k in f] for f in index.failures],
             "seed": self.seed,
