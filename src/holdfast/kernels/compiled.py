@@ -11,6 +11,8 @@ import os
 import queue
 import threading
 from collections.abc import Callable
+from ctypes import c_int64, c_void_p
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,11 +52,13 @@ class Compiled:
 
     def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
         """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes."""
-        places, width = (inputs.ctypes.data, outputs.ctypes.data), inputs.shape[1]
+        width = inputs.shape[1]
+        # Made once: a step of few rows takes less than ctypes takes to convert four numbers.
+        given: tuple[Any, ...] = (c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data), c_int64(width), c_int64(width))
 
         def call(kept: tuple[Array, Array] = (inputs, outputs)) -> None:
             code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
-            code.call(*places, width, width)
+            code.call(*given)
             if not self.level:
                 self._count(width)
 
