@@ -27,7 +27,9 @@ Array = NDArray[np.float64]
 AT_ONCE = 1500  # operations that level 1 compiles in less than a tenth of a second
 WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
 LONG = 40_000  # operations: nobody waits for level 1 of more
-WORTH = 1_000_000  # rows after which level 1 repays its compiling, whatever the size of the program
+# Rows after which level 1 is compiled, whatever the size of the program. It repays that after some 1,000,000 (measured); at a
+# quarter of them a long batch takes little longer than if it had been compiled beforehand, and a short one wastes little.
+WORTH = 250_000
 
 
 class Compiled:
