@@ -53,7 +53,7 @@ EARLIER = {  # what somebody has run before, not timed
     "study merge": [STUDY, *(f"holdfast study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
     "teleop analyse": ["holdfast teleop run --simulated --operators 24 --seed 1 --out study"],
 }
-ELSEWHERE = ("--scheduler",)  # needs another machine
+ELSEWHERE = ("--scheduler", "/mnt/")  # needs another machine, or writes outside of the folder that is thrown away
 
 
 @dataclass(frozen=True)
