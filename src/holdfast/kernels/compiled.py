@@ -129,7 +129,7 @@ def settle() -> None:
 def _hold() -> None:
     """Before a fork: CasADi, which a job may use, has locks that a child process cannot open, as has LLVM.
 
-    In this order: a job that runs needs LLVM to come to its end.
+    In this order: a job that runs needs LLVM to end.
     """
     _busy.acquire()
     _fork.enter_context(llvm_backend.lock())
