@@ -25,7 +25,7 @@ from holdfast.teleop.entries import ENTRY, SUBJECT, Entry, Kind, State, Subject,
 from holdfast.teleop.order import next_row
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records_file import beside, connect, make, now, place
+from holdfast.teleop.records_file import alone, beside, connect, make, now, place
 from holdfast.teleop.trials import End, Trials
 
 Array = NDArray[np.float64]
@@ -174,14 +174,16 @@ class Records:
 
         Raises:
             InputError: There is no such subject.
+            StoreError: The folder is served, or cannot be written.
         """
         self.subject(code)
-        self._db.execute("PRAGMA secure_delete = ON")
-        with self.together():
-            self._chain.prepare()
-            self._db.execute("DELETE FROM subjects WHERE code = ?", (code,))
-        self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-        self._db.execute("VACUUM")
+        with alone(self.folder):
+            self._db.execute("PRAGMA secure_delete = ON")
+            with self.together():
+                self._chain.prepare()
+                self._db.execute("DELETE FROM subjects WHERE code = ?", (code,))
+            self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+            self._db.execute("VACUUM")
 
     # ---- sessions of pages -----------------------------------------------------------------------------------------
 
