@@ -24,7 +24,7 @@ from holdfast.teleop.session import Next, Session, training_tasks
 from holdfast.teleop.stick import Stick
 from holdfast.teleop.tables import bank_table, computer_table, cycle_table, dictionary, export, hand_paths, trial_table
 from holdfast.teleop.tasks import TaskBank, random_tasks, run, task_bank
-from holdfast.teleop.trials import End, Recorded, Trials
+from holdfast.teleop.trials import End, RecordedCycles, Trials
 
 __all__ = [
     "CPM",
@@ -44,7 +44,7 @@ __all__ = [
     "PointTasks",
     "Protocol",
     "Recorded",
-    "Recorded",
+    "RecordedCycles",
     "Records",
     "Replay",
     "Rules",

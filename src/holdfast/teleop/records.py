@@ -26,7 +26,7 @@ from holdfast.teleop.order import next_row
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
 from holdfast.teleop.records_file import alone, beside, connect, make, now, place
-from holdfast.teleop.trials import End, Recorded, Trials
+from holdfast.teleop.trials import End, RecordedCycles, Trials
 
 Array = NDArray[np.float64]
 
@@ -425,7 +425,7 @@ class Records:
             end=np.array([int(e.end) for e in entries], dtype=np.uint8),
         )
 
-    def recorded(self, entries: list[Entry]) -> Recorded:
+    def recorded(self, entries: list[Entry]) -> RecordedCycles:
         """What is in the file of some trials."""
         time: list[float] = []
         velocity, q, first = bytearray(), bytearray(), [0]
@@ -439,7 +439,7 @@ class Records:
             velocity += b"".join(velocities)
             q += b"".join(configurations)
             first.append(len(time))
-        found = Recorded(
+        found = RecordedCycles(
             time=np.array(time, dtype=np.float64),
             velocity=np.frombuffer(velocity).reshape(-1, self.protocol.rows.m),
             q=np.frombuffer(q).reshape(-1, self.protocol.arm.n),

@@ -1,4 +1,4 @@
-"""Recorded trials: what was commanded, where the arm was, and how each trial ended."""
+"""RecordedCycles trials: what was commanded, where the arm was, and how each trial ended."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _SENTENCES = {
 
 
 @dataclass(frozen=True, eq=False)
-class Recorded:
+class RecordedCycles:
     """Rows of N trials as they are in the records, trial i's at ``first[i]`` to ``first[i + 1]``, the last of them its end.
 
     Attributes:
