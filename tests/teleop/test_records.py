@@ -18,8 +18,8 @@ import holdfast as hf
 from holdfast.teleop.entries import Kind, State
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.measures import measures
-from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.plant import Plant
+from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Training, read
 from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay

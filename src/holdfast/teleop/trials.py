@@ -1,4 +1,4 @@
-"""RecordedCycles trials: what was commanded, where the arm was, and how each trial ended."""
+"""Recorded trials: what was commanded, where the arm was, and how each trial ended."""
 
 from __future__ import annotations
 
