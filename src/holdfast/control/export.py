@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.errors import InputError, StoreError
+from holdfast.notice import says
 from holdfast.versions import versions
 from holdfast.whole_file import replaced
 
@@ -252,6 +253,7 @@ def _quoted(text: str) -> str:
     return f'"{plain}"'
 
 
+@says("writing down the law")
 def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Path]:
     """Write all four files.
 

@@ -15,8 +15,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import notice
 from holdfast.kept import cached_property
-from holdfast.kernels import cache, llvm_backend, notice
+from holdfast.kernels import cache, llvm_backend
 from holdfast.kernels.llvm_ir import Machine
 from holdfast.kernels.program import Program
 

@@ -15,6 +15,7 @@ from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel, recalled
+from holdfast.notice import says
 from holdfast.simulate.closed_loop import Locked, simulate
 from holdfast.simulate.compiled import ARRIVES, DECAYS
 from holdfast.simulate.motion import HALF, WINDOW, System
@@ -35,6 +36,7 @@ EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
 
 @checked
 @quiet()
+@says("simulating the physics")
 def simulate_physics(
     law: Law,
     q0: ArrayLike,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, StoreError
+from holdfast.notice import says
 from holdfast.spreadsheet import csv_text
 from holdfast.teleop.drive import Computer, Rules
 from holdfast.teleop.entries import Entry, Kind, Subject, Who
@@ -83,6 +84,7 @@ def computer_table(protocol: Protocol) -> pd.DataFrame:
     return _table(protocol, computer_trials(protocol), facts)
 
 
+@says("running the tasks")
 def computer_trials(protocol: Protocol) -> Trials:
     """The protocol's tasks under computer control: scenario by scenario, in each all tasks.
 
@@ -186,6 +188,7 @@ def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | Non
     return path
 
 
+@says("reading the records")
 def cycle_table(records: Records) -> pd.DataFrame:
     """One row for each cycle of every trial, with one more for where the arm stood at the end."""
     import pandas as pd
@@ -226,6 +229,7 @@ def dictionary(protocol: Protocol) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["table", "column", "unit", "description"])
 
 
+@says("writing the tables")
 def export(records: Records, folder: str | Path, parquet: bool = False) -> list[Path]:
     """Write ``trials``, ``cycles``, ``subjects`` and ``events``, with ``dictionary.csv`` and the protocol.
 
