@@ -7,7 +7,7 @@ WORKERS ?= 3
 MINUTES ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check lint types docs page bench soak clean lock
+.PHONY: help demo test check lint types house docs page bench soak clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -59,6 +59,11 @@ check: lint types  ## Before a pull request: lint, types and the quick tests of 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-cache --no-logo
+	$(BIN)/python -m tools.house
+
+house: $(VENV)/test.stamp  ## Count what the rules of the house forbid: circles of files, shadowed names, retired words, ...; part of lint.
+	$(BIN)/python -m tools.house
 
 types: $(VENV)/test.stamp
 	$(BIN)/mypy

@@ -455,7 +455,7 @@ def kinds(root: Path) -> dict[str, Kind]:
         "path": Kind(PATHS, of_yaml, read_path, root / "in.yaml"),
         "capsules": Kind(CAPSULES, of_yaml, lambda path: Capsules.load(path, toy), root / "in.yaml"),
         "study": Kind(STUDIES, of_yaml, read_study, root / "in.yaml"),
-        "protocol": Kind([teleop.protocol.read().text().encode()], of_yaml, teleop.protocol.read, root / "in.yaml"),
+        "protocol": Kind([teleop.read_protocol().text().encode()], of_yaml, teleop.read_protocol, root / "in.yaml"),
         "texts": Kind([texts.ENGLISH.read_bytes()], of_yaml, texts.read, root / "in.yaml"),
         "URDF": Kind([URDF], of_xml, arm_of, root / "in.urdf"),
         "MJCF": Kind([MJCF], of_xml, arm_of, root / "in.mjcf"),
