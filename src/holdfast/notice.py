@@ -56,15 +56,15 @@ def working(what: str, progress: Progress | None = None) -> Iterator[Progress]:
         _outer = None
 
 
-def says(what: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """The function as :func:`working`, which tells its argument ``progress`` where it has one."""
+def says(what: str, counts: bool = True) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """The function as :func:`working`, which tells its argument ``progress`` where it has one that ``counts``."""
 
     def decorated(function: Callable[P, T]) -> Callable[P, T]:
         signature = inspect.signature(function)
 
         @functools.wraps(function)
         def called(*args: P.args, **kwargs: P.kwargs) -> T:
-            if "progress" not in signature.parameters:
+            if not counts or "progress" not in signature.parameters:
                 with working(what):
                     return function(*args, **kwargs)
             given = signature.bind(*args, **kwargs)

@@ -410,7 +410,6 @@ def compare_laws(
     goal = np.broadcast_to(goal, (count, *goal.shape[1:]))
     stood = np.repeat(np.array([-1, *joints]), count)
     many = len(joints) + 1
-    poses = _poses(every[0], goal)
     runs, costs = [], []
     with working("comparing control laws") as advance:
         for k, law in enumerate(every):
@@ -427,6 +426,7 @@ def compare_laws(
                     radius=radius,
                 )
             )
+            poses = _poses(law, goal)
             costs.append(healthy_cost(law, start, poses, cycles, radius))
             advance(k + 1, len(every) + 1)
         least = _least(runs, radius if cycles else _at_rest(every[0]), restarts, seed).reshape(many, count)

@@ -20,7 +20,7 @@ from holdfast.teleop.tasks import drive_tasks
 from holdfast.teleop.trials import End, Trials
 
 
-@says("simulating the experiment")
+@says("simulating the experiment", counts=False)
 def simulate_experiment(
     folder: str | Path,
     protocol: Protocol,
