@@ -46,12 +46,13 @@ LEAN = [
 ]
 FEW = ["--starts", "2", "--configurations", "2", "--points", "1"]
 RICHER = [
-    (["assess", "planar-3r", "--task", "planar", "--poses", "64", "--json"], FILES | {"jinja2", "scipy", "xarray"}),
+    (["assess", "planar-3r", "--task", "planar", "--poses", "64", "--json"], FILES | {"scipy"}),
     (["swing", "planar-3r", *Q, "--joint", "2"], FILES | {"mujoco"}),
     (["workspace", *PLANAR, *FEW], FILES | {"scipy"}),
     (["trade-off", "planar-3r", "--samples", "10"], FILES | {"scipy", "scipy.stats"}),
     (["compare", "planar-3r", *LAWS], FILES | {"jinja2", "matplotlib", "scipy", "scipy.stats"}),
     (["recover", "planar-3r", "--lock", "2", "--at", "0.3 0.5 0.7", "--goal", "pose:1.5,1.5,0"], FILES | {"scipy"}),
+    (["recover", "planar-3r", "--lock", "2", "--at", "0.3 0.5 0.7", "--goal", "home"], FILES),
     (["export", "planar-3r", "--law", "pseudoinverse", "--out", "."], FILES),
     (["study", "new", "cell.yaml", "--arm", "planar-3r", "--poses", "64"], FILES | {"scipy"}),
 ]
@@ -90,6 +91,30 @@ def test_a_command_imports_what_it_uses(arguments, heavy, monkeypatch):
 def test_a_command_that_needs_more_imports_no_more_than_that(arguments, heavy, monkeypatch, tmp_path):
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     loads_only(modules(*arguments, cwd=tmp_path), heavy)
+
+
+PATH = """
+name: across
+line: {from: {xyz: [1.2, 0.4, 0]}, to: {xyz: [0.8, 0.4, 0]}}
+timing: {duration: 1}
+"""
+
+
+def test_a_motion_is_drawn_without_matplotlib(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
+    (tmp_path / "path.yaml").write_text(PATH)
+    follow = ["follow", "planar-3r", "path.yaml", "--task", "planar", "--minimise", "torque", "--samples", "11", "--out", "m"]
+    loads_only(modules(*follow, cwd=tmp_path), FILES | {"jinja2"})
+    assert (tmp_path / "m" / "report.html").exists()
+
+
+def test_a_report_is_written_without_what_its_numbers_do_not_need(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
+    modules("assess", "planar-3r", "--poses", "20", "--seed", "1", "--out", "r", cwd=tmp_path)
+    (tmp_path / "r" / "report.html").unlink()
+    found = modules("report", "r", cwd=tmp_path)
+    assert found & {"xarray", "scipy.spatial", "matplotlib.pyplot", *BESIDE_XARRAY, *SERVING, *STATISTICS} == set()
+    assert (tmp_path / "r" / "report.html").exists()
 
 
 def test_the_library_waits_for_what_is_asked():

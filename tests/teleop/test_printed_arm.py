@@ -212,7 +212,8 @@ output.set([joints,axes,laws,markers,before===[q,v,healthy].join()?1:0,refused])
     assert browser.run(script, numbers, 6, arm=arm_module(protocol.read_protocol())).tolist() == [3, 2, 2, 4, 1, 4]
 
 
-def test_laws_are_printed_once_and_the_module_stays_small():
+def test_laws_are_printed_once_and_the_module_stays_small(monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", "off")
     study = protocol.read_protocol()
     codes = law_of(study)
     assert sorted(codes) == [0, 0, 1, 1]
@@ -231,3 +232,25 @@ def test_rows_that_no_stick_commands_are_refused(rng):
     study = every_law(hf.arms.load("panda"), "position", 1, rng)
     with pytest.raises(TaskError, match="planar or position"):
         arm_module(dataclasses.replace(study, rows=as_task(study.arm, "pose")))
+
+
+def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
+    study = protocol.read_protocol()
+    q, velocity = rng.uniform(-2, 2, (5, 3)), rng.uniform(-0.05, 0.05, (5, 2))
+    healthy = np.array([[1.0, 1, 0]] * 5)
+
+    def all_of_it():
+        plants = dataclasses.replace(study).plants
+        return arm_module(study), [np.concatenate(p.cycles(q, velocity, healthy), axis=1).tobytes() for p in plants]
+
+    first = all_of_it()
+
+    def never(*_):
+        raise AssertionError("built again")
+
+    for law in BY_NAME.values():
+        monkeypatch.setattr(law, "rates", never)
+    assert all_of_it() == first
+    with pytest.raises(AssertionError, match="built again"):
+        arm_module(dataclasses.replace(study, substeps=7))

@@ -381,6 +381,19 @@ class Store:
         except Exception as error:  # zarr raises many kinds for damaged files
             raise self._damaged(error) from error
 
+    def arrays(self) -> Mapping[str, Any]:
+        """All rows by column, read when they are sliced; rows not computed yet hold fill values.
+
+        Raises:
+            StoreError: The arrays are missing or damaged.
+        """
+        import zarr
+
+        try:
+            return dict(zarr.open_group(self.path / _SAMPLES, mode="r").arrays())
+        except Exception as error:  # zarr raises many kinds for damaged files
+            raise self._damaged(error) from error
+
     def dataset(self) -> xr.Dataset:
         """All rows with names, units and attributes, read when they are used; rows not computed yet hold fill values.
 
