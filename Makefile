@@ -78,7 +78,7 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
 
-soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 10,000 changed bits, 1,500 silent sockets, ...; an hour of the studio (80 minutes).
+soak: $(VENV)/test.stamp  ## The attacks in full: 10 minutes of load, 1,500 silent sockets, malformed messages, changed bits, damaged inputs, 1,000 rounds of forks; then an hour of the studio. Two hours and a half.
 	$(BIN)/python tests/soak.py
 	$(BIN)/python -m tests.studio.soak --minutes $(MINUTES)
 
