@@ -59,6 +59,7 @@ def test_long_work_is_named_once_and_its_time_said_when_it_is_known(clock, said)
     with working("thinking") as advance:
         look(clock, 1.1)
         look(clock, 0.2)
+        look(clock, 3.6)
         assert said() == ["holdfast: thinking"]
         clock.now = 5.0
         advance(1, 10)

@@ -102,10 +102,11 @@ class _Work:
         passed = _clock() - self.begun
         if passed < self.next:
             return
-        self.next = min(_AGAIN * max(passed, _LONG), passed + _AT_MOST)
+        named, self.next = self.next > _LONG, min(_AGAIN * max(passed, _LONG), passed + _AT_MOST)
         rest = self._rest()
         if rest is None:
-            _say(self.what)
+            if not named:
+                _say(self.what)
         elif rest >= _LONG:
             _say(f"{self.what}, about {_shown(rest)} more")
 
