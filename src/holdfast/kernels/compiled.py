@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import notice
 from holdfast.kept import cached_property
-from holdfast.kernels import cache, llvm_backend, notice
+from holdfast.kernels import cache, llvm_backend
 from holdfast.kernels.llvm_ir import Machine
 from holdfast.kernels.program import Program
 
