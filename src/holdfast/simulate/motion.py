@@ -122,7 +122,7 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
 
 
 def own_units(law: Law, error: Array, hand: Array, target: Array) -> Array:
-    """Norms of errors (N,), m and rad, with lengths in units of the arm's own; hands and targets as they have them."""
+    """Norms of errors (N,), m and rad, with lengths in units of the arm's own; places and targets as they have them."""
     unit = length_unit(law.arm)
     if not law.task.angular:
         return np.asarray(error / unit)

@@ -36,7 +36,7 @@ _SENTENCES = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class RecordedCycles:
     """Rows of N trials as they are in the records, trial i's at ``first[i]`` to ``first[i + 1]``, the last of them its end.
 
