@@ -1,7 +1,7 @@
 """Records all that holdfast prints and writes for a fixed set of commands, and compares two records.
 
     python tools/record.py record OLD [KEY ...]          what lies in src/ beside this folder, or in --source
-    python tools/record.py compare OLD NEW [--pictures PAGE.html]
+    python tools/record.py compare OLD NEW [KEY ...] [--pictures PAGE.html]
 
 A change of the insides must leave the record as it is, or every difference must be meant. Commands are in
 ``recorded/commands.txt``, results of Python in ``recorded/results.py``; the help of every command comes with them.
@@ -43,15 +43,6 @@ SETTINGS = {
     "HOLDFAST_LEVEL": "1", "HOLDFAST_THREADS": "1", "HOLDFAST_BACKEND": "", "OPENBLAS_NUM_THREADS": "1", "COLUMNS": "100",
     "TERM": "dumb", "NO_COLOR": "1", "TZ": "UTC", "LC_ALL": "C.UTF-8",
 }  # fmt: skip
-# What may differ between two runs of the same code, and what is put in its place.
-VARIES = (
-    (r"\b\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?", "<time>"),
-    (r"(?m)^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
-    (r"\b(holdfast|Python|numpy|scipy|casadi|llvmlite|xarray|zarr)( |\": \"|: )\d+(\.\d+)+[\w.]*", r"\1\2<version>"),
-    (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
-    (r"\bkey=[\w-]+", "key=<key>"),
-)  # fmt: skip
-
 
 # ---- recording -----------------------------------------------------------------------------------------------------------
 
@@ -77,7 +68,7 @@ def record(folder: Path, source: Path, keys: list[str]) -> int:
             for name, data in kept.items():
                 file = folder / key / name
                 file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_bytes(data if file.suffix == ".png" else settled(data, paths))
+                file.write_bytes(data if file.suffix == ".png" else texts(data, paths))
         print(f"{key:22} {len(kept):4} files  {spent() - begin:5.1f} s", flush=True)
         broken += [f"{key}/{name}" for name, data in kept.items() if b"Traceback (most recent" in data]
     if broken:
@@ -219,16 +210,14 @@ def opened(name: str, file: Path) -> dict[str, bytes]:
     return {name: data}
 
 
-def settled(data: bytes, paths: dict[str, str]) -> bytes:
-    """A text without what varies; anything else as it is."""
+def texts(data: bytes, paths: dict[str, str]) -> bytes:
+    """A text without the places where it was made, pictures in it as digests; anything else as it is."""
     try:
         text = data.decode()
     except UnicodeDecodeError:
         return data
     for path, name in paths.items():
         text = text.replace(path, name)
-    for pattern, constant in VARIES:
-        text = re.sub(pattern, constant, text)
     return re.sub(
         r"data:image/png;base64,([A-Za-z0-9+/=\s]+)", lambda m: f"png {pixels(base64.b64decode(m[1]))}", text
     ).encode()
@@ -244,8 +233,9 @@ if __name__ == "__main__":
     two = tasks.add_parser("compare")
     two.add_argument("old", type=Path)
     two.add_argument("new", type=Path)
+    two.add_argument("keys", nargs="*", metavar="KEY")
     two.add_argument("--pictures", type=Path, metavar="PAGE.html", help="all pictures that differ, side by side")
     given = parser.parse_args()
     if given.task == "record":
         sys.exit(record(given.folder, given.source, given.keys))
-    sys.exit(compare(given.old, given.new, given.pictures))
+    sys.exit(compare(given.old, given.new, given.keys, given.pictures))

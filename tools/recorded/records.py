@@ -8,16 +8,34 @@ import hashlib
 import html
 import io
 import json
+import re
 import sys
 from collections.abc import Iterator
+from itertools import islice, zip_longest
 from pathlib import Path
 
+NUMBER = r"\d+(\.\d+)?(e-?\d+)?"
+# What may differ between two runs of the same code, and what counts in its place.
+VARIES = tuple(
+    (re.compile(pattern, re.MULTILINE), constant)
+    for pattern, constant in (
+        (r"\b\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?", "<time>"),
+        (rf"\b(seconds\"?)(=|: ){NUMBER}", r"\1\2<seconds>"),
+        (r"\b(holdfast|Python|numpy|scipy|casadi|llvmlite|xarray|zarr)( |\": \"|: )\d+(\.\d+)+[\w.]*", r"\1\2<version>"),
+        (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
+        (r"\bkey=[\w-]+", "key=<key>"),
+        (r"^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
+        (r"^exit code 0\n", ""),
+        (r"X'[0-9A-F]{64}',X'[0-9A-F]{64}'\);$", "<digests>);"),  # of records with their times
+    )
+)
 
-def compare(old: Path, new: Path, page: Path | None) -> int:
-    """Print what differs, file by file; exit code 1 if anything does."""
-    a, b = ({str(f.relative_to(x)): f.read_bytes() for f in sorted(x.rglob("*")) if f.is_file()} for x in (old, new))
+
+def compare(old: Path, new: Path, keys: list[str], page: Path | None) -> int:
+    """Print what differs, file by file, in all cases or those with the keys given; exit code 1 if anything does."""
+    a, b = (read(folder, keys) for folder in (old, new))
     if not a or not b:
-        sys.exit(f"there is no record in '{new if a else old}'")
+        sys.exit(f"there is no record in '{new if a else old}'" + (f" of {', '.join(keys)}" if keys else ""))
     different = [
         name for name in sorted(a.keys() | b.keys()) if name not in a or name not in b or not same(name, a[name], b[name])
     ]
@@ -37,12 +55,30 @@ def compare(old: Path, new: Path, page: Path | None) -> int:
     return int(bool(different))
 
 
+def read(folder: Path, keys: list[str]) -> dict[str, bytes]:
+    """The files of a record by name."""
+    files = {file.relative_to(folder): file for file in sorted(folder.rglob("*")) if file.is_file()}
+    found = {str(name): settled(file.read_bytes()) for name, file in files.items() if not keys or name.parts[0] in keys}
+    return {name: data for name, data in found.items() if data}
+
+
+def settled(data: bytes) -> bytes:
+    """A text without what varies; anything else as it is."""
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return data
+    for pattern, constant in VARIES:
+        text = pattern.sub(constant, text)
+    return text.encode()
+
+
 def same(name: str, a: bytes, b: bytes) -> bool:
     """Whether two files say the same."""
     return a == b or (name.endswith(".png") and pixels(a) == pixels(b))
 
 
-def differences(name: str, a: bytes, b: bytes, most: int = 6) -> Iterator[str]:
+def differences(name: str, a: bytes, b: bytes, most: int = 4) -> Iterator[str]:
     """The first differences of two files, a line each."""
     try:
         lines, others = ([line.decode() for line in x.splitlines()] for x in (a, b))
@@ -51,15 +87,19 @@ def differences(name: str, a: bytes, b: bytes, most: int = 6) -> Iterator[str]:
     except (UnicodeDecodeError, json.JSONDecodeError):
         yield f"{hashlib.sha256(a).hexdigest()[:16]}, {len(a)} bytes; {hashlib.sha256(b).hexdigest()[:16]}, {len(b)} bytes"
         return
-    found = [
-        line for line in difflib.unified_diff(lines, others, n=0, lineterm="") if not line.startswith(("---", "+++", "@@"))
-    ]
-    at = 0
-    if len(found) == 2:  # a long line: where it differs
-        at = max(0, next((k for k, (x, y) in enumerate(zip(found[0][1:], found[1][1:], strict=False)) if x != y), 0) - 40)
-    yield from (line[0] + ("…" if at else "") + line[1 + at :][:150] for line in found[:most])
-    if len(found) > most:
-        yield f"… {len(found)} lines"
+    found = [line for line in difflib.unified_diff(lines, others, n=0, lineterm="") if line[:3] not in ("---", "+++", "@@ ")]
+    gone, come = ([line[1:] for line in found if line[0] == sign] for sign in "-+")
+    for x, y in islice(zip_longest(gone, come), most):
+        at = max(
+            0, next((k for k, (c, d) in enumerate(zip(x or "", y or "", strict=False)) if c != d), 0) - 40
+        )  # of a long line, where it differs
+        yield from (
+            f"{sign}{'…' if at else ''}{text[at : at + 150]}" for sign, text in (("-", x), ("+", y)) if text is not None
+        )
+    if not found:
+        yield "the same, written otherwise"
+    elif max(len(gone), len(come)) > most:
+        yield f"… {len(gone)} lines gone, {len(come)} come"
 
 
 def entries(value: object, path: str = "") -> Iterator[str]:
