@@ -1,6 +1,6 @@
 """Records all that holdfast prints and writes for a fixed set of commands, and compares two records.
 
-    python tools/record.py record OLD [KEY ...]          what lies in src/ beside this folder, or in --source
+    python tools/record.py record OLD [KEY ...]   of src/ beside this folder, or --source; built pages with --docs
     python tools/record.py compare OLD NEW [KEY ...] [--pictures PAGE.html]
 
 A change of the insides must leave the record as it is, or every difference must be meant. Commands are in
@@ -47,7 +47,7 @@ SETTINGS = {
 # ---- recording -----------------------------------------------------------------------------------------------------------
 
 
-def record(folder: Path, source: Path, keys: list[str]) -> int:
+def record(folder: Path, source: Path, keys: list[str], pages: Path | None) -> int:
     """Write the record of all cases, or of those with the keys given."""
     if folder.exists() and any(folder.iterdir()):
         sys.exit(f"'{folder}' is not empty; give a new folder")
@@ -56,7 +56,7 @@ def record(folder: Path, source: Path, keys: list[str]) -> int:
             importlib.import_module(name)
     os.environ.update(SETTINGS)
     sys.path.insert(0, str(source.resolve()))
-    cases = {**commands(), "help": [], "results": []}
+    cases = {**commands(), "help": [], "results": []} | ({} if pages is None else {"docs": [str(pages.resolve())]})
     if unknown := set(keys) - set(cases):
         sys.exit(f"no case {', '.join(sorted(unknown))}; there are {', '.join(cases)}")
     broken: list[str] = []
@@ -185,7 +185,15 @@ def returned(place: Path, _: list[str]) -> dict[str, bytes]:
     return kept
 
 
-CASES: dict[str, Callable[[Path, list[str]], dict[str, bytes]]] = {"help": helped, "results": returned}
+def built(_: Path, pages: list[str]) -> dict[str, bytes]:
+    """The pages of the documentation that lie in a folder, with what they show of the programs that they ran."""
+    root, kept = Path(pages[0]), {}
+    for file in sorted(root.rglob("*.html")):
+        kept |= opened(str(file.relative_to(root)), file)
+    return kept
+
+
+CASES: dict[str, Callable[[Path, list[str]], dict[str, bytes]]] = {"help": helped, "results": returned, "docs": built}
 
 
 # ---- files ---------------------------------------------------------------------------------------------------------------
@@ -230,6 +238,7 @@ if __name__ == "__main__":
     new.add_argument("folder", type=Path)
     new.add_argument("keys", nargs="*", metavar="KEY")
     new.add_argument("--source", type=Path, default=HERE.parent / "src", help="folder that holds the package")
+    new.add_argument("--docs", type=Path, metavar="FOLDER", help="also these pages, as 'make docs' built them")
     two = tasks.add_parser("compare")
     two.add_argument("old", type=Path)
     two.add_argument("new", type=Path)
@@ -237,5 +246,5 @@ if __name__ == "__main__":
     two.add_argument("--pictures", type=Path, metavar="PAGE.html", help="all pictures that differ, side by side")
     given = parser.parse_args()
     if given.task == "record":
-        sys.exit(record(given.folder, given.source, given.keys))
+        sys.exit(record(given.folder, given.source, given.keys, given.docs))
     sys.exit(compare(given.old, given.new, given.keys, given.pictures))

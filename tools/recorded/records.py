@@ -21,7 +21,8 @@ VARIES = tuple(
     for pattern, constant in (
         (r"\b\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?", "<time>"),
         (rf"\b(seconds\"?)(=|: ){NUMBER}", r"\1\2<seconds>"),
-        (r"\b(holdfast|Python|numpy|scipy|casadi|llvmlite|xarray|zarr)( |\": \"|: )\d+(\.\d+)+[\w.]*", r"\1\2<version>"),
+        (r"\b(holdfast|[Pp]ython|numpy|scipy|casadi|llvmlite|xarray|zarr)( |\": \"|: )\d+(\.\d+)+[\w.]*", r"\1\2<version>"),
+        (r"\"(processor|machine)\": \"[^\"]*\"", r"\"\1\": <machine>"),
         (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
         (r"\bkey=[\w-]+", "key=<key>"),
         (r"^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
