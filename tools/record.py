@@ -1,7 +1,7 @@
 """Records all that holdfast prints and writes for a fixed set of commands, and compares two records.
 
-    python tools/record.py record OLD [KEY ...]   of src/ beside this folder, or --source; built pages with --docs
-    python tools/record.py compare OLD NEW [KEY ...] [--pictures PAGE.html]
+    python tools/record.py record OLD           what src/ beside this folder does, or --source; built pages with --docs
+    python tools/record.py compare OLD NEW      and --pictures PAGE.html for those that differ; --only KEY ... with both
 
 A change of the insides must leave the record as it is, or every difference must be meant. Commands are in
 ``recorded/commands.txt``, results of Python in ``recorded/results.py``; the help of every command comes with them.
@@ -236,15 +236,15 @@ if __name__ == "__main__":
     tasks = parser.add_subparsers(dest="task", required=True)
     new = tasks.add_parser("record")
     new.add_argument("folder", type=Path)
-    new.add_argument("keys", nargs="*", metavar="KEY")
+    new.add_argument("--only", nargs="+", default=[], metavar="KEY", help="some of the cases")
     new.add_argument("--source", type=Path, default=HERE.parent / "src", help="folder that holds the package")
     new.add_argument("--docs", type=Path, metavar="FOLDER", help="also these pages, as 'make docs' built them")
     two = tasks.add_parser("compare")
     two.add_argument("old", type=Path)
     two.add_argument("new", type=Path)
-    two.add_argument("keys", nargs="*", metavar="KEY")
+    two.add_argument("--only", nargs="+", default=[], metavar="KEY", help="some of the cases")
     two.add_argument("--pictures", type=Path, metavar="PAGE.html", help="all pictures that differ, side by side")
     given = parser.parse_args()
     if given.task == "record":
-        sys.exit(record(given.folder, given.source, given.keys, given.docs))
-    sys.exit(compare(given.old, given.new, given.keys, given.pictures))
+        sys.exit(record(given.folder, given.source, given.only, given.docs))
+    sys.exit(compare(given.old, given.new, given.only, given.pictures))

@@ -26,6 +26,7 @@ VARIES = tuple(
         (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
         (r"\bkey=[\w-]+", "key=<key>"),
         (r"^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
+        (r" at 0x[0-9a-f]+", ""),
         (r"^exit code 0\n", ""),
         (r"X'[0-9A-F]{64}',X'[0-9A-F]{64}'\);$", "<digests>);"),  # of records with their times
     )
