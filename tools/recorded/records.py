@@ -14,18 +14,28 @@ from collections.abc import Iterator
 from itertools import islice, zip_longest
 from pathlib import Path
 
-NUMBER = r"\d+(\.\d+)?(e-?\d+)?"
+NUMBER = r"\d+(?:\.\d+)?(?:e-?\d+)?"
+LASTS = rf"{NUMBER} (?:ms|s|min|h)\b *"
 # What may differ between two runs of the same code, and what counts in its place.
 VARIES = tuple(
     (re.compile(pattern, re.MULTILINE), constant)
     for pattern, constant in (
         (r"\b\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?", "<time>"),
-        (rf"\b(seconds\"?)(=|: ){NUMBER}", r"\1\2<seconds>"),
-        (r"\b(holdfast|[Pp]ython|numpy|scipy|casadi|llvmlite|xarray|zarr)( |\": \"|: )\d+(\.\d+)+[\w.]*", r"\1\2<version>"),
-        (r"\"(processor|machine)\": \"[^\"]*\"", r"\"\1\": <machine>"),
+        (rf"(seconds\"?)(=|: ){NUMBER}", r"\g<1>\g<2>0"),
+        (rf"(that ended took |chunks in |>Time</th><td class=\"\">){LASTS}", r"\1<time>"),
+        (rf"{LASTS}(of one thread|with the \d+ of this machine)", r"<time> \1"),
+        (rf"(  \d+|\d+ of \d+)  +{LASTS}(?:{LASTS})?($|\d)", r"\1 <time> \2"),  # tables of studies
+        (rf"(On the disk</th><td class=\"\">){NUMBER}", r"\1<size>"),  # times are in it
+        (
+            r"\b(holdfast|[Pp]ython|numpy|scipy|casadi|llvmlite|xarray|zarr|mujoco)( |\": \"|: )\d+(\.\d+)+[\w.]*",
+            r"\1\2<version>",
+        ),
+        (r'"(processor|machine)": "[^"]*"', r'"\1": "<machine>"'),
+        (r"(>Computed on</th><td class=\"\">)[^;<]*", r"\1<machine>"),
         (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
         (r"\bkey=[\w-]+", "key=<key>"),
         (r"^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
+        (r"^\d+ of \d+ chunks, about .*\n", ""),  # only of what takes half a minute
         (r" at 0x[0-9a-f]+", ""),
         (r"^exit code 0\n", ""),
         (r"X'[0-9A-F]{64}',X'[0-9A-F]{64}'\);$", "<digests>);"),  # of records with their times
