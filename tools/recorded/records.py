@@ -38,6 +38,8 @@ VARIES = tuple(
         (r"^\d+ of \d+ chunks, about .*\n", ""),  # only of what takes half a minute
         (r" at 0x[0-9a-f]+", ""),
         (r"^exit code 0\n", ""),
+        (r"^(\d+ [0-9a-f]{32} \d+) [\d.e-]+ (\d+) [0-9a-f]{8}$", r"\1 <seconds> \2 <digest>"),  # chunks of studies
+        (r"(digests; all together) [0-9a-f]{64}", r"\1 <digest>"),
         (r"X'[0-9A-F]{64}',X'[0-9A-F]{64}'\);$", "<digests>);"),  # of records with their times
     )
 )
@@ -70,11 +72,13 @@ def compare(old: Path, new: Path, keys: list[str], page: Path | None) -> int:
 def read(folder: Path, keys: list[str]) -> dict[str, bytes]:
     """The files of a record by name."""
     files = {file.relative_to(folder): file for file in sorted(folder.rglob("*")) if file.is_file()}
-    found = {str(name): settled(file.read_bytes()) for name, file in files.items() if not keys or name.parts[0] in keys}
+    found = {
+        str(name): settled(str(name), file.read_bytes()) for name, file in files.items() if not keys or name.parts[0] in keys
+    }
     return {name: data for name, data in found.items() if data}
 
 
-def settled(data: bytes) -> bytes:
+def settled(name: str, data: bytes) -> bytes:
     """A text without what varies; anything else as it is."""
     try:
         text = data.decode()
@@ -82,7 +86,7 @@ def settled(data: bytes) -> bytes:
         return data
     for pattern, constant in VARIES:
         text = pattern.sub(constant, text)
-    return text.encode()
+    return ("".join(sorted(text.splitlines(True))) if name.endswith(".journal") else text).encode()  # as chunks are done
 
 
 def same(name: str, a: bytes, b: bytes) -> bool:
