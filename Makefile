@@ -7,7 +7,7 @@ WORKERS ?= 3
 MINUTES ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check lint types docs page bench soak clean lock
+.PHONY: help demo test check lint types house docs page bench soak clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -59,6 +59,11 @@ check: lint types  ## Before a pull request: lint, types and the quick tests of 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-cache --no-logo
+	$(BIN)/python -m tools.house
+
+house: $(VENV)/test.stamp  ## Count what the rules of the house forbid: circles of files, shadowed names, retired words, ...; part of lint.
+	$(BIN)/python -m tools.house
 
 types: $(VENV)/test.stamp
 	$(BIN)/mypy
@@ -73,7 +78,7 @@ bench: $(VENV)/run.stamp  ## Run the benchmarks beside their peers (its own envi
 	$(VENV)-bench/bin/python -m pip install --quiet --requirement benchmarks/requirements.txt
 	$(VENV)-bench/bin/python benchmarks/run_all.py
 
-soak: $(VENV)/test.stamp  ## Load the server for 10 minutes, 100,000 malformed messages, 10,000 changed bits, 1,500 silent sockets, ...; an hour of the studio (80 minutes).
+soak: $(VENV)/test.stamp  ## The attacks in full: 10 minutes of load, 1,500 silent sockets, malformed messages, changed bits, damaged inputs, 1,000 rounds of forks; then an hour of the studio. Two hours and a half.
 	$(BIN)/python tests/soak.py
 	$(BIN)/python -m tests.studio.soak --minutes $(MINUTES)
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from holdfast.teleop.entries import Kind
-from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.session import Session
 from holdfast.teleop.trials import End
@@ -48,7 +48,7 @@ def trial(records: Records, code: str, rng: np.random.Generator, cycles: int = 6
 
 def study(folder: Path) -> None:
     """Records with some of everything: six trials that are over, and one that is not."""
-    whole = read()
+    whole = read_protocol()
     tasks = whole.with_tasks(whole.tasks.take(np.array([0, 9])), ["a", "b"])
     training = Training(at_least=1, in_a_row=1, limit=80.0, most=3)
     rng = np.random.default_rng(1)
@@ -117,7 +117,7 @@ def flipped(source: Path, copy: Path, count: int, rng: np.random.Generator, read
         if touched and not verify(copy).damaged:
             seen.missed.append((files[which].name, byte, bit))
         if touched:
-            read()
+            read_protocol()
         for left in copy.glob("records.sqlite-*"):
             left.unlink()
         files[which].write_bytes(original)

@@ -10,13 +10,13 @@ Options are variables of the environment, as the tests have them:
     HOLDFAST_KILLS      of a program that writes records, 40
     HOLDFAST_FLIPS      single bits changed in a folder of records, 10000
     HOLDFAST_SILENT     sockets that begin a request and do not end it, while 8 stations work for 30 s, 1500
-    HOLDFAST_FORKS      rounds of two child processes, forked while kernels are compiled and run, 500; an eighth as many spawned
+    HOLDFAST_ROUNDS     of two child processes forked, of two spawned, and of four threads, while kernels are made, 1000 each
     HOLDFAST_INPUTS     mutated input files of every kind, 40000
     HOLDFAST_COMPILED   1: random arms with compiled kernels, where the daily tests interpret them
 
 The load is served in a process of its own, on loopback. Ends with 1 if a cycle was lost, a trial differs when it is replayed,
-a message changed anything, a changed bit of data went unseen, an input file ended in anything but a value or a sentence, or the
-99th percentile of the acknowledgements is above 50 ms, 100 ms among silent sockets.
+a message changed anything, a changed bit of data went unseen, an input file ended in anything but a value or a sentence, a
+process or thread waited for ever, or the 99th percentile of the acknowledgements is above 50 ms, 100 ms among silent sockets.
 """
 
 from __future__ import annotations
@@ -43,7 +43,8 @@ FUZZED = ("teleop/serve/test_serve_messages.py", "teleop/serve/test_serve_server
 OUTAGE = ("browser/test_session.py",)
 KILLED = ("teleop/test_records.py",)
 FLIPPED = ("cli/test_teleop_verify_command.py",)
-FORKED = ("kernels/test_kernel_levels.py",)
+ROUNDS = ("kernels/test_kernel_levels.py",)
+STARTED = {"fork": "child_process and fork", "spawn": "child_process and spawn", "threads": "threads_make"}
 COMPILED = ("arm", "test_kinematics.py")
 
 
@@ -71,8 +72,8 @@ def main() -> int:
     survived, kills_s = _tests(KILLED, "killed", "HOLDFAST_KILLS", kills)
     flips = option("FLIPS", "10000")
     seen, flips_s = _tests(FLIPPED, "changed_bit", "HOLDFAST_FLIPS", flips)
-    forks = option("FORKS", "500")
-    alive, forks_s = _tests(FORKED, "child_process", "HOLDFAST_FORKS", forks)
+    rounds = option("ROUNDS", "1000")
+    alive = {kind: _tests(ROUNDS, which, "HOLDFAST_ROUNDS", rounds) for kind, which in STARTED.items()}
     inputs = fuzz_inputs.fuzz(int(option("INPUTS", "40000")), fuzz_inputs.SEED, os.cpu_count() or 1)
     compiled, compiled_s = _tests(COMPILED, "interpreted", "HOLDFAST_COMPILED", option("COMPILED", "1"))
 
@@ -92,17 +93,23 @@ def main() -> int:
         (f"{attack.sockets} silent sockets: p99, ms; lost; log", f"{attack.p99:.1f}; {attack.lost}; {attack.log} B"),
         (
             f"{inputs.counts.total()} mutated input files",
-            f"{len(inputs.failed)} failed, the longest took {inputs.slowest:.1f} s",
+            f"{len(inputs.failed)} failed, the longest took {inputs.slowest:.1f} s (case {inputs.slowest_case})",
         ),
-        (f"{forks} rounds of forks", f"{'no deadlock' if alive else 'FAILED'} ({forks_s:.0f} s)"),
+        *(
+            (f"{rounds} rounds of {kind}", f"{'no deadlock' if well else 'FAILED'} ({took:.0f} s)")
+            for kind, (well, took) in alive.items()
+        ),
         ("random arms, compiled", f"{'as they should be' if compiled else 'FAILED'} ({compiled_s:.0f} s)"),
     ]
     print(f"\nSoak test, {time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, {os.cpu_count()} cores")
     for name, value in rows:
         print(f"  {name:<50} {value}")
+    for cause in inputs.causes():
+        print(f"  tests/fuzz_inputs.py: {cause}")
+    passed = fuzzed and kept and survived and seen and compiled
     lost = figures.lost != 0 or figures.differing != 0 or attack.lost != 0
     slow = figures.p99 > MOST or attack.p99 > MOST_ATTACKED or attack.log > LOG
-    return int(lost or slow or bool(inputs.failed) or not (fuzzed and kept and survived and seen and alive and compiled))
+    return int(lost or slow or bool(inputs.failed) or not (passed and all(well for well, _ in alive.values())))
 
 
 if __name__ == "__main__":

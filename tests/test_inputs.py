@@ -50,10 +50,10 @@ def test_a_reader_that_fails_is_seen(tmp_path, monkeypatch):
     ):
         kind = fuzz_inputs.Kind([b"a: 1\n"], fuzz_inputs.of_yaml, read, tmp_path / "in" / "a.yaml")
         with fuzz_inputs.alarmed():
-            assert said in fuzz_inputs.run(0, 1, {"one": kind}, watch)[1], read
+            assert said in fuzz_inputs.run(0, 1, {"one": kind}, watch)[0], read
     kind = fuzz_inputs.Kind([b"a: 1\n"], fuzz_inputs.of_yaml, len, tmp_path / "in" / "a.yaml")
     kind.read = lambda path: path.read_bytes()
-    assert fuzz_inputs.run(0, 1, {"one": kind}, watch)[1] == ""
+    assert fuzz_inputs.run(0, 1, {"one": kind}, watch)[0] == ""
 
 
 @pytest.mark.parametrize("structure", ["of_bytes", "of_tokens", "of_yaml", "of_json", "of_xml", "of_table"])

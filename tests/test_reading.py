@@ -48,7 +48,7 @@ READERS = {
     "joints.csv": lambda path: read_joint_table(FLAT, path, "waypoints", "step"),
     "weights.csv": lambda path: read_weights("--weights", str(path)),
     "study.yaml": study_file.read,
-    "protocol.yaml": protocol.read,
+    "protocol.yaml": protocol.read_protocol,
     "texts.yaml": texts.read,
     "study.json": _study,
     "run.json": _run,

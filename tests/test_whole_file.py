@@ -88,7 +88,7 @@ WRITERS = {
     "waypoints": lambda arm, to: write_waypoints(arm, np.zeros((20, arm.n)), to),
     "study file": lambda arm, to: template.write(to, [ArmSpec("planar-3r")], 10, 5, 0),
     "texts": lambda arm, to: texts.copy(to),
-    "protocol": lambda arm, to: protocol.read().write(to),
+    "protocol": lambda arm, to: protocol.read_protocol().write(to),
     "figure": lambda arm, to: save_png(_figure(), to),
 }
 

@@ -25,7 +25,7 @@ import chromium  # noqa: E402
 from browser.conftest import Served, command_line  # noqa: E402
 from browser.station import OPERATOR, Station  # noqa: E402
 from holdfast.teleop.experiment import simulate_experiment  # noqa: E402
-from holdfast.teleop.protocol import Training, read  # noqa: E402
+from holdfast.teleop.protocol import Training, read_protocol  # noqa: E402
 
 
 def keep(page: Page, name: str) -> None:
@@ -39,7 +39,7 @@ def keep(page: Page, name: str) -> None:
 
 def begin(folder: Path) -> None:
     """An experiment that three simulated operators have done."""
-    whole = read("goel2003-smooth")
+    whole = read_protocol("goel2003-smooth")
     few = whole.with_tasks(whole.tasks.take(np.array([0, 3, 6, 9, 13, 19])), whole.notes[:6])
     training = Training(at_least=1, in_a_row=1, limit=900.0, most=20, distance=2.0)
     short = replace(few, name="Three links, pilot", training=training, subjects=12)

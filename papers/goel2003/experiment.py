@@ -19,7 +19,7 @@ import holdfast as hf
 from holdfast.teleop.analysis import Analysis, analyse
 from holdfast.teleop.entries import Kind
 from holdfast.teleop.experiment import simulate_experiment
-from holdfast.teleop.protocol import Protocol, read
+from holdfast.teleop.protocol import Protocol, read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay
 from holdfast.teleop.selection import Binning, binning
@@ -161,7 +161,7 @@ class Study:
 @cache
 def study() -> Study:
     """Run it, replay it, analyse it."""
-    protocol = read()
+    protocol = read_protocol()
     with (
         tempfile.TemporaryDirectory() as folder,
         simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, SEED) as records,

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from holdfast import reading
+from holdfast.arm import urdf
 from holdfast.arm.builtin import Builtin, about, load, names
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
@@ -36,8 +37,6 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Ma
             nor an MJCF file.
         HoldfastError: It is an MJCF file and MuJoCo is not installed.
     """
-    from holdfast.arm import mjcf, table, urdf
-
     if not isinstance(spec, (str, PathLike)) or "\0" in str(spec):
         raise ArmError(f"the arm is {spec!r}; give a built-in name or the path of a file")
     spec = str(spec)
@@ -47,8 +46,14 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Ma
             raise ArmError(
                 f"'{spec}' is not a URDF or MJCF file, so it has no links or joints to choose; leave out base, tip and hold"
             )
-        return load(spec) if spec in names() else table.load(spec)
+        if spec in names():
+            return load(spec)
+        from holdfast.arm import table
+
+        return table.load(spec)
     if ending in MJCF_ENDINGS or (ending == ".xml" and _outermost(spec) == "mujoco"):
+        from holdfast.arm import mjcf
+
         return mjcf.load(spec, base, tip, hold)
     if ending in URDF_ENDINGS:
         return urdf.load(spec, base, tip, hold)

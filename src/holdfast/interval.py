@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.beta import quantile
 from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
@@ -36,11 +37,9 @@ class Interval:
 
         Source: Clopper and Pearson 1934.
         """
-        from scipy.special import betaincinv
-
         rest = (1 - confidence) / 2
-        low = float(betaincinv(hits, size - hits + 1, rest)) if hits > 0 else 0.0
-        high = float(betaincinv(hits + 1, size - hits, 1 - rest)) if hits < size else 1.0
+        low = quantile(hits, size - hits + 1, rest) if hits > 0 else 0.0
+        high = quantile(hits + 1, size - hits, 1 - rest) if hits < size else 1.0
         return cls(float(hits / size), low, high, confidence)
 
     @classmethod

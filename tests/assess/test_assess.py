@@ -425,6 +425,17 @@ def test_a_lost_chunk_of_any_variable_is_noticed(name, three, tmp_path):
         load(tmp_path / "run")
 
 
+@pytest.mark.parametrize("name", ["index", "q", "by_failure", "worst", "status"])
+def test_a_lost_column_is_noticed(name, three, tmp_path):
+    assess(three, THREE, task="planar", poses=10, store=tmp_path / "run")
+    file = tmp_path / "run" / "run.json"
+    run = json.loads(file.read_text())
+    run["columns"] = [c for c in run["columns"] if c[0] != name]
+    file.write_text(json.dumps(run))
+    with pytest.raises(StoreError, match=f"its column '{name}' is lost"):
+        load(tmp_path / "run")
+
+
 def test_a_lost_chunk_of_poses_is_noticed(pa10, tmp_path):
     assess(pa10, PAPER, poses=20, store=tmp_path / "run")
     for p in (tmp_path / "run" / "samples.zarr" / "position" / "c").rglob("*"):

@@ -238,6 +238,7 @@ BAD_TABLES = {
     "word": (HEAD + "0,0,here,0,0,0,1\n", "line 2.*'here'"),
     "nan": (HEAD + "0,0,nan,0,0,0,1\n", "pose 1 holds NaN"),
     "quaternion": (HEAD + "0,0,0,0,0,0,1\n0,0,0,0,0,0,2\n", "quaternion of pose 2 has length 2"),
+    "large quaternion": (HEAD + "0,0,0,0,0,1e308,1\n", "quaternion of pose 1 has length inf"),
     "negative": ("x,y,z,qx,qy,qz,qw,weight\n0,0,0,0,0,0,1,-1\n", "weight 1 is -1"),
     "no weight": ("x,y,z,qx,qy,qz,qw,weight\n0,0,0,0,0,0,1,0\n", "all weights are 0"),
 }

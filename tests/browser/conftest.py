@@ -17,7 +17,7 @@ import chromium
 from browser.line import Line
 from browser.station import OPERATOR
 from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.protocol import Protocol, Training, read
+from holdfast.teleop.protocol import Protocol, Training, read_protocol
 from holdfast.teleop.stick import Stick
 
 
@@ -31,7 +31,7 @@ def browser() -> Iterator:
 @pytest.fixture(scope="package")
 def protocol() -> Protocol:
     """Two short and easy tasks, healthy and failed, quickly compiled; 0.9 m/s at the most."""
-    whole = read()
+    whole = read_protocol()
     tasks = whole.tasks.take(np.array([0, 1]))
     starts = whole.plants[0].position(tasks.q0)
     tasks.target[:] = starts + 0.35 * (tasks.target - starts)

@@ -10,7 +10,7 @@ import pytest
 from holdfast.teleop.entries import State
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
 
 
@@ -18,7 +18,7 @@ from holdfast.teleop.records import Records
 def led(serve, tmp_path_factory):
     """Served: three who are done, for a report, and a training so long that the next one is still at it."""
     folder = tmp_path_factory.mktemp("led") / "study"
-    whole = read()
+    whole = read_protocol()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 2, 3])), ["a", "b", "c"])
     laws = [("pseudoinverse", False, {}), ("pseudoinverse", True, {}), ("damped", True, {"damping": 0.1})]
     short = replace(

@@ -14,7 +14,7 @@ import pytest
 from holdfast.teleop.allocation import write_allocation
 from holdfast.teleop.analysis import Analysis
 from holdfast.teleop.bank_figure import bank_figure
-from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.selection import binning
 from holdfast.teleop.tables import bank_table, computer_table, hand_paths
@@ -23,7 +23,7 @@ from holdfast.teleop.tasks import task_bank
 
 @pytest.fixture(scope="module")
 def tiny(tmp_path_factory):
-    whole = read()
+    whole = read_protocol()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
     few = replace(few, training=Training(at_least=2, in_a_row=2, limit=90, most=12), subjects=6, substeps=1)
     return few.write(tmp_path_factory.mktemp("protocol") / "tiny.yaml")
@@ -35,7 +35,7 @@ def study(tiny, tmp_path_factory):
     from holdfast.teleop.experiment import simulate_experiment
 
     folder = tmp_path_factory.mktemp("made") / "study"
-    simulate_experiment(folder, read(tiny), 3, seed=2).close()
+    simulate_experiment(folder, read_protocol(tiny), 3, seed=2).close()
     return folder
 
 
@@ -62,7 +62,7 @@ def test_tasks_writes_a_bank_and_a_protocol_that_runs(cli, tmp_path):
     assert {f.name for f in out.iterdir()} == {"bank.csv", "bank.png", "protocol.yaml"}
     bank = table(out / "bank.csv")
     assert len(bank) == 18
-    protocol = read(out / "protocol.yaml")
+    protocol = read_protocol(out / "protocol.yaml")
     data = json.loads(cli(*call, "--json")[1])
     special = [data["most_disorienting"], *([data["trapped"]] if data["trapped"] else [])]
     assert (data["trapped"] is None) == ("no task of the bank draws" in text)
@@ -88,7 +88,7 @@ def test_tasks_of_an_arm_from_a_file(cli, tmp_path):
     assert (code, err) == (0, "")
     assert "disorienting" not in text
     assert (out / "arm.yaml").exists()
-    protocol = read(out / "protocol.yaml")
+    protocol = read_protocol(out / "protocol.yaml")
     assert (protocol.arm.name, protocol.rows.name, len(protocol.tasks)) == ("three", "planar", 3)
 
 
@@ -185,7 +185,7 @@ def test_paths_are_those_of_the_records(study):
 
 def test_the_computer_covers_the_same_way_at_any_cycle_rate():
     """Ten times as many cycles a second make ten times as many cycles, and otherwise the same trials."""
-    few = [p.with_tasks(p.tasks.take(np.array([0, 9, 23]))) for p in (read(), read("goel2003-smooth"))]
+    few = [p.with_tasks(p.tasks.take(np.array([0, 9, 23]))) for p in (read_protocol(), read_protocol("goel2003-smooth"))]
     coarse, fine = (computer_table(p) for p in few)
     assert (coarse["end"] == fine["end"]).all()
     arrived = coarse["end"] == "arrived"
@@ -201,12 +201,12 @@ def test_protocol_is_described_and_copied(cli, refused, tmp_path):
     assert (code, err) == (0, "")
     assert "60 cycles/s" in text
     assert "0.3 m/s" in text
-    assert read(tmp_path / "mine.yaml").text() == read("goel2003-smooth").text()
+    assert read_protocol(tmp_path / "mine.yaml").text() == read_protocol("goel2003-smooth").text()
     assert "exists already" in refused("teleop", "protocol", "--write", tmp_path / "mine.yaml")
 
 
 def test_allocation_is_that_of_the_sessions(cli, tiny, tmp_path):
-    protocol = read(tiny)
+    protocol = read_protocol(tiny)
     code, text, _ = cli("teleop", "allocation", tiny, "--subjects", "2")
     assert code == 0
     line = text.splitlines()[2].split()

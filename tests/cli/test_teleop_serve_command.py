@@ -5,7 +5,7 @@ import socket
 
 import pytest
 
-from holdfast.teleop.protocol import read
+from holdfast.teleop.protocol import read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.serve import app, texts
 
@@ -31,7 +31,7 @@ def test_a_new_folder_begins_an_experiment(cli, served, tmp_path):
     assert "station:      http://127.0.0.1:4711/\n" in text
     assert f"experimenter: http://127.0.0.1:4711/experimenter?key={options.guard.key}\n" in text
     with Records.open(tmp_path / "study") as records:
-        assert records.protocol.text() == read().text()
+        assert records.protocol.text() == read_protocol().text()
     again = cli("teleop", "serve", "--data", tmp_path / "study", "--protocol", "goel2003")
     assert again[0] == 0
     assert served[1][0].guard.key != options.guard.key
@@ -77,7 +77,7 @@ def test_bad_calls_get_one_sentence(refused, served, tmp_path, monkeypatch, call
 
 
 def test_another_protocol_is_refused(refused, served, tmp_path):
-    Records.create(tmp_path / "study", read()).close()
+    Records.create(tmp_path / "study", read_protocol()).close()
     call = ["teleop", "serve", "--data", tmp_path / "study", "--protocol", "goel2003-smooth"]
     assert "another protocol" in refused(*call)
     (tmp_path / "used").mkdir()

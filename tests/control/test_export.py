@@ -249,3 +249,28 @@ def test_what_is_refused(tmp_path):
 @pytest.mark.parametrize("name", ["ros2_node", "pink_adapter", "mink_adapter"])
 def test_examples_compile(name, tmp_path):
     py_compile.compile(str(EXAMPLES / f"{name}.py"), cfile=str(tmp_path / "out.pyc"), doraise=True)
+
+
+def test_the_second_export_builds_no_graph(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path / "cache"))
+    arm = hf.arms.load("planar-3r")
+
+    def written(folder, error=0.4, name=None):
+        files = hf.control.failure_tolerant(arm, "planar", error).export_c(tmp_path / folder, name)
+        return {file.name: file.read_bytes() for file in files}
+
+    first, other = written("first"), written("other", 0.3)
+    assert first != other
+    with monkeypatch.context() as patched:
+        patched.setenv("HOLDFAST_CACHE", "off")
+        assert written("without") == first
+
+    def never(*_):
+        raise AssertionError("built again")
+
+    monkeypatch.setattr(hf.control.FailureTolerant, "outputs", never)
+    assert written("second") == first
+    with pytest.raises(AssertionError, match="built again"):
+        written("named", name="another")
+    with pytest.raises(AssertionError, match="built again"):
+        written("third", np.nextafter(0.4, 1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,14 @@ def test_refusals(tmp_path: Path) -> None:
     (tmp_path / "run" / FILE).write_text("{]\n")
     with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):
         Memory(tmp_path / "run", PLAN)
+    for part in (
+        *('["int64", [1], [1' + "0" * 30 + "]]", '["float64", [1], [1' + "0" * 400 + "]]", '["float32", [1], [1e308]]'),
+        *('["a", [1], ["x"]]', '["O", [1], [{}]]', '["S2000000000", [1], ["x"]]', "[" * 100_000 + "]" * 100_000),
+    ):
+        line = json.dumps({"search": PLAN}) + '\n{"part": "one", "arrays": {"x": ' + part + "}}\n"
+        (tmp_path / "run" / FILE).write_text(line)
+        with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):
+            Memory(tmp_path / "run", PLAN)
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "thesis.txt").write_text("do not touch")
     with pytest.raises(hf.StoreError, match="holds no search of designs; give a new or empty folder"):

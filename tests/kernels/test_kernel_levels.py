@@ -5,6 +5,8 @@ from __future__ import annotations
 import ctypes
 import multiprocessing
 import os
+import subprocess
+import sys
 import threading
 
 import casadi as ca
@@ -15,7 +17,10 @@ from holdfast.kernels import Kernel, compiled, llvm_backend, pool, settle
 from holdfast.kernels.llvm_ir import LIBRARY, Machine
 from holdfast.kernels.program import Program
 
-ROUNDS = int(os.environ.get("HOLDFAST_FORKS", "8"))  # of two child processes
+# Of two child processes, or of four threads.
+ROUNDS = dict.fromkeys(("fork", "spawn", "threads"), int(os.environ.get("HOLDFAST_ROUNDS", "4")))
+if "HOLDFAST_ROUNDS" not in os.environ:
+    ROUNDS["spawn"] = 1  # a child starts Python anew: seconds
 
 
 def long_function(rounds=400):
@@ -143,18 +148,110 @@ def test_a_child_process_has_threads_and_a_compiler_of_its_own(method, fresh, th
     rows = rng.normal(size=(50, 9))
     expected = _in_a_child(rows)
     stop, program = threading.Event(), Program("parent", *([part] for part in long_function(60)))
+    parent = compiled.Compiled(program)
 
     def compile_all_the_time():
         while not stop.is_set():
             llvm_backend.Code(llvm_backend.compile_program(program, 0))
+            compiled._in_background(lambda: parent._make(1, aside=True))
+            settle()
 
     busy = threading.Thread(target=compile_all_the_time)
     busy.start()
     try:
         context = multiprocessing.get_context(method)
-        for _ in range(ROUNDS if method == "fork" else max(ROUNDS // 8, 1)):
+        for _ in range(ROUNDS[method]):
             with context.Pool(2) as workers:
                 assert workers.map_async(_in_a_child, [rows] * 2).get(timeout=120) == [expected] * 2
     finally:
         stop.set()
         busy.join()
+
+
+def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatch, rng):
+    """Every round is a new program, compiled quickly by each thread, run in the pool, and compiled well in the background."""
+    monkeypatch.setattr(compiled, "AT_ONCE", 100)
+    monkeypatch.setattr(compiled, "WORTH", 2000)
+    threads(2)
+    rows = rng.normal(size=(5000, 9))
+    for k in range(ROUNDS["threads"]):
+        found = []
+
+        def work(k=k, found=found):
+            x, y = long_function(10)
+            kernel = Kernel("together", [x], [y + k])
+            found.append((kernel.rows(rows).tobytes(), kernel.single()(rows[-1]).tobytes(), kernel.rows(rows).tobytes()))
+
+        workers = [threading.Thread(target=work, daemon=True) for _ in range(4)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join(timeout=120)
+        assert len(found) == 4, "a thread waits for ever, or failed"
+        settle()
+        assert len(set(found)) == 1
+        assert found[0][0].endswith(found[0][1])
+        assert found[0][0] == found[0][2]
+
+
+FORK_WHILE_IMPROVING = """
+import os, threading
+import casadi as ca
+from holdfast.kernels import Program, compiled, settle
+
+x = ca.SX.sym("x")
+parent = compiled.Compiled(Program("parent", [x], [x + 1]))
+inside, forking = threading.Event(), threading.Event()
+
+
+def improve():
+    inside.set()
+    forking.wait()
+    for _ in range(50):
+        parent._make(1, aside=True)
+
+
+os.register_at_fork(before=forking.set)  # the last that is registered is called first
+compiled._in_background(improve)
+inside.wait()
+child = os.fork()
+if child == 0:
+    parent._make(1)
+    os._exit(0)
+assert os.waitpid(child, 0)[1] == 0
+settle()
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
+def test_a_fork_while_better_code_is_made_waits_for_it_and_not_for_ever(fresh):
+    """In a process of its own: where it fails, it never ends."""
+    done = subprocess.run([sys.executable, "-c", FORK_WHILE_IMPROVING], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+FORK_AT_THE_END = """
+import atexit, os
+
+
+def late():
+    child = os.fork()
+    if child == 0:
+        os._exit(0)
+    os.waitpid(child, 0)
+    print("forked")
+
+
+atexit.register(late)  # before holdfast, and so called after what holdfast does at the end
+import casadi as ca
+from holdfast.kernels import Kernel
+
+x = ca.SX.sym("x")
+Kernel("some", [x], [x + 1])(1.0)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork") or sys.version_info >= (3, 12), reason="nothing forks here when a program ends")
+def test_a_program_may_fork_at_its_end(fresh):
+    done = subprocess.run([sys.executable, "-c", FORK_AT_THE_END], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "forked\n", "")

@@ -11,7 +11,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.indices import CustomIndex
-from holdfast.kernels import Kernel, Loop, recalled, recipe
+from holdfast.kernels import Kernel, Loop, recalled, recalled_data, recipe
 from holdfast.kernels.recipe import digest_of
 
 BUILT: list[str] = []
@@ -37,6 +37,13 @@ def root(times):
     BUILT.append("root")
     y, p = ca.SX.sym("y"), ca.SX.sym("p")
     return Loop("root", y, [p], (y + p / y) / 2, ca.fabs(y * y - p), times=times)
+
+
+@recalled_data
+@ours
+def texts(arm, name="hand"):
+    BUILT.append("texts")
+    return {f"{name}.txt": f"\u00e4 {arm.name}\n", "numbers": repr(arm.tool.tolist())}
 
 
 @pytest.fixture(autouse=True)
@@ -126,3 +133,37 @@ def test_what_is_somebody_elses_has_no_digest(mixed5):
     holds_itself.append(holds_itself)
     for thing in (Mine(1.0), lambda x: x, CustomIndex(ca.sumsqr, mixed5, "position"), ca.SX.sym("x"), {1, 2}, holds_itself):
         assert digest_of(thing) is None
+
+
+@pytest.mark.parametrize("backend", ["llvm", "casadi"])
+def test_texts_are_made_once(backend, flat4, mixed5, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_BACKEND", backend)
+    first = texts(flat4)
+    assert texts(flat4) == first == texts.__wrapped__(flat4)
+    assert BUILT == ["texts"] * 2
+    assert list(texts(flat4)) == list(first)
+    assert texts(mixed5) != first
+    assert texts(flat4, "name") != first
+    assert BUILT == ["texts"] * 4
+    monkeypatch.setattr(recipe, "_sources", lambda: "other")
+    assert texts(flat4) == first
+    assert BUILT == ["texts"] * 5
+
+
+def test_damaged_texts_are_made_again(flat4, tmp_path, rng):
+    first = texts(flat4)
+    (file,) = (tmp_path / "kernels").iterdir()
+    whole = file.read_bytes()
+    at = int(rng.integers(len(whole)))
+    for damaged in (b"", whole[:at], whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :]):
+        file.write_bytes(damaged)
+        BUILT.clear()
+        assert texts(flat4) == first
+        assert BUILT == ["texts"]
+        assert file.read_bytes() == whole
+
+
+def test_without_a_cache_texts_are_always_made(flat4, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", "off")
+    assert texts(flat4) == texts(flat4)
+    assert BUILT == ["texts"] * 2

@@ -12,9 +12,8 @@ import pytest
 from wellformed import check
 
 import chromium
-from holdfast.report import page, svg
+from holdfast.report import page
 from holdfast.report.animation import Motion, Projection, animation, shown_seconds
-from holdfast.report.timelines import Line, Timeline, small_multiples, timeline_figure
 
 X, Y, Z = np.eye(3)
 SIDE = Projection(X, Z, ("x, m", "z, m"), "Side view")
@@ -121,20 +120,3 @@ def test_a_motion_is_played_so_that_it_can_be_followed():
 def test_an_arm_that_stands_still_can_be_drawn():
     still = Motion(np.linspace(0, 1, 3), np.zeros((3, 2, 3)), np.zeros(2, dtype=bool), np.zeros((3, 3)), ["a", "b", "c"])
     assert np.isfinite(data(drawn(still, [SIDE]))["frames"]).all()
-
-
-def test_figures_over_time():
-    time = np.linspace(0, 4, 50)
-    lines = [Line(np.sin(time + k), f"joint $ {k}") for k in range(9)]
-    panels = [
-        Timeline(lines, "rad", "A title", (1.0, 2.0)),
-        Timeline([Line(1e-6 + time**4, "off", "first"), Line(np.ones(50), "cap", "compared")], "mm", "b", (), "log"),
-        Timeline([Line(time**7 - 1, "c", "second")], "N m", "c", (), "symlog", 0.1),
-        Timeline([Line(0 * time, "zero", "first")], "mm", "d", (), "log"),
-    ]
-    whole = svg(timeline_figure(time, panels), "a", "about")
-    assert whole.count("algorithmic singularity") == 1
-    assert "time, s" in whole
-    small = svg(small_multiples(time, panels), "b", "about")
-    assert small.count("joint $ 8") == 1
-    check(f"<html>{whole}{small}</html>")

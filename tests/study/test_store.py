@@ -343,6 +343,17 @@ def test_reading_lost_arrays_is_a_sentence(what, folder):
     sentence(caught)
 
 
+@pytest.mark.parametrize("change", [{"shape": [1]}, {"data_type": "int32", "fill_value": 0}])
+def test_an_array_of_another_shape_or_type_is_a_sentence(change, folder):
+    fill(folder)
+    file = folder / "samples.zarr" / "x" / "zarr.json"
+    file.write_text(json.dumps(json.loads(file.read_text()) | change))
+    store = Store.open(folder)
+    with pytest.raises(StoreError, match="damaged") as caught:
+        store.read(0, ["x"])
+    sentence(caught)
+
+
 def test_a_cut_chunk_is_a_sentence(folder):
     fill(folder)
     chunk = next(p for p in (folder / "samples.zarr" / "x" / "c").rglob("*") if p.is_file())

@@ -253,7 +253,8 @@ def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
 @pytest.mark.parametrize(
     ("key", "value"),
     [("rows", 2**70), ("rows", -1), ("chunk", 0), ("columns", [["../x", "float64", [], "1", ""]]), ("columns", [["x"]]),
-     ("columns", [["x", "no type", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]]), ("done", [99])],
+     ("columns", [["x", "no type", [], "1", ""]]), ("columns", [["x", "a", [], "1", ""]]),
+     ("columns", [["x", "O", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]]), ("done", [99])],
 )  # fmt: skip
 def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
     store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], 10, 5)

@@ -14,7 +14,7 @@ from holdfast.teleop.analysis import analyse
 from holdfast.teleop.analysis.groups import in_groups
 from holdfast.teleop.analysis.motions import ring
 from holdfast.teleop.measures import cpm
-from holdfast.teleop.protocol import read
+from holdfast.teleop.protocol import read_protocol
 
 NAMES = [f"M{k}" for k in range(1, 13)]
 SCENARIOS = (
@@ -363,7 +363,7 @@ def test_report_and_tables(rng, tmp_path):
     """All of it: every table opens again with the same numbers, every figure says what it is."""
     table, machine = trials(rng), trials(rng, 1, kind="computer", rated=False)
     a = analyse(lose(table, "S02", [5], 3), lose(machine.assign(subject="S01"), "S01", [9], 3, "still"))
-    protocol = read()
+    protocol = read_protocol()
 
     def paths(subject, task, scenario):
         start, target = protocol.arm.forward_kinematics(protocol.tasks.q0[task - 1])[:2, 3], protocol.tasks.target[task - 1]

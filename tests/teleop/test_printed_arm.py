@@ -56,7 +56,9 @@ def every_law(arm, rows, substeps, rng):
     """The paper's experiment with another arm, and a scenario for each registered law."""
     options = {"weighted": {"weights": rng.uniform(0.5, 2, arm.n).tolist()}, "damped": {"damping": 0.1}}
     scenarios = tuple(Scenario(k + 1, name, False, options.get(name, {})) for k, name in enumerate(BY_NAME))
-    return dataclasses.replace(protocol.read(), arm=arm, rows=as_task(arm, rows), scenarios=scenarios, substeps=substeps)
+    return dataclasses.replace(
+        protocol.read_protocol(), arm=arm, rows=as_task(arm, rows), scenarios=scenarios, substeps=substeps
+    )
 
 
 def draws(rng, study, count):
@@ -130,7 +132,7 @@ def test_whole_cycles_agree_with_python(rng):
 
 def test_trials_of_the_computer_take_the_same_way():
     """The paper's 24 tasks in its four scenarios: the recorded commands again, from the start to the end."""
-    study = protocol.read()
+    study = protocol.read_protocol()
     trials, numbers = computer_trials(study), law_of(study)
     scenarios, tasks, m = len(study.scenarios), len(study.tasks), study.rows.m
     every = study.tasks.take(np.tile(np.arange(tasks), scenarios))
@@ -207,11 +209,12 @@ let refused=0;
 for(const law of [-1,2,NaN,undefined])try{cycle(law,q,v,healthy,out);}catch(e){refused+=e instanceof RangeError;}
 output.set([joints,axes,laws,markers,before===[q,v,healthy].join()?1:0,refused]);"""
     numbers = np.array([0.1, 0.5, -0.7, 0.02, 0.01, 1, 1, 0])
-    assert browser.run(script, numbers, 6, arm=arm_module(protocol.read())).tolist() == [3, 2, 2, 4, 1, 4]
+    assert browser.run(script, numbers, 6, arm=arm_module(protocol.read_protocol())).tolist() == [3, 2, 2, 4, 1, 4]
 
 
-def test_laws_are_printed_once_and_the_module_stays_small():
-    study = protocol.read()
+def test_laws_are_printed_once_and_the_module_stays_small(monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", "off")
+    study = protocol.read_protocol()
     codes = law_of(study)
     assert sorted(codes) == [0, 0, 1, 1]
     assert codes[:2] == codes[2:]
@@ -220,7 +223,7 @@ def test_laws_are_printed_once_and_the_module_stays_small():
     other = dataclasses.replace(study.scenarios[1], options={"pre_failure_error": 0.3}, number=5)
     assert sorted(set(law_of(dataclasses.replace(study, scenarios=(*study.scenarios, other))))) == [0, 1, 2]
     text = arm_module(study)
-    assert text == arm_module(protocol.read())
+    assert text == arm_module(protocol.read_protocol())
     assert len(text) < 40_000
     assert "import" not in text
 
@@ -229,3 +232,25 @@ def test_rows_that_no_stick_commands_are_refused(rng):
     study = every_law(hf.arms.load("panda"), "position", 1, rng)
     with pytest.raises(TaskError, match="planar or position"):
         arm_module(dataclasses.replace(study, rows=as_task(study.arm, "pose")))
+
+
+def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
+    study = protocol.read_protocol()
+    q, velocity = rng.uniform(-2, 2, (5, 3)), rng.uniform(-0.05, 0.05, (5, 2))
+    healthy = np.array([[1.0, 1, 0]] * 5)
+
+    def all_of_it():
+        plants = dataclasses.replace(study).plants
+        return arm_module(study), [np.concatenate(p.cycles(q, velocity, healthy), axis=1).tobytes() for p in plants]
+
+    first = all_of_it()
+
+    def never(*_):
+        raise AssertionError("built again")
+
+    for law in BY_NAME.values():
+        monkeypatch.setattr(law, "rates", never)
+    assert all_of_it() == first
+    with pytest.raises(AssertionError, match="built again"):
+        arm_module(dataclasses.replace(study, substeps=7))

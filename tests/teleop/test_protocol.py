@@ -9,7 +9,7 @@ import pytest
 import holdfast as hf
 from holdfast.teleop import protocol
 from holdfast.teleop.order import next_row, scenario_orders, williams
-from holdfast.teleop.protocol import Training, read, training_limit
+from holdfast.teleop.protocol import Training, read_protocol, training_limit
 
 
 @pytest.mark.parametrize("n", [*range(1, 12), *range(12, 50, 2), 23, 47])
@@ -79,7 +79,7 @@ def test_training_limit_is_taken_from_the_best(rng):
 
 @pytest.mark.parametrize("name", protocol.BUILTIN)
 def test_shipped_protocols(name):
-    p = read(name)
+    p = read_protocol(name)
     assert len(p.tasks) == 24
     assert p.rate * p.stick.limit == pytest.approx(0.3)
     assert p.plants[0].substeps * (p.rate / 6) == pytest.approx(10)
@@ -92,8 +92,8 @@ def test_shipped_protocols(name):
 
 
 def test_protocol_reads_what_it_writes(tmp_path):
-    p = read()
-    again = read(p.write(tmp_path / "p.yaml"))
+    p = read_protocol()
+    again = read_protocol(p.write(tmp_path / "p.yaml"))
     assert again.text() == p.text()
     np.testing.assert_array_equal(again.tasks.q0, p.tasks.q0)
 
@@ -114,9 +114,9 @@ def test_protocol_reads_what_it_writes(tmp_path):
     ],
 )
 def test_bad_protocols_get_one_sentence(tmp_path, old, new, message):
-    text = read().text()
+    text = read_protocol().text()
     assert old in text
     (tmp_path / "p.yaml").write_text(text.replace(old, new), encoding="utf-8")
     with pytest.raises(hf.InputError, match=message) as error:
-        read(tmp_path / "p.yaml")
+        read_protocol(tmp_path / "p.yaml")
     assert "\n" not in str(error.value)

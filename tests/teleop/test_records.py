@@ -19,7 +19,7 @@ from holdfast.teleop.entries import Kind, State
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.measures import measures
 from holdfast.teleop.point_task import PointTasks
-from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.replay import replay
 from holdfast.teleop.session import Session, training_tasks
@@ -32,7 +32,7 @@ PROGRAM = Path(__file__).with_name("crashing.py")
 
 @pytest.fixture(scope="module")
 def protocol():
-    whole = read()
+    whole = read_protocol()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9, 21])), ["a", "b", "c"])
     return replace(few, substeps=1, training=Training(at_least=3, in_a_row=2, limit=80, most=12), subjects=6)
 
@@ -283,11 +283,11 @@ def test_arm_files_travel_with_the_experiment(tmp_path):
     arm = tmp_path / "mine.yaml"
     rows = "".join(f"  - {{name: j{k}, a: {0.5 + 0.1 * k}, alpha: 0, d: 0}}\n" for k in range(3))
     arm.write_text("name: mine\nrows:\n" + rows)
-    text = read().text().replace("arm: planar-3r", "arm: mine.yaml")
+    text = read_protocol().text().replace("arm: planar-3r", "arm: mine.yaml")
     for k in (1, 2, 3):
         text = text.replace(f"joint: joint{k}", f"joint: j{k - 1}")
     (tmp_path / "p.yaml").write_text(text)
-    with Records.create(tmp_path / "study", read(tmp_path / "p.yaml")) as records:
+    with Records.create(tmp_path / "study", read_protocol(tmp_path / "p.yaml")) as records:
         arm.unlink()
         with Records.open(records.folder) as again:
             assert again.protocol.arm.joint_names == ("j0", "j1", "j2")
@@ -297,7 +297,7 @@ def test_arm_files_travel_with_the_experiment(tmp_path):
 def test_killed_at_any_moment(tmp_path, kills):
     """After kill -9, all that was acknowledged is there, the file is sound, and the session goes on."""
     folder = tmp_path / "study"
-    whole = read()
+    whole = read_protocol()
     quick = tuple(s for s in whole.scenarios if s.law == "pseudoinverse")
     Records.create(folder, replace(whole, substeps=1, scenarios=quick)).close()
     rng = np.random.default_rng()

@@ -13,7 +13,7 @@ import pytest
 import flips
 import holdfast as hf
 from holdfast.teleop.entries import Kind
-from holdfast.teleop.protocol import read
+from holdfast.teleop.protocol import read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.trials import End
 from holdfast.teleop.verify import verify
@@ -192,7 +192,7 @@ def test_a_deleted_subject_leaves_sound_records(study, tmp_path):
 
 
 def test_a_rolled_back_change_leaves_no_digest(tmp_path):
-    protocol = replace(read(), substeps=1)
+    protocol = replace(read_protocol(), substeps=1)
     with Records.create(tmp_path / "study", protocol) as records:
 
         def fails():

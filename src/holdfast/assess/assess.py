@@ -255,6 +255,19 @@ class Assessment:
         return self._rows is not None or self.store is not None
 
     @property
+    def columns(self) -> Mapping[str, Any]:
+        """The rows by column, (N, ...) each, read when it is sliced: :attr:`dataset` without names and units.
+
+        Raises:
+            InputError: The rows were not kept; give ``store`` or ``keep=True``.
+        """
+        if self._rows is not None:
+            return self._rows
+        if self.store is not None:
+            return self.store.arrays()
+        raise InputError("the poses of this run were not kept (keep=False); assess again with store=PATH or keep=True")
+
+    @property
     def dataset(self) -> xr.Dataset:
         """Every pose with its configuration and index values, as an xarray dataset with units and provenance.
 
@@ -263,10 +276,8 @@ class Assessment:
         """
         import xarray as xr
 
-        if self._rows is None:
-            if self.store is not None:
-                return self.store.dataset()
-            raise InputError("the poses of this run were not kept (keep=False); assess again with store=PATH or keep=True")
+        if self._rows is None and self.store is not None:
+            return self.store.dataset()
         columns = {c.name: c for c in self.plan.columns()}
         data = {
             name: xr.DataArray(
@@ -274,7 +285,7 @@ class Assessment:
                 dims=("row", *[d for d, _ in columns[name].dims]),
                 attrs={"units": columns[name].units, "long_name": columns[name].about},
             )
-            for name, values in self._rows.items()
+            for name, values in self.columns.items()
         }
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
+from holdfast.arm import rotations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task
 from holdfast.assess.assess import ZERO, Assessment
@@ -211,9 +211,9 @@ class Facts:
             pose = self.a.arm.forward_kinematics(s.q)
             position, rotation = pose[:, :3, 3], pose[:, :3, :3]
         else:
-            data = self.a.dataset
-            position = data["position"].values[s.number]
-            rotation = Rotation.from_quat(data["quaternion"].values[s.number]).as_matrix()
+            columns = self.a.columns
+            position = columns["position"][:][s.number]
+            rotation = rotations.of_quaternions(columns["quaternion"][:][s.number])
         return Rows(s.number, position, rotation, s.q, s.reached, s.value, s.by_failure, s.worst, s.weight)
 
     @cached_property
@@ -379,6 +379,6 @@ def joint_positions(arm: Arm, q: Array) -> tuple[Array, Array]:
             origins[k] = t[:3, 3]
         else:
             origins[k] = t[:3, 3]
-            moved[:3, :3] = Rotation.from_rotvec(q[k] * joint.axis).as_matrix()
+            moved[:3, :3] = rotations.of_vectors(q[k] * joint.axis)
             t = t @ moved
     return origins, (t @ arm.tool)[:3, 3]

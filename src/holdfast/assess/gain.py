@@ -91,7 +91,7 @@ def gain_figure(f: Facts, best: Distribution) -> Figure:
             right.set_axis_off()
         else:
             before = rows.value[rows.reached]
-            after = f.a.dataset["optimised_index"].values[: len(rows.reached)][rows.reached]
+            after = f.a.columns["optimised_index"][:][: len(rows.reached)][rows.reached]
             order = np.argsort(before)
             some = order if len(order) <= _MOST_DOTS else order[:: -(-len(order) // _MOST_DOTS)]
             rank = np.searchsorted(np.sort(before), before[some]) + 1

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.rotations import to_zyx
 from holdfast.assess.distribution import Distribution
 from holdfast.assess.facts import Facts, Rows
-from holdfast.assess.region import Region, rpy_from_rotation
+from holdfast.assess.region import Region
 from holdfast.assess.worst import failure_labels
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
@@ -83,9 +82,7 @@ def _worst_table(f: Facts, d: Distribution, rows: Rows, name: str) -> Table:
 
 def _angles(rotations: Array, region: Region) -> Array:
     """Roll, pitch, yaw: of the two triples of a rotation, and their turns, the one next to the middle of the region."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # at pitch +-90 degrees one of many triples is as good as another
-        first = rpy_from_rotation(rotations)
+    first = to_zyx(rotations)
     center = np.array(region.center[3:]) if region.kind == "box" else np.zeros(3)
     second = np.stack([first[:, 0] + np.pi, np.pi - first[:, 1], first[:, 2] + np.pi], axis=1)
     both = np.stack([first, second])

@@ -185,6 +185,11 @@ class Plan:
             reason = f"lacks {error}" if isinstance(error, KeyError) else f"cannot be read ({reprlib.repr(str(error))})"
             raise StoreError(f"'{store.path}' is damaged: its plan {reason}; start the run again in a new folder") from error
         wanted = {c.name: c.dims for c in plan.columns()}
+        lacking = wanted.keys() - {c.name for c in store.columns} - {"lock_angle"}  # of which older folders know nothing
+        if lacking:
+            raise StoreError(
+                f"'{store.path}' is damaged: its column '{min(lacking)}' is lost; start the run again in a new folder"
+            )
         for c in store.columns:
             if c.dims != wanted.get(c.name, c.dims):
                 raise StoreError(

@@ -40,7 +40,8 @@ class PoseList:
         wrong = np.flatnonzero(~np.isfinite(rows).all(axis=1))
         if wrong.size:
             raise InputError(f"pose {wrong[0] + 1} holds NaN or infinity; leave it out or give finite numbers")
-        norm = np.linalg.norm(rows[:, 3:], axis=1)
+        with np.errstate(over="ignore"):
+            norm = np.linalg.norm(rows[:, 3:], axis=1)
         off = np.flatnonzero(np.abs(norm - 1) > 1e-2)
         if off.size:
             raise InputError(f"the quaternion of pose {off[0] + 1} has length {norm[off[0]]:.4g}; it must be 1")

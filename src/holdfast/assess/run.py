@@ -79,7 +79,7 @@ def stored(store: Store, plan: Plan) -> Iterator[Rows]:
     Raises:
         StoreError: A chunk is damaged or lost.
     """
-    names = [c.name for c in store.columns]  # an older folder may lack one that later ones have
+    names = [c.name for c in store.columns]  # an older folder has no 'lock_angle'
     for k in store.done:
         rows = store.read(k, names)
         lost = _lost(rows, list(plan.locks))

@@ -86,7 +86,7 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
     views = [v for v in (View(0, 2, "seen from the side"), View(0, 1, "seen from above")) if not (flat[v.right] or flat[v.up])]
     if not views:
         return []
-    left = f.a.dataset["survives"].values[rows.number, joint] == 1
+    left = f.a.columns["survives"][:][rows.number, joint] == 1
     name = f.a.arm.joint_names[joint]
     figure = before_and_after_figure(rows.position, rows.reached, left, views[0], name, rows.weight)
     total = len(left)

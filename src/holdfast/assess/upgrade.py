@@ -75,21 +75,23 @@ def sample(a: Assessment, optimised: bool) -> Sample:
         InputError: The rows were not kept, or the run was not optimised.
     """
     a.of(optimised)
-    data = a.dataset
-    status = data["status"].values
+    columns = a.columns
+    status = columns["status"][:]
     keep = np.flatnonzero(status != Status.NOT_COMPUTED)
     reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
-    if optimised and "optimised_status" in data:  # where every configuration runs the arm through itself there is no best one
-        reached &= data["optimised_status"].values[keep] != Status.INFEASIBLE
-    weight = data["weight"].values[keep] if "weight" in data else None
+    if (
+        optimised and "optimised_status" in columns
+    ):  # where every configuration runs the arm through itself there is no best one
+        reached &= columns["optimised_status"][:][keep] != Status.INFEASIBLE
+    weight = columns["weight"][:][keep] if "weight" in columns else None
     before = "optimised_" if optimised else ""
-    q = data[f"{before}q"].values[keep]
+    q = columns[f"{before}q"][:][keep]
     if optimised:
         by_failure = np.full((len(keep), len(a.index.failures)), np.nan)
         by_failure[reached] = a.index.by_joint(q[reached])
     else:
-        by_failure = data["by_failure"].values[keep]
-    value, worst = data[f"{before}index"].values[keep], data[f"{before}worst"].values[keep].astype(np.int64)
+        by_failure = columns["by_failure"][:][keep]
+    value, worst = columns[f"{before}index"][:][keep], columns[f"{before}worst"][:][keep].astype(np.int64)
     return Sample(keep, reached, q, value, by_failure, worst, weight)
 
 

@@ -1,6 +1,5 @@
 """How far an arm is from running through itself: capsules on its links and the distances between them."""
 
-from holdfast.clearance.capsules import Capsule, Capsules
-from holdfast.clearance.clearance import Clearance, IgnoredPair, too_close
+from holdfast._lazy import offer
 
-__all__ = ["Capsule", "Capsules", "Clearance", "IgnoredPair", "too_close"]
+offer(__name__)

@@ -273,7 +273,7 @@ def _listed(names: Iterable[str]) -> str:
 
 def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
     """``x,y,z,roll,pitch,yaw`` in m and degrees as (4, 4); ``x,y,z`` alone as (3,)."""
-    from scipy.spatial.transform import Rotation
+    from holdfast.arm.urdf import rpy_rotation
 
     numbers = read_numbers(option, text, "x,y,z,roll,pitch,yaw (m and degrees)")
     if numbers.size not in (3, 6):
@@ -285,7 +285,7 @@ def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:
         return numbers
     pose = np.eye(4)
     pose[:3, 3] = numbers[:3]
-    pose[:3, :3] = Rotation.from_euler("xyz", numbers[3:], degrees=True).as_matrix()
+    pose[:3, :3] = rpy_rotation(np.deg2rad(numbers[3:]).tolist())
     return pose
 
 

@@ -48,13 +48,13 @@ def run(
             "people take part in a browser: use 'holdfast teleop serve --data DIR'; add --simulated for simulated ones"
         )
     from holdfast.teleop.experiment import simulate_experiment
-    from holdfast.teleop.protocol import read
+    from holdfast.teleop.protocol import read_protocol
 
     if reading.exists(out) and (not out.is_dir() or any(out.iterdir())):
         raise StoreError(f"--out: '{out}' exists and is not an empty folder; give a new one")
     with (
         working(f"compiling the laws of {protocol}") as say,
-        simulate_experiment(out, read(protocol), operators, seed, say) as r,
+        simulate_experiment(out, read_protocol(protocol), operators, seed, say) as r,
     ):
         _print_experiment(r)
 
@@ -179,9 +179,9 @@ def allocation(
 
     Example: holdfast teleop allocation --out allocation.html
     """
-    from holdfast.teleop.protocol import read
+    from holdfast.teleop.protocol import read_protocol
 
-    chosen = read(protocol)
+    chosen = read_protocol(protocol)
     if out is not None:
         from holdfast.teleop.allocation import write_allocation
 
@@ -235,9 +235,9 @@ def protocol_(
 
     Example: holdfast teleop protocol --write mine.yaml
     """
-    from holdfast.teleop.protocol import read
+    from holdfast.teleop.protocol import read_protocol
 
-    chosen = read(protocol)
+    chosen = read_protocol(protocol)
     if write is not None and reading.exists(write):
         raise StoreError(f"--write: '{write}' exists already; choose another name")
     _print_protocol(chosen)

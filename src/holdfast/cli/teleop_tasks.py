@@ -130,11 +130,11 @@ def _protocol(spec: str, arm: Arm, rows: str | Task, bank: TaskBank, every: Indi
     """The paper's protocol with this arm and these tasks."""
     from holdfast import arms
     from holdfast.arm.task import as_task
-    from holdfast.teleop.protocol import read
+    from holdfast.teleop.protocol import read_protocol
 
     file = None if spec in arms.names() else Path(spec)
     base = replace(
-        read(),
+        read_protocol(),
         name=f"{arm.name}, {len(every)} tasks of a bank of {len(bank)}, seed {seed}",
         arm=arm,
         arm_spec=spec if file is None else file.name,

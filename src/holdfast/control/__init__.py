@@ -1,43 +1,5 @@
 """How to move: control laws that do not know of a failure, and redundancy resolution that serves an objective before one."""
 
-from holdfast.control.deviation import Deviations
-from holdfast.control.failure_tolerant import FailureTolerant
-from holdfast.control.follow import METHODS, follow
-from holdfast.control.inverses import Damped, Pseudoinverse, Weighted
-from holdfast.control.law import Law
-from holdfast.control.laws import BY_NAME, by_name, damped, failure_tolerant, pseudoinverse, weighted
-from holdfast.control.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
-from holdfast.control.resolution import Rates, Resolution
-from holdfast.control.slow_motion import SlowMotion, slow_enough
-from holdfast.control.step import Step
-from holdfast.control.trade_off import TradeOff, trade_off
-from holdfast.control.trajectory import Event, Trajectory
+from holdfast._lazy import offer
 
-__all__ = [
-    "BY_NAME",
-    "METHODS",
-    "AugmentedJacobian",
-    "Damped",
-    "Deviations",
-    "Event",
-    "ExtendedJacobian",
-    "FailureTolerant",
-    "GradientProjection",
-    "Law",
-    "Pseudoinverse",
-    "Rates",
-    "Resolution",
-    "SlowMotion",
-    "Step",
-    "TradeOff",
-    "Trajectory",
-    "Weighted",
-    "by_name",
-    "damped",
-    "failure_tolerant",
-    "follow",
-    "pseudoinverse",
-    "slow_enough",
-    "trade_off",
-    "weighted",
-]
+offer(__name__)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.errors import InputError, StoreError
+from holdfast.kernels import recalled_data
 from holdfast.versions import versions
 from holdfast.whole_file import replaced
 
@@ -41,6 +42,7 @@ def check_name(name: str) -> str:
     return name
 
 
+@recalled_data
 def c_files(law: Law, name: str) -> dict[str, str]:
     """Text of ``NAME.c``, ``NAME.h``, ``NAME_example.c`` and ``NAME_test.c``; see :meth:`holdfast.control.Law.export_c`."""
     check_name(name)

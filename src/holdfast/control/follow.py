@@ -249,46 +249,46 @@ def _integrate(
     if settle:  # what a search left open would be made up for at once, with rates that no motion needs
         start = _run(kernel, start, np.broadcast_to(path.pose(0.0), (_SETTLING, 4, 4)), step)[0][-1]
     joints, rates, shares = _run(kernel, start, path.pose(np.arange(1, count + 1) * step), step)
-    last = law.rates(joints[-1], path.twist(path.duration))
-    rates[-1], shares[-1] = last.rates, (last.self_motion, last.task, last.damping)
-    return joints, rates, shares
+    n = law.arm.n
+    last = kernel.rows(joints[-1], np.zeros(3), np.eye(3), path.twist(path.duration), 1.0)[0]
+    return joints, np.vstack([rates, last[n : 2 * n]]), np.vstack([shares, last[2 * n :]])
 
 
 def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Array, Array, Array]:
-    """Joints (N + 1, n), rates and shares of which the last row is empty, from a start (n,) after targets (N, 4, 4)."""
+    """Joints (N + 1, n), rates (N, n) and shares (N, 3) from a start (n,) after targets (N, 4, 4)."""
     count, n = len(targets), len(start)
-    data = np.concatenate([targets[:, :3, 3], targets[:, :3, :3].reshape(count, 9)], axis=1)
-    columns = np.zeros((n + 12, kernel.lanes))
+    data = np.concatenate([targets[:, :3, 3], targets[:, :3, :3].reshape(count, 9)], axis=1)[:, :, None]
+    columns = np.zeros((n + 19, kernel.lanes))
     out = np.zeros((2 * n + 3, kernel.lanes))
-    joints, rates, shares = np.empty((count + 1, n)), np.empty((count + 1, n)), np.empty((count + 1, 3))
+    once, steps = kernel.bound(columns, out), np.empty((count, len(out)))
     columns[:n] = start[:, None]
     for k in range(count):
-        joints[k] = columns[:n, 0]
-        columns[n:] = data[k][:, None]
-        kernel.evaluate_columns(columns, out)
-        if not np.isfinite(out[:, 0]).all():
-            raise HoldfastError(
-                f"the motion breaks down at {k * step:.4g} s: the arm is exactly singular there; start elsewhere"
-            )
-        rates[k], shares[k] = out[n : 2 * n, 0], out[2 * n :, 0]
+        columns[n : n + 12] = data[k]
+        once()
+        steps[k] = out[:, 0]
         columns[:n] = out[:n]
-    joints[-1] = columns[:n, 0]
-    return joints, rates, shares
+    broken = ~np.isfinite(steps).all(axis=1)
+    if broken.any():
+        raise HoldfastError(
+            f"the motion breaks down at {broken.argmax() * step:.4g} s: the arm is exactly singular there; start elsewhere"
+        )
+    return np.vstack([start, steps[:, :n]]), steps[:, n : 2 * n], steps[:, 2 * n :]
 
 
 @recalled
 def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) -> Kernel:
-    """From q and a target pose to the next q, the rates that lead there, and the shares."""
+    """From q and a target pose, or a twist if ``given`` is 1, to the next q, the rates to it, and the shares."""
     arm = law.arm
     q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+    twist, given = ca.SX.sym("twist", 6), ca.SX.sym("given")
     chain = kinematics.chain(arm, q)
     error = hand_error(law.task, chain.position, chain.rotation, p, r)
     size = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
-    out = law.expression(q, error * ca.if_else(size > farthest, farthest / size, 1) / step)
+    out = law.expression(q, ca.if_else(given, twist, error * ca.if_else(size > farthest, farthest / size, 1) / step))
     following = q + step * out[: arm.n]
     if limits:
         following = clipped(arm, ca.vertsplit(following))
-    return Kernel(f"step of {law.name}", [q, p, r], [ca.vertcat(following, out)])
+    return Kernel(f"step of {law.name}", [q, p, r, twist, given], [ca.vertcat(following, out)])
 
 
 def _best(

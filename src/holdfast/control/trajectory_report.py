@@ -12,10 +12,10 @@ from holdfast.control.slow_motion import SlowMotion
 from holdfast.control.stick_figure import corners, projections
 from holdfast.control.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.errors import ArmError
-from holdfast.report import figures, page
+from holdfast.report import page
 from holdfast.report.animation import Motion, animation, shown_seconds
 from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
-from holdfast.report.timelines import Line, Timeline, small_multiples, timeline_figure
+from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
 from holdfast.report.words import as_given
 from holdfast.versions import versions
 
@@ -123,8 +123,8 @@ class _Facts:
 
     # ---- curves ------------------------------------------------------------------------------------------------
 
-    def _figure(self, panels: list[Timeline], name: str, about: str, caption: str) -> Picture:
-        return Picture(figures.svg(timeline_figure(self.t.time, panels), name, about), caption)
+    def _figure(self, panels: list[Timeline], about: str, caption: str) -> Picture:
+        return Picture(stacked_panels(self.t.time, panels, about), caption)
 
     def criterion(self) -> list[Block]:
         """The objective, and each joint's measure."""
@@ -159,7 +159,7 @@ class _Facts:
             )
         if len(panels) > 1:
             caption += " Below: the signed measure of each joint, without weights."
-        return [self._figure(panels, "criterion", f"{t.objective.name} along the path", caption)]
+        return [self._figure(panels, f"{t.objective.name} along the path", caption)]
 
     def rates(self) -> list[Block]:
         """Norm of the joint rates and each of them."""
@@ -174,7 +174,7 @@ class _Facts:
         caption = f"Rates at the samples; between them the norm reaches {t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s."
         if t.rate_cap is not None:
             caption += " The cap slows only the self-motion, so the norm passes it where the task alone needs more."
-        return [self._figure(panels, "rates", "Joint rates over time", caption)]
+        return [self._figure(panels, "Joint rates over time", caption)]
 
     def joints(self) -> list[Block]:
         """Each joint with its limits."""
@@ -189,7 +189,7 @@ class _Facts:
                 if np.isfinite(limit) and np.abs(scale * (t.q[:, k] - limit)).min() < reach:
                     lines.append(Line(np.full(len(t.time), scale * limit), "limit", "compared"))
             panels.append(Timeline(lines, unit, joint.name))
-        image = figures.svg(small_multiples(t.time, panels), "joints", "Joint positions over time")
+        image = small_multiples(t.time, panels, "Joint positions over time")
         return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
 
     def torques(self, bound: float | None, slowness: list[SlowMotion] | None) -> list[Block]:
@@ -209,7 +209,7 @@ class _Facts:
                 for share, look in zip(SPEEDS, looks, strict=True)
             ]
             panels.append(Timeline(lines, "N" if joint.prismatic else "N m", joint.name))
-        image = figures.svg(small_multiples(t.time, panels), "torques", "Joint torques over time")
+        image = small_multiples(t.time, panels, "Joint torques over time")
         blocks: list[Block] = [
             Picture(
                 image,
@@ -257,7 +257,6 @@ class _Facts:
         return [
             self._figure(
                 [panel],
-                "curvature",
                 "Curvature along the self-motion over time",
                 "Above 0 at a local best. Where it reaches 0 while the arm is not singular the local best ends or splits: an "
                 "algorithmic singularity (English and Maciejewski 1998, section VI-B), marked where joint rates show it.",
@@ -276,7 +275,7 @@ class _Facts:
         caption = (
             f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the hand is off."
         )
-        return [self._figure(panels, "hand", "Error of the hand over time", caption)]
+        return [self._figure(panels, "Error of the hand over time", caption)]
 
     # ---- words -------------------------------------------------------------------------------------------------
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm import rotations
 from holdfast.arm.model import Arm
 from holdfast.clearance import Clearance
 
@@ -98,14 +99,12 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
 
 def _moved(arm: Arm, k: int, value: float) -> Array:
     """(4, 4) motion of joint k alone."""
-    from scipy.spatial.transform import Rotation
-
     out = np.eye(4)
     joint = arm.joints[k]
     if joint.prismatic:
         out[:3, 3] = value * joint.axis
     else:
-        out[:3, :3] = Rotation.from_rotvec(value * joint.axis).as_matrix()
+        out[:3, :3] = rotations.of_vectors(value * joint.axis)
     return out
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.converge.recover_route import Metric, Space
 from holdfast.converge.recover_rows import RowSolver, preferred, subsets
+from holdfast.solve.descent import descend
 
 Array = NDArray[np.float64]
 
@@ -138,37 +138,22 @@ def rows_to_give_up(
 
 def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:
     """From q (n,) where the other rows are met, the rows lost missed by as little as can be had next to it."""
-    from scipy.optimize import minimize
-
-    arm = solver.arm
+    arm, clearance = solver.arm, space.clearance
     kept = [k for k in range(solver.rows.m) if k not in lost]
 
     def errors(x: Array) -> Array:
         return np.asarray(solver.errors(x[None], pose[None])[0])
 
-    def cost(x: Array) -> float:
-        e = errors(x)[lost]
-        return float(e @ e)
+    def look(x: Array) -> tuple[float, Array, Array, Array]:
+        e, slopes = errors(x), solver.slopes(x, pose)
+        values, rows = e[kept], slopes[kept]
+        if clearance is not None:
+            values, rows = np.append(values, clearance(x) - space.margin), np.vstack([rows, clearance.gradient(x)])
+        return float(e[lost] @ e[lost]), 2 * e[lost] @ slopes[lost], values, rows
 
-    def slope(x: Array) -> Array:
-        return np.asarray(2 * errors(x)[lost] @ solver.slopes(x, pose)[lost])
-
-    wanted: list[Any] = [{"type": "eq", "fun": lambda x: errors(x)[kept], "jac": lambda x: solver.slopes(x, pose)[kept]}]
-    clearance = space.clearance
-    if clearance is not None:
-        gap = {"fun": lambda x: clearance(x) - space.margin, "jac": clearance.gradient}
-        wanted.append({"type": "ineq", **gap})
     low, high = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)
     with np.errstate(all="ignore"):
-        found = minimize(
-            cost,
-            q,
-            jac=slope,
-            method="SLSQP",
-            bounds=list(zip(low, high, strict=True)),
-            constraints=wanted,
-            options={"maxiter": 60},
-        ).x
+        found = descend(look, q, low, high, len(kept))
     if not np.isfinite(found).all():
         return q
     mask = np.ones((1, solver.rows.m))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -71,9 +72,9 @@ class Memory:
             plan = dict(first["search"])
             for line in lines:
                 self._parts[line["part"]] = {
-                    key: np.array(values, dtype=kind).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()
+                    key: _array(kind, values).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()
                 }
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
+        except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
             raise StoreError(f"'{self.path}' is damaged; remove it and start the search again") from error
         for key in {*plan, *self._plan}:
             if plan.get(key) != self._plan.get(key):
@@ -95,6 +96,13 @@ class Memory:
             f"cannot write to '{self.path.parent}': {error.strerror or error}; make room or give another folder, and run the "
             "same command again"
         )
+
+
+def _array(kind: str, values: Any) -> NDArray[Any]:
+    if not re.fullmatch(r"bool|u?int\d+|float\d+", kind):
+        raise ValueError(kind)
+    with np.errstate(over="raise"):
+        return np.array(values, dtype=kind)
 
 
 def _short(value: Any) -> str:

@@ -99,7 +99,8 @@ class Compiled:
 
 _jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
 _worker: threading.Thread | None = None
-_busy = threading.Lock()  # held while a job runs
+_busy = threading.RLock()  # held while a job runs, during a fork, and from the end of the program on, when it may still fork
+_fork = contextlib.ExitStack()  # what the fork under way holds of LLVM
 
 
 def _in_background(job: Callable[[], None]) -> None:
@@ -125,15 +126,29 @@ def settle() -> None:
         done.wait()
 
 
+def _hold() -> None:
+    """Before a fork: CasADi, which a job may use, has locks that a child process cannot open, as has LLVM.
+
+    In this order: a job that runs needs LLVM to end.
+    """
+    _busy.acquire()
+    _fork.enter_context(llvm_backend.lock())
+
+
+def _go_on() -> None:
+    _fork.close()
+    _busy.release()
+
+
 def _forget() -> None:
     """In a child process: its compiler thread is gone, and what waited for it stays at level 0."""
     global _worker, _jobs, _busy
-    _worker, _jobs, _busy = None, queue.SimpleQueue(), threading.Lock()
+    _fork.close()
+    _worker, _jobs, _busy = None, queue.SimpleQueue(), threading.RLock()
 
 
 if hasattr(os, "register_at_fork"):
-    # CasADi, which a job may use, has locks that a child process cannot open.
-    os.register_at_fork(before=lambda: _busy.acquire(), after_in_parent=lambda: _busy.release(), after_in_child=_forget)
+    os.register_at_fork(before=_hold, after_in_parent=_go_on, after_in_child=_forget)
 
 
 @atexit.register

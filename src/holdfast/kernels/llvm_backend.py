@@ -7,9 +7,9 @@ Level 0 compiles some 4 times as fast as level 1 and its code takes some 1.8 tim
 from __future__ import annotations
 
 import ctypes
-import os
 import sys
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -57,11 +57,13 @@ def _llvm() -> Any:
     library = ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None)
     for name in LIBRARY:
         binding.add_symbol(name, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
-    if hasattr(os, "register_at_fork"):
-        # One thread at a time uses LLVM: none may be left in the middle of it in a child process that does not have it.
-        lock = binding.ffi.lib._lock
-        os.register_at_fork(before=lock.__enter__, after_in_parent=lock.__exit__, after_in_child=lock.__exit__)
     return binding
+
+
+def lock() -> AbstractContextManager[Any]:
+    """What the one thread that uses LLVM holds: in a fork none may be in the middle of it, as the child does not have it."""
+    library = getattr(sys.modules.get("llvmlite.binding.ffi"), "lib", None)
+    return nullcontext() if library is None else library._lock
 
 
 def version() -> str:

@@ -1,4 +1,4 @@
-"""Kernels that need not be built again: a second start finds their code without making the expressions."""
+"""Kernels and texts that need not be built again: a second start finds them without making the expressions."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from holdfast.kernels.recipe import digest_of
 
 P = ParamSpec("P")
 K = TypeVar("K", Kernel, Loop)
+T = TypeVar("T")
 
 
 def recalled(build: Callable[P, K]) -> Callable[P, K]:
@@ -26,8 +27,7 @@ def recalled(build: Callable[P, K]) -> Callable[P, K]:
 
     @wraps(build)
     def from_memory(*args: P.args, **kwargs: P.kwargs) -> K:
-        ours = build.__module__.partition(".")[0] == "holdfast" and default_backend() == "llvm"
-        recipe = digest_of(build.__module__, build.__qualname__, args, kwargs) if ours else None
+        recipe = _recipe(build, args, kwargs) if default_backend() == "llvm" else None
         if recipe is None:
             return build(*args, **kwargs)
         entry = cache.key(recipe, "facts")
@@ -40,6 +40,29 @@ def recalled(build: Callable[P, K]) -> Callable[P, K]:
         return cast(K, _known(facts, recipe, lambda: _kernel(build(*args, **kwargs)).program))
 
     return from_memory
+
+
+def recalled_data(build: Callable[P, T]) -> Callable[P, T]:
+    """As :func:`recalled`, of a function that gives what JSON takes: a text, a number, a dictionary of texts."""
+
+    @wraps(build)
+    def from_memory(*args: P.args, **kwargs: P.kwargs) -> T:
+        recipe = _recipe(build, args, kwargs)
+        if recipe is None:
+            return build(*args, **kwargs)
+        data = cache.load(recipe)
+        if data is None:
+            made = build(*args, **kwargs)
+            cache.store(recipe, json.dumps(made).encode())
+            return made
+        return cast(T, json.loads(data))
+
+    return from_memory
+
+
+def _recipe(build: Callable[..., object], args: object, kwargs: object) -> str | None:
+    ours = build.__module__.partition(".")[0] == "holdfast"
+    return digest_of(build.__module__, build.__qualname__, args, kwargs) if ours else None
 
 
 def _kernel(made: Kernel | Loop) -> Kernel:

@@ -1,8 +1,8 @@
 """What an expression is made of, as a digest: who has computed from the same things before need not build it again.
 
 Numbers, texts, arrays, enumerations, containers of them, dataclasses and objects of holdfast count by their values, together
-with the sources of the package and the version of CasADi. A function of somebody else's, or an object of a class of
-somebody else's, has no digest: what is made of it is always built.
+with the sources of the package and the versions of holdfast, CasADi and NumPy. A function of somebody else's, or an object of
+a class of somebody else's, has no digest: what is made of it is always built.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import functools
 import hashlib
 from collections.abc import Iterator, Mapping
 from enum import Enum
-from importlib.metadata import version
 from inspect import getattr_static
 from pathlib import Path
 from types import FunctionType
@@ -21,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from holdfast.kept import cached_property
+from holdfast.versions import versions
 
 _PACKAGE = Path(__file__).parents[1]
 
@@ -43,7 +43,7 @@ def digest_of(*parts: object) -> str | None:
 
 @functools.lru_cache(maxsize=1)
 def _sources() -> str:
-    h, files = hashlib.sha256(version("casadi").encode()), sorted(_PACKAGE.rglob("*.py"))
+    h, files = hashlib.sha256(repr(versions("holdfast", "casadi", "numpy")).encode()), sorted(_PACKAGE.rglob("*.py"))
     if not files:  # they lie in an archive
         raise _Unknown
     for path in files:

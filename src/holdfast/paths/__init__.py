@@ -1,6 +1,5 @@
 """What the hand should do: lines, arcs and sequences of poses, and how fast."""
 
-from holdfast.paths.path import Path, arc, line, sequence
-from holdfast.paths.timing import Constant, TimedPath, Timing, Trapezoid
+from holdfast._lazy import offer
 
-__all__ = ["Constant", "Path", "TimedPath", "Timing", "Trapezoid", "arc", "line", "sequence"]
+offer(__name__)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arm import rotations
 from holdfast.arm.poses import check_poses
 from holdfast.checked import checked, real_numbers
 from holdfast.errors import InputError
@@ -79,15 +80,13 @@ class Path:
         Raises:
             InputError: An s outside 0 to 1.
         """
-        from scipy.spatial.transform import Rotation
-
         at = _share(s)
         leg, u = self._place(np.atleast_1d(at))
         start = self.starts[leg]
         arm = start[:, :3, 3] - self.center[leg]
         out = np.zeros((u.size, 4, 4))
-        out[:, :3, :3] = Rotation.from_rotvec(u[:, None] * self.turn[leg]).as_matrix() @ start[:, :3, :3]
-        around = Rotation.from_rotvec(u[:, None] * self.sweep[leg]).apply(arm)
+        out[:, :3, :3] = rotations.of_vectors(u[:, None] * self.turn[leg]) @ start[:, :3, :3]
+        around = _turned(u[:, None] * self.sweep[leg], arm)
         # The way from the start, so that a straight leg does not meet the rounding of a turn by 0.
         out[:, :3, 3] = start[:, :3, 3] + (around - arm) + u[:, None] * self.shift[leg]
         out[:, 3, 3] = 1.0
@@ -155,11 +154,9 @@ class Path:
 
     def _twist(self, s: Array, leg: NDArray[np.intp]) -> Array:
         """As :meth:`twist`, on legs (N,) that s (N,) lies on or at the end of."""
-        from scipy.spatial.transform import Rotation
-
         share = np.diff(self.bounds)[leg]
         u = (s - self.bounds[leg]) / share
-        around = Rotation.from_rotvec(u[:, None] * self.sweep[leg]).apply(self.starts[leg, :3, 3] - self.center[leg])
+        around = _turned(u[:, None] * self.sweep[leg], self.starts[leg, :3, 3] - self.center[leg])
         linear = self.shift[leg] + np.cross(self.sweep[leg], around)
         out = np.concatenate([linear, self.turn[leg]], axis=1) / share[:, None]
         out[np.isnan(s)] = np.nan
@@ -287,10 +284,13 @@ def _angle_about(axis: Array, p: Array, q: Array) -> float:
 
 def _turns(t: Array) -> Array:
     """Rotation vectors (N - 1, 3), world frame, from each pose to the next, the short way round."""
-    from scipy.spatial.transform import Rotation
-
     r = t[:, :3, :3]
-    return Rotation.from_matrix(r[1:] @ r[:-1].transpose(0, 2, 1)).as_rotvec()
+    return rotations.to_vectors(r[1:] @ r[:-1].transpose(0, 2, 1))
+
+
+def _turned(vectors: Array, points: Array) -> Array:
+    """Points (N, 3) turned by rotation vectors (N, 3)."""
+    return np.asarray((rotations.of_vectors(vectors) @ points[:, :, None])[:, :, 0])
 
 
 def _poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:

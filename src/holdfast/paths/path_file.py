@@ -34,6 +34,8 @@ from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
 from holdfast import reading
+from holdfast.arm import rotations
+from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
 from holdfast.paths.path import Path, arc, line, sequence
 from holdfast.paths.timing import Trapezoid
@@ -130,13 +132,10 @@ def _path(model: _PathFile, file: pathlib.Path) -> Path:
 
 def _pose(pose: _Pose, unit: float, place: str) -> Array:
     """(4, 4), or (3,) where there is no orientation."""
-    from scipy.spatial.transform import Rotation
-
     if pose.urdf_rpy is not None and pose.quaternion is not None:
         raise InputError(f"{place}: it has both urdf_rpy and quaternion; give one of them")
     if pose.urdf_rpy is not None:
-        # Fixed axes x, y, z in turn.
-        return _whole(pose.xyz, Rotation.from_euler("xyz", np.multiply(pose.urdf_rpy, unit)).as_matrix())
+        return _whole(pose.xyz, rpy_rotation([angle * unit for angle in pose.urdf_rpy]))
     if pose.quaternion is not None:
         return _whole(pose.xyz, _rotation(np.array(pose.quaternion), place))
     return np.array(pose.xyz)
@@ -149,12 +148,10 @@ def _whole(xyz: list[float] | Array, rotation: Array) -> Array:
 
 
 def _rotation(quaternion: Array, place: str) -> Array:
-    from scipy.spatial.transform import Rotation
-
     size = float(np.linalg.norm(quaternion))
     if not abs(size - 1) < 1e-2:  # files may round
         raise InputError(f"{place}: the quaternion (x, y, z, w) has length {size:g}; it must be 1")
-    return np.asarray(Rotation.from_quat(quaternion).as_matrix())
+    return rotations.of_quaternions(quaternion)
 
 
 def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:

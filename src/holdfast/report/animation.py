@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
+
+from holdfast.report.page import environment
+from holdfast.report.scales import round_numbers
 
 Array = NDArray[np.float64]
 
@@ -94,8 +95,8 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
                 "ghosts": [_points(frames[k]) for k in (len(frames) // 2, -1)],
                 "first": _points(frames[0]),
                 "nodes": frames[0].tolist(),
-                "across": _ticks(middle[0] - (center[0] - left) / scale, middle[0] + (center[0] - left) / scale, 6),
-                "upward": _ticks(middle[1] - (center[1] - above) / scale, middle[1] + (center[1] - above) / scale, 5),
+                "across": round_numbers(middle[0] - (center[0] - left) / scale, middle[0] + (center[0] - left) / scale, 6),
+                "upward": round_numbers(middle[1] - (center[1] - above) / scale, middle[1] + (center[1] - above) / scale, 5),
                 "x": lambda t, middle=middle, center=center: round(float(center[0] + (t - middle[0]) * scale), 1),
                 "y": lambda t, middle=middle, center=center: round(float(center[1] - (t - middle[1]) * scale), 1),
             }
@@ -107,15 +108,10 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
         "readings": list(motion.readings),
         "marked": [np.flatnonzero(row).tolist() for row in marked],
     }
-    environment = Environment(
-        loader=PackageLoader("holdfast.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     return Markup(
-        environment.get_template("animation.html").render(
+        environment()
+        .get_template("animation.html")
+        .render(
             panels=panels,
             name=name,
             about=about,
@@ -139,8 +135,3 @@ def shown_seconds(time: Array) -> float:
 
 def _points(flat: Array) -> str:
     return " ".join(f"{x:g},{y:g}" for x, y in flat)
-
-
-def _ticks(low: float, high: float, most: int) -> list[float]:
-    ticks = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-    return [round(float(t), 6) + 0.0 for t in ticks if low <= t <= high]

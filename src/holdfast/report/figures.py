@@ -39,7 +39,7 @@ from holdfast.palette import PALE as PALE
 from holdfast.palette import PURPLE as PURPLE
 from holdfast.palette import SKY as SKY
 from holdfast.palette import SOFT as SOFT
-from holdfast.report.words import percent
+from holdfast.report.words import on_one_line, percent
 from holdfast.whole_file import replaced
 
 Array = NDArray[np.float64]
@@ -94,8 +94,7 @@ def style() -> Iterator[None]:
 
 def plain(text: str, most: int = 60) -> str:
     """Text that matplotlib draws as it is, on one line, shortened to ``most`` characters."""
-    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return (line if len(line) <= most else line[: most - 1] + "…").replace("$", r"\$")
+    return on_one_line(text, most).replace("$", r"\$")
 
 
 # ---- out -----------------------------------------------------------------------------------------------------------------
@@ -134,8 +133,8 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
     file = Path(path)
     data = io.BytesIO()
     with style():
-        FigureCanvasAgg(figure)
-        figure.savefig(data, format="png", dpi=dpi)
+        figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
+        FigureCanvasAgg(figure).print_png(data)  # type: ignore[no-untyped-call]
     try:
         replaced(file, data.getvalue())
     except OSError as error:

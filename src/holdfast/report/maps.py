@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -152,16 +153,23 @@ def _draw_cells(axes: Axes, x: Array, y: Array, mean: Array, reached: Array, dra
     axes.set_xticks(x, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in x])
     axes.set_yticks(y, [f"{round(v, 2) + 0.0:.2f}".replace("-", "−") for v in y])
     axes.tick_params(length=0, pad=6)
+    inside: dict[str, Any] = {
+        "textcoords": "offset points",
+        "ha": "center",
+        "va": "center",
+        "annotation_clip": False,
+        "in_layout": False,
+    }
     for i, j in np.ndindex(mean.shape):
         middle = ((x[j] + x[j + 1]) / 2, (y[i] + y[i + 1]) / 2)
         luminance = float(colors[i, j, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722])
         color = INK if luminance > 0.18 else "white"
         if not np.isnan(mean[i, j]):
             text = "∞" if np.isinf(mean[i, j]) else _short(float(mean[i, j]))
-            axes.annotate(text, middle, (0, 5), textcoords="offset points", ha="center", va="center", fontsize=9, color=color)
+            axes.annotate(text, middle, (0, 5), fontsize=9, color=color, **inside)
         if drawn[i, j]:
             text = f"{reached[i, j]}/{drawn[i, j]}" if lost else f"{drawn[i, j]}"
-            axes.annotate(text, middle, (0, -6), textcoords="offset points", ha="center", va="center", fontsize=7, color=color)
+            axes.annotate(text, middle, (0, -6), fontsize=7, color=color, **inside)
 
 
 def _short(value: float) -> str:

@@ -119,21 +119,22 @@ def _breakable(cell: Cell) -> Cell:
 
 
 @cache
-def _environment() -> Environment:
-    environment = Environment(
+def environment() -> Environment:
+    """Where the templates are."""
+    made = Environment(
         loader=PackageLoader("holdfast.report"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["breakable"] = _breakable
-    return environment
+    made.filters["breakable"] = _breakable
+    return made
 
 
 def render(page: Page) -> str:
     """The page as HTML that needs nothing else: no files, no network, and no scripts but those of an animation in it."""
-    return _environment().get_template("page.html").render(page=page)
+    return environment().get_template("page.html").render(page=page)
 
 
 def write(page: Page, path: str | Path) -> Path:

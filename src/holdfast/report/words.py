@@ -85,6 +85,12 @@ def share(count: int, whole: int) -> str:
     return f"{count:,} ({percent(count / whole)}, 95 % interval {low.removesuffix(' %')} to {high})"
 
 
+def on_one_line(text: str, most: int = 60) -> str:
+    """What can be printed of a text, on one line, shortened to ``most`` characters."""
+    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return line if len(line) <= most else line[: most - 1] + "…"
+
+
 def counted(count: int, noun: str) -> str:
     """``1 pose``, ``2 poses``."""
     return f"{count:,} {noun}" + ("" if count == 1 else "s")

@@ -191,7 +191,7 @@ class RunReport:
                     lines.append(Line(np.full(len(values), scale * limit), "limit", "compared"))
             locked = " (locks)" if np.isfinite(self._lock_time[k]) else ""
             panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
-        image = figures.svg(small_multiples(self.seen.time, panels, self._xlabel), "joints", "Joint positions over time")
+        image = small_multiples(self.seen.time, panels, "Joint positions over time", self._xlabel)
         return Picture(image, "Joint positions; dashed: a limit, where one is near.")
 
     def _numbers(self, command: str) -> list[Block]:

@@ -1,5 +1,5 @@
 """What a study may compute: assessments, maps of convergence, workspaces and task banks, from a study file."""
 
-from holdfast.studies.study_file import StudyFile, read
+from holdfast._lazy import offer
 
-__all__ = ["StudyFile", "read"]
+offer(__name__)

@@ -3,9 +3,6 @@
 :func:`serve` opens it on this machine; ``holdfast studio ARM`` does the same from the command line.
 """
 
-from __future__ import annotations
+from holdfast._lazy import offer
 
-from holdfast.studio.server import Studio, serve
-from holdfast.studio.state import State
-
-__all__ = ["State", "Studio", "serve"]
+offer(__name__)

@@ -12,7 +12,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.task import Task
 from holdfast.control.law import Law
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import Kernel
+from holdfast.kernels import Kernel, recalled, recalled_data
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,8 @@ class Plant:
             raise InputError(f"substeps is {substeps}; it must be 1 or more")
         self.law, self.substeps = law, substeps
         self.n, self.m = law.arm.n, law.task.m
-        self._kernel, self._calls = _compiled(law, substeps)
+        self._calls = _calls(law, substeps)
+        self._kernel = _part_of_a_cycle(law, substeps, substeps // self._calls)
         self._single = self._kernel.single()
         self._buffer = np.zeros(2 * self.n + self.m)
 
@@ -103,6 +104,7 @@ def check_rows(task: Task) -> None:
         )
 
 
+@lru_cache(maxsize=16)
 def substep(law: Law, substeps: int = SUBSTEPS) -> ca.Function:
     """One explicit Euler step of a control cycle, as symbols: what :class:`Plant` compiles and what the page runs.
 
@@ -123,14 +125,20 @@ def substep(law: Law, substeps: int = SUBSTEPS) -> ca.Function:
     )
 
 
+@recalled_data
+def _calls(law: Law, substeps: int) -> int:
+    """How often the kernel is called in a cycle: its sub-steps are written one after the other, up to a size."""
+    most = max(1, _UNROLLED // int(substep(law, substeps).n_instructions()))
+    return substeps // max(k for k in range(1, substeps + 1) if substeps % k == 0 and k <= most)
+
+
 @lru_cache(maxsize=16)
-def _compiled(law: Law, substeps: int) -> tuple[Kernel, int]:
-    """The kernel of a part of a cycle, and how often it is called for a whole one."""
+@recalled
+def _part_of_a_cycle(law: Law, substeps: int, times: int) -> Kernel:
+    """So many sub-steps of a cycle."""
     once = substep(law, substeps)
     q, v, healthy = once.sx_in()
-    most = max(1, _UNROLLED // int(once.n_instructions()))
-    times = max(k for k in range(1, substeps + 1) if substeps % k == 0 and k <= most)
     after, first = once(q, v, healthy)
     for _ in range(1, times):
         after, _ = once(after, v, healthy)
-    return Kernel(f"control cycle, {law.name}", [q, v, healthy], [after, first]), substeps // times
+    return Kernel(f"control cycle, {law.name}", [q, v, healthy], [after, first])

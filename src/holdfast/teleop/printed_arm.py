@@ -15,7 +15,8 @@ import numpy as np
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.kernels import SX, Program
+from holdfast.control.law import Law
+from holdfast.kernels import SX, Program, recalled_data
 from holdfast.kernels.javascript import javascript
 from holdfast.teleop.plant import check_rows, substep
 from holdfast.teleop.protocol import Protocol
@@ -56,27 +57,33 @@ def arm_module(protocol: Protocol) -> str:
     Raises:
         TaskError: Rows that a stick cannot command.
     """
-    arm, numbers = protocol.arm, law_of(protocol)
+    numbers = law_of(protocol)
     check_rows(protocol.rows)
     scenarios = [protocol.scenarios[numbers.index(k)] for k in range(max(numbers) + 1)]
+    return _module([s.make_law(protocol.arm, protocol.rows) for s in scenarios], protocol.substeps)
+
+
+@recalled_data
+def _module(laws: list[Law], substeps: int) -> str:
+    arm, task = laws[0].arm, laws[0].task
     q = kinematics.joint_symbols(arm)
     frame = _wire_frame(arm, q)
-    place = ca.DM(protocol.rows.rows[:, :3]) @ frame[:, -1]
+    place = ca.DM(task.rows[:, :3]) @ frame[:, -1]
     texts = []
-    for k, scenario in enumerate(scenarios):
-        once = substep(scenario.make_law(arm, protocol.rows), protocol.substeps)
+    for k, law in enumerate(laws):
+        once = substep(law, substeps)
         symbols = once.sx_in()
-        texts.append(javascript(Program(f"sub-step, {scenario.law}", symbols, once(*symbols)), f"law{k}"))
+        texts.append(javascript(Program(f"sub-step, {law.slug}", symbols, once(*symbols)), f"law{k}"))
     texts.append(javascript(Program("position", [q], [place]), "place"))
     texts.append(javascript(Program("points", [q], [frame.T]), "wire"))
     return _MODULE.format(
         joints=arm.n,
-        axes=protocol.rows.m,
-        laws=len(scenarios),
+        axes=task.m,
+        laws=len(laws),
         markers=frame.shape[1],
         programs="".join(texts),
-        steps=",".join(f"law{k}" for k in range(len(scenarios))),
-        substeps=protocol.substeps,
+        steps=",".join(f"law{k}" for k in range(len(laws))),
+        substeps=substeps,
         warm=_WARM,
     )
 

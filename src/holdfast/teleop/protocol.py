@@ -173,7 +173,7 @@ class Protocol:
         return replace(self, tasks=tasks, notes=tuple(notes) if notes is not None else ("",) * len(tasks))
 
     def text(self) -> str:
-        """The protocol as the text of a YAML file that :func:`holdfast.teleop.protocol.read` takes."""
+        """The protocol as the text of a YAML file that :func:`holdfast.teleop.protocol.read_protocol` takes."""
         data: dict[str, Any] = {
             "name": self.name,
             "arm": self.arm_spec,
@@ -221,7 +221,7 @@ def _entry(protocol: Protocol, k: int) -> dict[str, Any]:
     }
 
 
-def read(spec: str | Path = PAPER) -> Protocol:
+def read_protocol(spec: str | Path = PAPER) -> Protocol:
     """A protocol by name (``goel2003``, or ``goel2003-smooth`` with the same speed at 60 cycles/s) or from a YAML file.
 
     Raises:

@@ -54,7 +54,7 @@ def make(folder: Path, protocol: Protocol) -> None:
         raise StoreError(f"'{folder}' exists and is not an empty folder; give a new one, or open the experiment in it")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        kept = protocols.read(protocol.write(folder / PROTOCOL))
+        kept = protocols.read_protocol(protocol.write(folder / PROTOCOL))
         with closing(sqlite3.connect(folder / (FILE + ".new"), isolation_level=None)) as db:
             db.executescript(_SCHEMA)
             made_by = json.dumps(versions("holdfast", "numpy", "casadi", "llvmlite"))
@@ -142,7 +142,7 @@ def _checked(folder: Path, db: sqlite3.Connection) -> Protocol:
         raise StoreError(
             f"'{file}' has format {about['format']}; this holdfast reads {' and '.join(_FORMATS)}: use the one that wrote it"
         )
-    protocol = protocols.read(folder / PROTOCOL)
+    protocol = protocols.read_protocol(folder / PROTOCOL)
     if protocol.text() != about["protocol"]:
         raise StoreError(
             f"'{folder / PROTOCOL}' is not the protocol that the experiment began with; undo the change, "

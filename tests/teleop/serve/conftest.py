@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.protocol import Training, read
+from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
 
 PROGRAM = Path(__file__).with_name("serve_program.py")
@@ -19,7 +19,7 @@ PROGRAM = Path(__file__).with_name("serve_program.py")
 
 @pytest.fixture(scope="session")
 def protocol():
-    whole = read()
+    whole = read_protocol()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 9])), ["a", "b"])
     training = Training(at_least=1, in_a_row=1, limit=80.0, most=3)
     scenarios = tuple(Scenario(k + 1, "pseudoinverse", failed) for k, failed in enumerate((False, True)))  # compiled quickly

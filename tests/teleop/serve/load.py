@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from websockets.asyncio.client import connect
 
-from holdfast.teleop.protocol import Protocol, Training, read
+from holdfast.teleop.protocol import Protocol, Training, read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.serve.messages import Ack, Welcome, read_reply
 
@@ -159,7 +159,7 @@ def load(
     """
     trial = max(60, int(rate * seconds / 90))  # of the 100 training tasks
     training = Training(at_least=100, in_a_row=100, limit=55, most=100)
-    protocol = replace(read(), training=training, scenarios=read().scenarios[:1])
+    protocol = replace(read_protocol(), training=training, scenarios=read_protocol().scenarios[:1])
     Records.create(folder / "study", protocol).close()
     static = folder / "static"
     static.mkdir()

@@ -11,14 +11,14 @@ from holdfast import arms
 from holdfast.arm.task import as_task
 from holdfast.control.laws import BY_NAME
 from holdfast.teleop.printed_arm import arm_module, law_of
-from holdfast.teleop.protocol import read
+from holdfast.teleop.protocol import read_protocol
 from holdfast.teleop.serve import texts
 from holdfast.teleop.serve.messages import PlannedTrial
 from holdfast.teleop.serve.study import study, views, workspace
 
 
 def test_study_of_the_paper(built):
-    whole = read()
+    whole = read_protocol()
     told = study(whole, texts.read(None, built[1]), tlx=True)
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["stick"] == {"limit": 0.05, "dead_zone": 0.005}
@@ -90,7 +90,7 @@ def test_translations_have_the_same_keys(built, tmp_path):
 
 def test_the_page_is_blind(built):
     """No law is named in anything that a station gets, and the order of the laws' codes is the protocol's seed's."""
-    whole = dataclasses.replace(read(), name="does the failure-tolerant inverse help?")
+    whole = dataclasses.replace(read_protocol(), name="does the failure-tolerant inverse help?")
     order = whole.session(0, 0)
     laws = law_of(whole)
     plan = [PlannedTrial(task=t, law=laws[s], q0=[0.0], target=[0.0], joint=-1).model_dump() for t, s in order.tolist()]

@@ -19,8 +19,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from holdfast.errors import InputError, StoreError
-from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.protocol import read as read_protocol
+from holdfast.teleop.protocol import Protocol, read_protocol
 from holdfast.teleop.records import Records
 from holdfast.teleop.records_file import FILE
 from holdfast.teleop.serve import bounded, experimenter

@@ -1,0 +1,15 @@
+from holdfast.assess.assess import Assessment as Assessment
+from holdfast.assess.assess import assess as assess
+from holdfast.assess.assess import load as load
+from holdfast.assess.compare import Comparison as Comparison
+from holdfast.assess.compare import compare as compare
+from holdfast.assess.distribution import Distribution as Distribution
+from holdfast.assess.distribution import Interval as Interval
+from holdfast.assess.region import Region as Region
+from holdfast.assess.region import rotation_from_rpy as rotation_from_rpy
+from holdfast.assess.region import rpy_from_rotation as rpy_from_rotation
+from holdfast.assess.structure import Structure as Structure
+from holdfast.assess.structure import explain as explain
+from holdfast.assess.structure import structure as structure
+from holdfast.assess.structure import structures as structures
+from holdfast.assess.upgrade import Upgrade as Upgrade

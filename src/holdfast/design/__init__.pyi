@@ -1,0 +1,14 @@
+from holdfast.design.convergence import ConvergenceDesigns as ConvergenceDesigns
+from holdfast.design.convergence import design_for_convergence as design_for_convergence
+from holdfast.design.design_joints import DesignJoints as DesignJoints
+from holdfast.design.design_joints import LawOfDesigns as LawOfDesigns
+from holdfast.design.planar_rest import PlanarRest as PlanarRest
+from holdfast.design.planar_rest import Radial as Radial
+from holdfast.design.result import Check as Check
+from holdfast.design.result import Checked as Checked
+from holdfast.design.result import Designs as Designs
+from holdfast.design.search import design as design
+from holdfast.design.space import DesignSpace as DesignSpace
+from holdfast.design.space import Parameter as Parameter
+from holdfast.design.space import design_space as design_space
+from holdfast.design.space import parse_vary as parse_vary

@@ -1,0 +1,15 @@
+from holdfast.kernels.compiled import settle as settle
+from holdfast.kernels.kernel import BACKENDS as BACKENDS
+from holdfast.kernels.kernel import Kernel as Kernel
+from holdfast.kernels.kernel import Single as Single
+from holdfast.kernels.kernel import default_backend as default_backend
+from holdfast.kernels.loop import Loop as Loop
+from holdfast.kernels.loop import LoopResult as LoopResult
+from holdfast.kernels.program import SX as SX
+from holdfast.kernels.program import Program as Program
+from holdfast.kernels.recalled import recalled as recalled
+from holdfast.kernels.recalled import recalled_data as recalled_data
+from holdfast.kernels.threads import in_pool as in_pool
+from holdfast.kernels.threads import pool as pool
+from holdfast.kernels.threads import set_threads as set_threads
+from holdfast.kernels.threads import thread_count as thread_count

@@ -1,0 +1,17 @@
+from holdfast.simulate.closed_loop import simulate as simulate
+from holdfast.simulate.compare_laws import Case as Case
+from holdfast.simulate.compare_laws import LawComparison as LawComparison
+from holdfast.simulate.compare_laws import compare_laws as compare_laws
+from holdfast.simulate.free_swing import BrakedDrop as BrakedDrop
+from holdfast.simulate.free_swing import FreeSwing as FreeSwing
+from holdfast.simulate.free_swing import free_swing as free_swing
+from holdfast.simulate.healthy_cost import HealthyCost as HealthyCost
+from holdfast.simulate.physical_loop import simulate_physics as simulate_physics
+from holdfast.simulate.physical_run import PhysicalRun as PhysicalRun
+from holdfast.simulate.point_to_point import PointToPoint as PointToPoint
+from holdfast.simulate.point_to_point import point_to_point as point_to_point
+from holdfast.simulate.runs import Outcome as Outcome
+from holdfast.simulate.runs import Path as Path
+from holdfast.simulate.runs import Reason as Reason
+from holdfast.simulate.runs import Runs as Runs
+from holdfast.simulate.servos import Servos as Servos

@@ -1,0 +1,12 @@
+from holdfast.arm.poses import check_poses as check_poses
+from holdfast.solve.fibre_path import FibrePath as FibrePath
+from holdfast.solve.fibre_path import best_path as best_path
+from holdfast.solve.inverse import Reach as Reach
+from holdfast.solve.inverse import solve_ik as solve_ik
+from holdfast.solve.inverse import solver as solver
+from holdfast.solve.optimise import Optimum as Optimum
+from holdfast.solve.optimise import optimise as optimise
+from holdfast.solve.self_motion import Component as Component
+from holdfast.solve.self_motion import SelfMotion as SelfMotion
+from holdfast.solve.self_motion import fibres as fibres
+from holdfast.solve.self_motion import self_motion as self_motion

@@ -1,0 +1,15 @@
+from holdfast.study.cluster import Cluster as Cluster
+from holdfast.study.job import Cell as Cell
+from holdfast.study.job import Chunk as Chunk
+from holdfast.study.job import Job as Job
+from holdfast.study.merge import Merged as Merged
+from holdfast.study.merge import merge as merge
+from holdfast.study.runner import Result as Result
+from holdfast.study.runner import Runner as Runner
+from holdfast.study.runner import Task as Task
+from holdfast.study.runner import Threads as Threads
+from holdfast.study.store import Column as Column
+from holdfast.study.store import Store as Store
+from holdfast.study.study import CellStatus as CellStatus
+from holdfast.study.study import Damage as Damage
+from holdfast.study.study import Study as Study

@@ -1,0 +1,137 @@
+"""What an analysis returns is a result, everything else a value or something that is handed in: the three lists, and the walk.
+
+A result has a command, a page or a figure. What of the eight methods it has today is in the list: the list is exact, so
+that a method that is added is written down and stays.
+"""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import inspect
+from functools import cache
+from importlib import import_module
+
+import pytest
+from tools.house.ratchet import source
+from tools.house.rules import published
+
+METHODS = ("report", "save", "figures", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
+RESULTS = {
+    "Assessment": "report save",
+    "Comparison": "report",
+    "ConvergenceDesigns": "report save to_dict describe",
+    "ConvergenceMap": "describe",
+    "Designs": "report save to_dict",
+    "FreeSwing": "",
+    "LawChoice": "describe",
+    "LawComparison": "report save describe",
+    "Optimum": "require_ok",
+    "PhysicalRun": "describe",
+    "Recovery": "save describe require_ok",
+    "Runs": "describe",
+    "TargetMeasures": "save figures describe",
+    "TolerantWorkspace": "describe",
+    "Trajectory": "report save describe",
+    "Workspace": "describe",
+    "control.TradeOff": "describe",
+    "converge.Basins": "describe",
+    "converge.Curves": "describe",
+    "converge.Orbit": "describe",
+    "converge.Replay": "describe",
+    "converge.RestPoints": "describe",
+    "converge.WhatIsLeft": "describe",
+    "solve.SelfMotion": "describe",
+    "teleop.Replay": "",
+    "teleop.TaskBank": "",
+    "teleop.analysis.Analysis": "describe",
+}
+
+
+def named(classes):
+    """Names with their packages, from the names in each package."""
+    return [f"{package}.{name}".lstrip(".") for package, names in classes.items() for name in names.split()]
+
+
+# Numbers with their names: plain frozen dataclasses, parts of results, or made in a control cycle.
+VALUES = named(
+    {
+        "": "BrakedDrop Reach",
+        "assess": "Distribution Structure Upgrade",
+        "control": "Deviations Event Rates SlowMotion",
+        "converge": "Curve Leg Measures RestOfPath RowsGivenUp Segment",
+        "design": "Check Checked Radial",
+        "indices": "Evaluation Part WorstCase",
+        "indices.susceptibility": "Evaluation",
+        "kernels": "LoopResult",
+        "simulate": "Case HealthyCost Path",
+        "solve": "Component FibrePath",
+        "study": "CellStatus Damage Merged Result",
+        "teleop": "Binning CPM Entry Next Subject Trials",
+        "teleop.analysis": "Anova Cells Condition Correlation Effect Groups Mixed Observed Paired WaldTest",
+    }
+)
+THAWED = {"assess.Distribution"}  # values that are not frozen yet
+# Arms, tasks, settings: what an analysis is asked with.
+INPUTS = named(
+    {
+        "": "Arm Capsules DH DesignSpace Joint Link PointToPoint Region Servos Task",
+        "arm": "Chain",
+        "clearance": "Capsule IgnoredPair",
+        "control": "Damped FailureTolerant Law Pseudoinverse Weighted",
+        "converge": "Linearisation Places",
+        "design": "DesignJoints Parameter",
+        "indices": "Index",
+        "indices.susceptibility": "Formula Susceptibility",
+        "paths": "Constant Path TimedPath Trapezoid",
+        "studies": "StudyFile",
+        "studio": "State Studio",
+        "study": "Cell Chunk Column Task",
+        "teleop": "Measure Person PointTasks Protocol Records Rules Scenario Stick Training",
+    }
+)
+DRAWING = "holdfast.report."  # what pages and figures are made of
+
+
+@cache
+def public():
+    """Each public name with the thing and its definition, the shortest of what several packages offer."""
+    found = {}
+    for name, _, node in published(source()):
+        package, _, last = name.rpartition(".")
+        thing = getattr(import_module(package), last)
+        if not name.startswith(DRAWING) and not any(thing is other for other, _ in found.values()):
+            found[name.removeprefix("holdfast.")] = thing, node
+    return found
+
+
+def test_every_public_dataclass_is_in_one_list():
+    lists = [*RESULTS, *VALUES, *INPUTS]
+    assert sorted(set(lists)) == sorted(lists)
+    classes = {name for name, (thing, _) in public().items() if inspect.isclass(thing)}
+    assert set(lists) - classes == set()
+    assert {name for name in classes if dataclasses.is_dataclass(public()[name][0])} - set(lists) == set()
+
+
+def test_every_function_returns_what_is_in_a_list():
+    listed = {name.rpartition(".")[2] for name in [*RESULTS, *VALUES, *INPUTS]}
+    other = {"Any", "Arcs", "Array", "Callable", "Figure", "Indices", "InverseKinematics", "Iterator", "K", "Markup"}
+    other |= {"NDArray", "P", "None", "ThreadPoolExecutor", "bool", "int", "list", "np", "pd", "str", "float"}
+    for name, (_, node) in public().items():
+        if isinstance(node, ast.FunctionDef):
+            assert node.returns is not None, name
+            names = {each.id for each in ast.walk(node.returns) if isinstance(each, ast.Name)}
+            assert names - listed - other == set(), name
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_a_result_has_what_is_listed(name):
+    result, _ = public()[name]
+    assert [method for method in METHODS if callable(getattr(result, method, None))] == RESULTS[name].split()
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_a_value_is_frozen_draws_nothing_and_writes_nothing(name):
+    value, _ = public()[name]
+    assert [method for method in METHODS[:3] if hasattr(value, method)] == []
+    assert value.__dataclass_params__.frozen == (name not in THAWED)

@@ -1,0 +1,1 @@
+"""Programs for who works on holdfast; none of them is installed."""

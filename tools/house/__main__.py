@@ -1,0 +1,33 @@
+"""Command line: ``python -m tools.house [--tighten]``; exit code 1 if the lists do not say what there is."""
+
+from __future__ import annotations
+
+import sys
+
+from tools.house.ratchet import Lists, counted
+
+
+def main(arguments: list[str]) -> int:
+    """Print the counts and what is new or gone."""
+    if arguments not in ([], ["--tighten"]):
+        print(__doc__)
+        return 2
+    count, lists = counted(), Lists.load()
+    if arguments:
+        lists = lists.tightened(count)
+        lists.save()
+    for rule, sins in count.sins.items():
+        print(f"{rule:<22}{sum(sins.values()) if rule == 'retired words' else len(sins):>7,}")
+    print(f"{'circles of files':<22}{len(count.circles):>7,}")
+    for name, number in count.lines.items():
+        print(f"{'lines of ' + name:<22}{number:>7,}   aim {lists.aims[name]:,}")
+    broken = lists.broken(count)
+    for line in broken:
+        print(line)
+    if any(" gone, " in line or "is still" in line for line in broken):
+        print("`python -m tools.house --tighten` takes from the lists what has gone.")
+    return 1 if broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
