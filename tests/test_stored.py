@@ -46,7 +46,7 @@ def close(found, wanted):
 
 
 def unchanged(folder):
-    """Every file with its bytes: what goes on from here computes nothing."""
+    """Every file with its bytes: what is resumed from here computes nothing."""
     return {f: f.read_bytes() for f in folder.rglob("*") if f.is_file() and not f.name.endswith(".lock")}
 
 
@@ -59,7 +59,7 @@ def test_an_assessment(folder, told):
     np.testing.assert_array_equal(run.dataset["q"].values, told["q"])
 
 
-def test_an_assessment_goes_on(folder, told):
+def test_an_assessment_is_resumed(folder, told):
     before = unchanged(folder / "assessment" / "samples.zarr")
     run = hf.assess(arms.load("planar-3r"), make.region(), **make.ASSESSED, store=folder / "assessment")
     close(run.distribution.mean, told["assessment"]["mean"])
@@ -73,7 +73,7 @@ def test_a_study(folder, told):
     close(driven(study, 1).ends, told["ends"])
 
 
-def test_a_study_goes_on(folder):
+def test_a_study_is_resumed(folder):
     asked, study = read(folder / "small.yaml"), Study.open(folder / "study")
     before = unchanged(study.path)
     study.check_same(Study.create(folder / "again", asked.name, asked.seed, asked.cells, asked.text))
@@ -81,7 +81,7 @@ def test_a_study_goes_on(folder):
     assert unchanged(study.path) == before
 
 
-def test_a_workspace_goes_on(folder, told):
+def test_a_workspace_is_resumed(folder, told):
     before = unchanged(folder / "workspace" / "samples.zarr")
     law = control.pseudoinverse(arms.load("planar-3r"), "planar")
     found, told = hf.workspace(law, **make.WORKSPACE, store=folder / "workspace"), told["workspace"]
@@ -91,7 +91,7 @@ def test_a_workspace_goes_on(folder, told):
     assert unchanged(folder / "workspace" / "samples.zarr") == before
 
 
-def test_a_search_for_designs_goes_on(folder, told):
+def test_a_search_for_designs_is_resumed(folder, told):
     before = unchanged(folder / "design")
     found = hf.design(arms.load("planar-3r"), region=make.region(), **make.DESIGNED, store=folder / "design")
     assert found.to_dict()["best"]["values"] == told["design"]["best"]["values"]
