@@ -1,13 +1,16 @@
 """W14: how long a stranger waits: every command of the README and of the help, each in a process of its own, with an empty
-kernel cache and then with what that left in it.
+kernel cache and with a filled one.
 
-``--candidate before=CHECKOUT --candidate after=CHECKOUT`` measures checkouts beside each other, one command at a time.
+Filled is what the cold run left, for a command on one configuration; for a batch command, all its kernels on level 1, compiled
+by a run before. ``--candidate before=CHECKOUT --candidate after=CHECKOUT`` measures checkouts beside each other, one command
+at a time.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import contextlib
 import os
 import re
 import resource
@@ -50,7 +53,7 @@ EARLIER = {  # what somebody has run before, not timed
     "study merge": [STUDY, *(f"holdfast study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
     "teleop analyse": ["holdfast teleop run --simulated --operators 24 --seed 1 --out study"],
 }
-ELSEWHERE = ("--scheduler",)  # needs another machine
+ELSEWHERE = ("--scheduler", "/mnt/")  # needs another machine, or writes outside of the folder that is thrown away
 
 
 @dataclass(frozen=True)
@@ -66,12 +69,13 @@ class Candidate:
             return [self.python, "-c", "import holdfast"]
         return [self.python, "-m", "holdfast", *words[1:]]
 
-    def environment(self, cache: Path) -> dict[str, str]:
+    def environment(self, cache: Path, level: str = "") -> dict[str, str]:
         """Kernel caches of holdfast, and of heyoka, which kept its own, inside ``cache``; all other caches as they are."""
         kept = {k: v for k, v in os.environ.items() if k not in ("PYTHONDONTWRITEBYTECODE", "HOLDFAST_BACKEND")}
         usual = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache"))
         return {
             **kept,
+            "HOLDFAST_LEVEL": level,
             "PYTHONPATH": str(self.checkout / "src"),
             "HOLDFAST_CACHE": str(cache / "holdfast"),
             "XDG_CACHE_HOME": str(cache),
@@ -131,7 +135,7 @@ def prepare(command: str, folder: Path, candidate: Candidate, cache: Path) -> No
         subprocess.run(run, cwd=folder, env=candidate.environment(cache), check=True, capture_output=True)
 
 
-def measure(command: str, candidate: Candidate, cache: Path, prepared: Path, limit: float) -> Took:
+def measure(command: str, candidate: Candidate, cache: Path, prepared: Path, limit: float, level: str = "") -> Took:
     """Seconds of the process and of those that it started."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
@@ -140,7 +144,7 @@ def measure(command: str, candidate: Candidate, cache: Path, prepared: Path, lim
         process = subprocess.Popen(
             candidate.command(shlex.split(command)),
             cwd=folder,
-            env=candidate.environment(cache),
+            env=candidate.environment(cache, level),
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -170,8 +174,19 @@ def measure(command: str, candidate: Candidate, cache: Path, prepared: Path, lim
 def shown(runs: list[Took]) -> str:
     """Processor seconds, and wall seconds in brackets."""
     failed = next((r.failed for r in runs if r.failed), "")
-    text = f"{Spread.of([r.processor for r in runs]).median:.2f} ({Spread.of([r.wall for r in runs]).median:.2f})"
+    text = f"{median_of(runs).processor:.2f} ({median_of(runs).wall:.2f})"
     return f"{text}: {failed}" if failed else text
+
+
+def median_of(runs: list[Took]) -> Took:
+    """Of each number apart."""
+    return Took(Spread.of([r.processor for r in runs]).median, Spread.of([r.wall for r in runs]).median)
+
+
+def longer(cold: list[Took], filled: list[Took]) -> str:
+    """By how much a cold run takes longer, of the processors and by the clock."""
+    a, b = median_of(cold), median_of(filled)
+    return f"{a.processor - b.processor:.2f} ({a.wall - b.wall:.2f})"
 
 
 def main() -> None:
@@ -179,7 +194,9 @@ def main() -> None:
     own.add_argument("--candidate", action="append", default=[], metavar="[NAME=]CHECKOUT", help="may be given again")
     own.add_argument("--python", default=sys.executable, help="interpreter with the dependencies (default: this one)")
     own.add_argument("--only", action="append", default=[], metavar="TEXT", help="commands that hold this; may be given again")
-    own.add_argument("--single", action="store_true", help="only commands on one configuration, pose or motion")
+    part = own.add_mutually_exclusive_group()
+    part.add_argument("--single", action="store_true", help="only commands on one configuration, pose or motion")
+    part.add_argument("--batch", action="store_true", help="only the others")
     own.add_argument("--limit", type=float, default=600.0, help="stop a command after so many seconds (default %(default)s)")
     chosen = harness.options(__doc__, rounds=1, parents=[own])
     candidates = []
@@ -191,30 +208,41 @@ def main() -> None:
     commands = [c for c in commands if any(word in c for word in chosen.only or [""])]
     if chosen.single or chosen.quick:
         commands = [c for c in commands if name_of(c) in SINGLE]
+    if chosen.batch:
+        commands = [c for c in commands if name_of(c) not in SINGLE]
     with tempfile.TemporaryDirectory() as kept:
         for c in candidates:  # bytecode is no part of this
             subprocess.run([c.python, "-m", "compileall", "-q", str(c.checkout / "src")], check=True)
         cold: dict[tuple[str, str], list[Took]] = {}
-        warm: dict[tuple[str, str], list[Took]] = {}
+        filled: dict[tuple[str, str], list[Took]] = {}
         for command in commands:
-            for _ in range(chosen.rounds):
-                for c in candidates:
+            single = name_of(command) in SINGLE
+            with contextlib.ExitStack() as stack:
+                ready = {c.name: Path(stack.enter_context(tempfile.TemporaryDirectory())) for c in candidates}
+                for c in [] if single else candidates:
+                    measure(command, c, ready[c.name], Path(kept) / c.name, chosen.limit, level="1")
+                for c in candidates * chosen.rounds:
                     harness.progress(f"{c.name}: {command}")
                     with tempfile.TemporaryDirectory() as cache:
-                        given = (command, c, Path(cache), Path(kept) / c.name, chosen.limit)
-                        cold.setdefault((command, c.name), []).append(measure(*given))
-                        warm.setdefault((command, c.name), []).append(measure(*given))
-                        harness.progress(f"  {shown(cold[command, c.name][-1:])}, {shown(warm[command, c.name][-1:])}")
-    head = ["command", *(f"{c.name}: {state}" for c in candidates for state in ("cold", "warm")), "of"]
-    lines = []
-    for command in commands:
-        cells = [shown(times[command, c.name]) for c in candidates for times in (cold, warm)]
-        lines.append([f"`{command}`", *cells, "one" if name_of(command) in SINGLE else "many"])
-    title = "W14: first use, processor seconds of a fresh process (wall)"
-    print(harness.table(title, head, lines))
+                        for times, place in ((cold, Path(cache)), (filled, Path(cache) if single else ready[c.name])):
+                            took = measure(command, c, place, Path(kept) / c.name, chosen.limit)
+                            times.setdefault((command, c.name), []).append(took)
+                            harness.progress(f"  {shown([took])}")
+    for single, kind, state in ((True, "one configuration, pose, motion or file", "warm"), (False, "many", "level 1 there")):
+        some = [x for x in commands if (name_of(x) in SINGLE) == single]
+        columns = ["cold", state, *([] if single else ["longer by"])]
+        lines = []
+        for x in some:
+            pairs = [(cold[x, c.name], filled[x, c.name]) for c in candidates]
+            cells = [[shown(a), shown(b), *([] if single else [longer(a, b)])] for a, b in pairs]
+            lines.append([f"`{x}`", *(cell for group in cells for cell in group)])
+        if some:
+            head = ["command", *(f"{c.name}: {column}" for c in candidates for column in columns)]
+            print(harness.table(f"W14: first use, {kind}: processor seconds of a fresh process (wall)", head, lines))
     print(
-        "Cold: empty kernel cache; warm: what the cold run left in it. `of`: one configuration, pose, motion or file, or many."
-        " Servers (`studio`, `teleop serve`) until they say where the page is, and their end."
+        "Cold: empty kernel cache; warm: what the cold run left in it; level 1 there: what a run with `HOLDFAST_LEVEL=1` left."
+        " Asked for: 2.0 and, without `--out`, 0.8 for one; at most 2.0 longer for many. Servers (`studio`, `teleop serve`)"
+        " until they say where the page is, and their end."
     )
 
 

@@ -44,6 +44,7 @@ def pytest_configure(config):
     config.addinivalue_line("markers", "interpreted: kernels made in the test run on CasADi's machine; for arms of its own.")
     # Node is installed beside Python, whether or not the environment was activated.
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
+    os.environ["HOLDFAST_NOTICES"] = "off"  # they depend on how long something takes
     for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS"):
         os.environ.pop(name, None)
 

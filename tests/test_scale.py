@@ -12,7 +12,12 @@ import oracles
 from holdfast.arm.scale import length_unit
 from holdfast.arm.task import as_task
 from holdfast.control import Damped, Pseudoinverse
+from holdfast.converge.recover_bounds import out_of_reach
+from holdfast.design import design_space
+from holdfast.design.evaluate import Evaluator
+from holdfast.design.family import Family
 from holdfast.simulate import Outcome, simulate
+from holdfast.simulate.healthy_cost import healthy_cost
 from holdfast.solve import solve_ik
 
 # A power of two rounds nothing: such a copy does the same to the last bit. The others are 1 mm and 1 km exactly.
@@ -176,3 +181,58 @@ def test_inverse_kinematics(bent, rng, size):
     tip = oracles.forward(scaled(bent, size), found.q)[:, :3, 3]
     # What is asked for is metres; a small arm is as much nearer.
     assert (np.linalg.norm(tip - size * poses[:, :3, 3], axis=1) <= 1e-6 * min(2 * size, 1)).all()
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
+def test_what_a_law_costs_the_healthy_arm(links, rng, size):
+    q0, goals = rng.uniform(-2, 2, (6, 3)), links.forward_kinematics(rng.uniform(0.5, 1.5, (6, 3)))
+    own, other = (
+        healthy_cost(Pseudoinverse(scaled(links, s), "planar"), q0, resized(goals, s), False, 0.1) for s in (1.0, size)
+    )
+    assert np.isfinite(own.time).all()
+    np.testing.assert_allclose(own.deviation * size, other.deviation, rtol=1e-6, atol=1e-6 * size)
+    # Which samples are far enough to count depends on the unit, and that is rounded.
+    np.testing.assert_allclose(own.angle, other.angle, atol=1e-9 if size in EXACT else 1e-2)
+    np.testing.assert_allclose(own.time, other.time, rtol=1e-6 if size in EXACT else 0.05)
+
+
+@pytest.mark.parametrize("size", [*EXACT, *ROUNDED, 1.0])
+def test_the_way_back_keeps_its_rows_as_exactly(bent, generator, size):
+    """The joint stands where it is, so its rows can all be met, and are, as exactly by an arm of any size."""
+    arm, q = scaled(bent, size), generator("scaled recovery").uniform(-2, 2, 4)
+    goal = arm.forward_kinematics(np.where(np.arange(4) == 1, q, q + 0.4))
+    found = hf.recover(arm, 1, q, goal, task="position", samples=0, clearance=False)
+    assert found.ok
+    missed = np.linalg.norm(oracles.forward(arm, found.q[-1:])[0, :3, 3] - goal[:3, 3])
+    assert missed <= 2e-6 * min(2 * size, 1)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0])
+def test_designs_are_on_a_pose_if_they_are_as_near_as_their_size_asks(links, size):
+    arm, q = scaled(links, size), np.array([[0.3, 0.5, 0.7]])
+    pose = arm.forward_kinematics(q)
+    evaluator = Evaluator(Family(design_space(arm, {"a1": (0.5 * size, 1.5 * size)}), task="planar"), pose)
+    near, off = q + np.array([0.0, 0.0, 1e-7]), q + np.array([0.0, 0.0, 1e-5])  # of a link's length
+    assert evaluator.on_pose(np.array([[size]]), np.array([0]), near).all()
+    assert not evaluator.on_pose(np.array([[size]]), np.array([0]), off).any()
+
+
+@pytest.mark.parametrize("size", [*EXACT, 1.0])
+def test_a_run_with_bodies_is_stuck_where_the_arm_s_size_says_so(links, size):
+    """Two joints locked, the target off the circle of the third: 4e-3 of a link, which is 4e-6 m for the smallest arm."""
+    pytest.importorskip("mujoco")
+    arm = oracles.with_bodies(scaled(links, size), np.random.default_rng(0))
+    q = np.array([0.3, 0.5, 0.7])
+    target = arm.forward_kinematics(q + np.array([0.0, 0.0, 0.01]))[:2, 3] * (1 + 1e-3)
+    run = hf.simulate_physics(Pseudoinverse(arm, "planar"), q, target, locked=[0, 1])
+    assert (run.outcome, str(run.kinematic.outcome)) == ("stuck", "stuck")
+    assert run.error[-1] / size == pytest.approx(3.9e-3, rel=0.05)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_proofs_that_a_goal_is_out_of_reach(links, size):
+    arm = scaled(links, size)
+    goal = np.eye(4)
+    goal[0, 3] = 3 * size * (1 + 2e-7)
+    free = np.ones(3, dtype=bool)
+    assert out_of_reach(arm, free, np.zeros(3), goal, False, np.array([0.0, 0.0, 1.0]))

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING or sys.version_info >= (3, 12):
+if TYPE_CHECKING:
     from functools import cached_property
 else:
     from collections.abc import Callable
     from typing import Any
 
     class cached_property:
-        """As in Python 3.12 and later: without the lock of 3.11, which a child process inherits locked and waits for."""
+        """Without the lock of Python 3.11, which a child process inherits locked and waits for.
+
+        Threads that ask at once may compute it more than once; all of them get what was there first.
+        """
 
         def __init__(self, compute: Callable[[Any], Any]) -> None:
             self._compute, self.__doc__ = compute, compute.__doc__
@@ -23,8 +25,7 @@ else:
         def __get__(self, instance: Any, owner: type | None = None) -> Any:
             if instance is None:
                 return self
-            value = instance.__dict__[self._name] = self._compute(instance)
-            return value
+            return instance.__dict__.setdefault(self._name, self._compute(instance))
 
 
 __all__ = ["cached_property"]

@@ -51,7 +51,6 @@ RICHER = [
     (["workspace", *PLANAR, *FEW], FILES | {"scipy"}),
     (["trade-off", "planar-3r", "--samples", "10"], FILES | {"scipy", "scipy.stats"}),
     (["compare", "planar-3r", *LAWS], FILES | {"jinja2", "matplotlib", "scipy", "scipy.stats"}),
-    (["recover", "planar-3r", "--lock", "2", "--at", "0.3 0.5 0.7", "--goal", "pose:1.5,1.5,0"], FILES | {"scipy"}),
     (["recover", "planar-3r", "--lock", "2", "--at", "0.3 0.5 0.7", "--goal", "home"], FILES),
     (["export", "planar-3r", "--law", "pseudoinverse", "--out", "."], FILES),
     (["study", "new", "cell.yaml", "--arm", "planar-3r", "--poses", "64"], FILES | {"scipy"}),

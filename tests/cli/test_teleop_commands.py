@@ -16,6 +16,7 @@ from holdfast.teleop.analysis import Analysis
 from holdfast.teleop.bank_figure import bank_figure
 from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
+from holdfast.teleop.records_file import alone
 from holdfast.teleop.selection import binning
 from holdfast.teleop.tables import bank_table, computer_table, hand_paths
 from holdfast.teleop.tasks import task_bank
@@ -163,6 +164,8 @@ def test_subjects_are_listed_dropped_and_deleted(cli, refused, copy, monkeypatch
     assert code == 0
     assert "2 simulated subjects" in text
     assert "dropped out, and not part of any number: S02" in text
+    with alone(copy):
+        assert "is served by another program already" in refused("teleop", "subjects", copy, "--delete", "S01")
     code, text, _ = cli("teleop", "subjects", copy, "--delete", "S01")
     assert code == 0
     assert "deleted: subject S01 and" in text

@@ -67,7 +67,7 @@ VALUES = named(
         "simulate": "Case HealthyCost Path",
         "solve": "Component FibrePath",
         "study": "CellStatus Damage Merged Result",
-        "teleop": "Binning CPM Entry Next Subject Trials",
+        "teleop": "Binning CPM Entry Next RecordedCycles Subject Trials",
         "teleop.analysis": "Anova Cells Condition Correlation Effect Groups Mixed Observed Paired WaldTest",
     }
 )
@@ -116,7 +116,7 @@ def test_every_public_dataclass_is_in_one_list():
 def test_every_function_returns_what_is_in_a_list():
     listed = {name.rpartition(".")[2] for name in [*RESULTS, *VALUES, *INPUTS]}
     other = {"Any", "Arcs", "Array", "Callable", "Figure", "Indices", "InverseKinematics", "Iterator", "K", "Markup"}
-    other |= {"NDArray", "P", "None", "ThreadPoolExecutor", "bool", "int", "list", "np", "pd", "str", "float"}
+    other |= {"NDArray", "P", "T", "None", "ThreadPoolExecutor", "bool", "int", "list", "np", "pd", "str", "float"}
     for name, (_, node) in public().items():
         if isinstance(node, ast.FunctionDef):
             assert node.returns is not None, name

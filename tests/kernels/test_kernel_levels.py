@@ -122,6 +122,7 @@ def test_long_compiling_is_announced(fresh, monkeypatch, capsys):
     Kernel("quick", [x], [y])
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(llvm_backend, "COMPILING", (1e-3, 1e-3))
+    monkeypatch.delenv("HOLDFAST_NOTICES")
     Kernel("slow", [x], [y + 1])
     said = capsys.readouterr()
     assert said.out == ""

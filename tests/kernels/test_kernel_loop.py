@@ -72,6 +72,17 @@ def test_rows_rest_where_they_converged(loop, rng):
     np.testing.assert_array_equal(run.state[::10], state[::10])
 
 
+@pytest.mark.parametrize("rows", [1, 37])
+def test_a_walk_passes_every_state_of_the_plain_iteration(loop, rows, rng):
+    state, parameters = draw(rng, rows)
+    way = loop.walk(state, parameters, 9)
+    assert way.shape == (10, rows, 2)
+    np.testing.assert_array_equal(way[0], state)
+    for k in range(10):
+        for row in range(rows):
+            np.testing.assert_allclose(way[k, row], plain(state[row], parameters[row], -1.0, k)[0], rtol=1e-13)
+
+
 def test_results_do_not_depend_on_batch_chunks_or_threads(loop, threads, rng):
     state, parameters = draw(rng, 5000)
     threads(1)

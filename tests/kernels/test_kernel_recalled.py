@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import casadi as ca
@@ -11,6 +13,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.indices import CustomIndex
+from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, Loop, recalled, recalled_data, recipe
 from holdfast.kernels.recipe import digest_of
 
@@ -63,6 +66,35 @@ def test_the_second_call_builds_nothing_and_gives_the_same_bits(rng):
     # Who asks for its operations has it built, and finds the same.
     assert again.program.instructions == first.program.instructions
     assert BUILT == ["line", "line"]
+
+
+def test_threads_that_need_the_same_kernel_at_once_build_it_once():
+    together = threading.Barrier(8)
+
+    def need(_):
+        together.wait()
+        return line(3.0)
+
+    with ThreadPoolExecutor(8) as threads:
+        made = list(threads.map(need, range(8)))
+    assert BUILT == ["line"]
+    assert {repr(kernel) for kernel in made} == {repr(made[0])}
+
+
+def test_a_kept_property_is_the_same_thing_for_threads_that_ask_at_once():
+    together = threading.Barrier(8)
+
+    class Holder:
+        @cached_property
+        def thing(self):
+            together.wait()  # all of them compute it
+            return object()
+
+    holder = Holder()
+    with ThreadPoolExecutor(8) as threads:
+        found = list(threads.map(lambda _: holder.thing, range(8)))
+    assert len({id(thing) for thing in found}) == 1
+    assert holder.thing is found[0]
 
 
 def test_another_argument_is_another_kernel(rng):

@@ -11,6 +11,7 @@ import pytest
 
 import holdfast as hf
 import oracles
+from holdfast.arm.scale import length_unit
 from holdfast.report import page
 from holdfast.simulate import compare_laws_report
 
@@ -76,7 +77,7 @@ def test_the_healthy_pseudoinverse_costs_nothing_but_time(compared, motions):
     cost = compared.healthy[0]
     assert cost.deviation.max() < 1e-7
     assert cost.angle.max() < 1e-6
-    expected = np.log(compared.way / 1e-3)
+    expected = np.log(compared.way / (1e-3 * length_unit(compared.arm)))
     np.testing.assert_allclose(cost.time, np.maximum(expected, 0.0), atol=1e-5)
     np.testing.assert_allclose(compared.way, motions.distance, atol=1e-12)
     case = compared.case("pseudoinverse")
@@ -95,14 +96,15 @@ def test_the_cost_of_damping_is_that_of_the_path(compared, laws, motions):
         off = np.abs(left @ np.array([-along[1], along[0]])).max()
         assert cost.deviation[k] <= off + 1e-9
         assert cost.deviation[k] == pytest.approx(off, rel=0.05, abs=1e-4)
-        late = np.flatnonzero(path.error > 1e-3)
+        near = 1e-3 * length_unit(law.arm)
+        late = np.flatnonzero(path.error > near)
         if late[-1] + 1 < len(path.time):
             assert cost.time[k] == pytest.approx(path.time[late[-1] + 1], abs=0.05)
         error = np.hstack([goal - path.x[:, :2]])
         rates = law.velocity(path.q, error)
         moved = np.einsum("nij,nj->ni", law.arm.jacobian(path.q)[:, :2], rates)
         cosine = (moved * error).sum(axis=1) / np.linalg.norm(moved, axis=1) / np.linalg.norm(error, axis=1)
-        angle = np.arccos(np.clip(cosine, -1, 1))[path.error > 1e-3].max()
+        angle = np.arccos(np.clip(cosine, -1, 1))[path.error > near].max()
         assert cost.angle[k] <= angle * (1 + 1e-3) + 1e-6
         assert cost.angle[k] == pytest.approx(angle, rel=0.2, abs=0.02)
 

@@ -18,6 +18,7 @@ import holdfast as hf
 from holdfast.teleop.entries import Kind, State
 from holdfast.teleop.experiment import simulate_experiment
 from holdfast.teleop.measures import measures
+from holdfast.teleop.plant import Plant
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Training, read_protocol
 from holdfast.teleop.records import Records
@@ -166,6 +167,27 @@ def test_tables_say_what_the_records_say(made, protocol, tmp_path):
     assert {f.name for f in files} >= {"subjects.csv", "events.csv", "dictionary.csv", "protocol.yaml"}
     export(made, tmp_path / "parquet", parquet=True)
     assert pd.read_parquet(tmp_path / "parquet" / "trials.parquet")["M1"].equals(pd.read_csv(files[0])["M1"])
+
+
+def test_the_table_of_cycles_is_what_was_recorded(records, monkeypatch):
+    """Row by row, also of trials that were broken off or never moved; nothing is driven again for it."""
+    code = records.add_subject().code
+    for end, cycles in ((End.ARRIVED, 5), (None, 4), (None, 0), (End.ABORTED, 0)):
+        one_trial(records, code, end=end, cycles=cycles)
+    monkeypatch.setattr(Plant, "cycles", None)
+    table, position = cycle_table(records), records.protocol.plants[0].position
+    assert table.groupby("trial").size().tolist() == [6, 4, 1, 1]
+    for e in records.entries():
+        rows = table[table["trial"] == e.id]
+        assert rows["k"].tolist() == list(range(len(rows)))
+        kept = records._db.execute("SELECT time, velocity, q FROM cycles WHERE trial = ? ORDER BY k", (e.id,)).fetchall()
+        kept = kept or [(np.nan, b"", e.q0.tobytes())]
+        time, velocity, q = rows.iloc[:, 2].to_numpy(), rows.iloc[:, 3:5].to_numpy(), rows.iloc[:, 5:-2].to_numpy()
+        np.testing.assert_array_equal(q, [np.frombuffer(row[2]) for row in kept])
+        np.testing.assert_array_equal(rows.iloc[:, -2:], position(q))
+        np.testing.assert_array_equal(time[:-1], [row[0] for row in kept[:-1]])
+        np.testing.assert_array_equal(velocity[:-1], np.reshape([np.frombuffer(row[1]) for row in kept[:-1]], (-1, 2)))
+        assert np.isnan([time[-1], *velocity[-1]]).all()
 
 
 def test_computer_does_every_task(protocol):

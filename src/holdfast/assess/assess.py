@@ -24,6 +24,7 @@ from holdfast.clearance import Clearance
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Index, by_name
 from holdfast.interval import check_confidence
+from holdfast.notice import says
 from holdfast.study import Store
 
 if TYPE_CHECKING:
@@ -290,6 +291,7 @@ class Assessment:
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
 
     @checked
+    @says("writing the results")
     def save(self, path: str | Path) -> Path:
         """Write the run as a results folder that :func:`load` and ``holdfast report`` read.
 
@@ -311,6 +313,7 @@ class Assessment:
         return target
 
     @checked
+    @says("drawing the report")
     def report(self, path: str | Path, threshold: float | None = None) -> Path:
         """Write a self-contained HTML report.
 
@@ -327,6 +330,7 @@ class Assessment:
 
 
 @checked
+@says("assessing poses")
 def assess(
     arm: Arm,
     region: Region,

@@ -18,6 +18,7 @@ from holdfast.errors import InputError
 from holdfast.failures import failure_sets
 from holdfast.interval import Interval
 from holdfast.kept import cached_property
+from holdfast.notice import says
 
 
 @dataclass(frozen=True)
@@ -166,6 +167,7 @@ class Comparison:
             found.append("The best configurations are not equally clear of the arm itself: the clearances asked for differ.")
         return found
 
+    @says("drawing the report")
     def report(self, path: str | Path) -> Path:
         """Write the comparison as one self-contained HTML file.
 

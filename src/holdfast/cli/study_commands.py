@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import signal
-import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,6 +22,7 @@ from holdfast.cli.options import (
 )
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
+from holdfast.notice import working
 
 if TYPE_CHECKING:
     from holdfast.studies import StudyFile
@@ -314,23 +313,9 @@ def _stopping() -> Iterator[Callable[[], bool]]:
 
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Any]:
-    """A bar while a person looks, else a line on stderr now and then; both say how much time is left."""
+    """A bar while a person looks; it says how much time is left, as does the line on stderr where there is none."""
     with progress_bar(quiet, "chunks") as bar:
-        if bar is not None:
-            yield lambda done, total, _: bar(done, total)
-        elif quiet:
-            yield None
-        else:
-            said = time.monotonic()
-
-            def line(done: int, total: int, left: float | None) -> None:
-                nonlocal said
-                if time.monotonic() - said > 30:
-                    said = time.monotonic()
-                    rest = "" if left is None else f", about {_duration(left)} left"
-                    print(f"{done} of {total} chunks{rest}", file=sys.stderr, flush=True)
-
-            yield line
+        yield None if bar is None else lambda done, total, _: bar(done, total)
 
 
 # ---- saying ----------------------------------------------------------------------------------------------------------
@@ -344,11 +329,10 @@ def _dry_run(asked: StudyFile, json_: bool) -> None:
     from holdfast.studies.estimate import estimates
 
     found = []
-    with progress_bar(json_, "cells") as progress:
+    with progress_bar(json_, "cells") as progress, working("trying rows of each cell", progress) as advance:
         for e in estimates(asked.cells, asked.seed):
             found.append(e)
-            if progress is not None:
-                progress(len(found), len(asked.cells))
+            advance(len(found), len(asked.cells))
     seconds, size = sum(e.seconds for e in found), sum(e.size for e in found)
     chunks = sum(e.cell.count for e in found)
     if json_:

@@ -255,11 +255,14 @@ app.command()(teleop_tasks.tasks)
 
 @contextmanager
 def working(text: str) -> Iterator[Callable[[str], None]]:
-    """What is being done, on a terminal, while it is; a function that says what comes next."""
+    """What is being done, while it is; a function that says what comes next."""
     from rich.console import Console
     from rich.markup import escape
 
-    with Console(stderr=True).status(escape(text)) as status:
+    from holdfast import notice
+
+    screen = Console(stderr=True)
+    with notice.working(text, notice.told if screen.is_terminal else None), screen.status(escape(text)) as status:
         yield lambda now: status.update(escape(now))
 
 

@@ -14,6 +14,7 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.errors import InputError, StoreError
 from holdfast.kernels import recalled_data
+from holdfast.notice import says
 from holdfast.versions import versions
 from holdfast.whole_file import replaced
 
@@ -254,6 +255,7 @@ def _quoted(text: str) -> str:
     return f'"{plain}"'
 
 
+@says("writing down the law")
 def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Path]:
     """Write all four files.
 

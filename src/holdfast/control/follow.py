@@ -20,6 +20,7 @@ from holdfast.control.trajectory import Trajectory
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices import Objective
 from holdfast.kernels import Kernel, recalled
+from holdfast.notice import says
 from holdfast.paths import TimedPath
 from holdfast.solve import optimise, solve_ik, solver
 from holdfast.solve.fibre_path import best_path
@@ -41,6 +42,7 @@ _GRID = 101  # poses whose whole manifold is traced
 
 
 @checked
+@says("following the path")
 def follow(
     arm: Arm,
     path: TimedPath,

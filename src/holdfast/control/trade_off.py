@@ -20,6 +20,7 @@ from holdfast.checked import checked
 from holdfast.control import damping_search, deviation
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels import Kernel, recalled
+from holdfast.notice import working
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -152,12 +153,14 @@ def trade_off(
     q = rng.uniform(low, high, (samples, arm.n))
     u = rng.normal(size=(samples, chosen.m))
     u /= np.linalg.norm(u, axis=1, keepdims=True)
-    kernel = _kernel(arm, chosen)
     peak, healthy = np.empty((samples, len(e))), np.empty((samples, len(e)))
-    for k, x in enumerate(e):
-        out = kernel.rows(q, u, np.full(samples, max(x, 1e-9)))
-        peak[:, k], healthy[:, k] = out[:, 0], out[:, 1]
-    none = kernel.rows(q, u, np.full(samples, 1e-9))[:, 0]
+    with working("computing the trade-off") as advance:
+        kernel = _kernel(arm, chosen)
+        for k, x in enumerate(e):
+            out = kernel.rows(q, u, np.full(samples, max(x, 1e-9)))
+            peak[:, k], healthy[:, k] = out[:, 0], out[:, 1]
+            advance(k + 1, len(e) + 1)
+        none = kernel.rows(q, u, np.full(samples, 1e-9))[:, 0]
     return TradeOff(arm, chosen, e, peak / none[:, None], healthy, peak)
 
 

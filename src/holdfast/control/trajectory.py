@@ -15,6 +15,7 @@ from holdfast.control.slow_motion import SlowMotion, slow_enough
 from holdfast.errors import InputError, StoreError
 from holdfast.indices import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility import Susceptibility
+from holdfast.notice import says
 from holdfast.spreadsheet import cell
 from holdfast.whole_file import writing
 
@@ -194,6 +195,7 @@ class Trajectory:
             raise StoreError(f"'{target}' cannot be written: {error.strerror or error}") from error
         return target
 
+    @says("drawing the report")
     def report(self, path: str | Path, command: str = "", torque_bound: float | None = None) -> Path:
         """Write a report: one HTML file with curves, events and the arm in motion, that needs nothing else.
 

@@ -18,6 +18,7 @@ from holdfast.converge.rest_system import RestSystem, distinct
 from holdfast.converge.stationary import Joints, RestPoints, read_joints, rest_points, search
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
+from holdfast.notice import says
 from holdfast.simulate import Outcome, Runs, simulate
 from holdfast.solve import joint_space
 
@@ -89,6 +90,7 @@ class Basins:
 
 
 @checked
+@says("simulating the basins")
 def basins(
     law: Law,
     target: ArrayLike,

@@ -15,6 +15,7 @@ from holdfast.converge.convergence_map import ConvergenceMap, convergence_map, s
 from holdfast.converge.starts import Places
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval, check_confidence
+from holdfast.notice import says
 
 Array = NDArray[np.float64]
 
@@ -101,6 +102,7 @@ class LawChoice:
 
 
 @checked
+@says("simulating failures")
 def best_law(
     laws: Mapping[str, Law] | Sequence[Law],
     targets: ArrayLike | str | int | Places,

@@ -15,6 +15,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.checked import checked
 from holdfast.converge.critical import CriticalPoints, critical_points
 from holdfast.errors import InputError, TaskError
+from holdfast.notice import says
 from holdfast.solve import joint_space
 
 Array = NDArray[np.float64]
@@ -30,6 +31,7 @@ _INSIDE = 1e-4  # rad and m: nearer to a cut, a value says nothing: at the edge 
 
 
 @checked
+@says("looking for the ranges of the joints")
 def joint_bounds(
     arm: Arm,
     target: ArrayLike,

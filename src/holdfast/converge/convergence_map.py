@@ -16,6 +16,7 @@ from holdfast.control.law import Law
 from holdfast.converge.starts import Places, picked_at, read_places
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
+from holdfast.notice import says
 from holdfast.simulate import Outcome, Reason, simulate
 from holdfast.solve.inverse import solver
 
@@ -147,6 +148,7 @@ def shared(values: Array, each: int, confidence: float) -> Interval:
 
 
 @checked
+@says("simulating failures")
 def convergence_map(
     law: Law,
     targets: ArrayLike | str | int | Places,

@@ -9,6 +9,7 @@ import numpy as np
 
 from holdfast.converge.place_panels import panels
 from holdfast.converge.places_file import save_places
+from holdfast.notice import says
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,6 +40,7 @@ def summary(m: ConvergenceMap) -> dict[str, Any]:
     }
 
 
+@says("writing the results")
 def save(m: ConvergenceMap, folder: str | Path) -> list[Path]:
     """Write ``map.csv`` (a line for each place), ``map.json``, ``outcomes.png`` and the maps ``map-*.png``.
 

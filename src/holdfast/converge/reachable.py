@@ -12,10 +12,12 @@ from holdfast.arm.targets import target_poses
 from holdfast.arm.task import Task, as_task
 from holdfast.checked import checked
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.solve.inverse import Reach, solver
 
 
 @checked
+@says("looking for configurations with a locked joint")
 def reachable_when_locked(
     arm: Arm,
     target: ArrayLike,

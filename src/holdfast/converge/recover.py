@@ -25,6 +25,7 @@ from holdfast.converge.recover_result import Ending, Leg, Recovery
 from holdfast.converge.recover_route import Metric, MetricName, Route, Space, find_route
 from holdfast.converge.recover_rows import RowSolver, row_solver
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.paths import Path
 from holdfast.solve import joint_space
 
@@ -53,6 +54,7 @@ class _Goal:
 
 
 @checked
+@says("planning the way back")
 def recover(
     arm: Arm,
     locked: Locked,

@@ -7,12 +7,13 @@ from numpy.typing import NDArray
 
 from holdfast.arm import rotations
 from holdfast.arm.model import Arm
+from holdfast.arm.scale import length_unit
 from holdfast.clearance import Clearance
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_SLACK = 1e-9  # m: rounding of the bounds themselves
+_SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
 
 
 def clearance_slopes(clearance: Clearance, low: Array, high: Array) -> Array:
@@ -76,6 +77,7 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
         wrist = pose @ np.linalg.inv(tail)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
+    slack = _SLACK * length_unit(arm)
     for what, target, spans in proofs:
         away = target - centre
         if planar is not None:
@@ -84,12 +86,12 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
         most = sum(high for _, high in spans)
         longest = max(spans, key=lambda s: s[0])
         least = longest[0] - (most - longest[1])
-        if distance > most + _SLACK:
+        if distance > most + slack:
             return (
                 f"proved out of reach: {what} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with these "
                 f"joints standing it is at most {most:.4g} m away"
             )
-        if (planar is None or flat) and distance < least - _SLACK:
+        if (planar is None or flat) and distance < least - slack:
             return (
                 f"proved out of reach: {what} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with these "
                 f"joints standing it is at least {least:.4g} m away"

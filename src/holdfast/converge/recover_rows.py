@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
+from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
@@ -23,7 +24,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Frame = Literal["base", "tool"]
 
-TOLERANCE = 1e-6  # m and rad, of every row that is kept
+TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
 _STEPS = 60
 _LIGHT = 1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
 
@@ -98,6 +99,9 @@ class RowSolver:
 
     def __init__(self, arm: Arm, rows: Rows) -> None:
         self.arm, self.rows = arm, rows
+        unit = length_unit(arm)
+        self._scale = np.where(np.array(rows.units) == "m", unit, 1.0)
+        self._tolerance = TOLERANCE / max(unit, 1.0)
 
     @cached_property
     def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
@@ -161,14 +165,21 @@ class RowSolver:
         """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) standing."""
         count = len(q)
         parameters = np.concatenate(
-            [poses[:, :3, 3], poses[:, :3, :3].reshape(count, 9), weights, np.broadcast_to(free, (count, self.arm.n))], axis=1
+            [
+                poses[:, :3, 3],
+                poses[:, :3, :3].reshape(count, 9),
+                weights / self._scale,
+                np.broadcast_to(free, (count, self.arm.n)),
+            ],
+            axis=1,
         )
-        return self._loop.run(q, parameters, (1e-2 * TOLERANCE) ** 2, steps).state
+        return self._loop.run(q, parameters, (1e-2 * self._tolerance) ** 2, steps).state
 
     def meets(self, q: Array, poses: Array, kept: Array, free: Flags) -> Flags:
         """(N,) True where the joints that are free keep their limits and the rows kept (N, m) above 0 are within tolerance."""
         inside = (((q >= self.arm.lower) & (q <= self.arm.upper)) | ~free).all(axis=1)
-        return np.asarray(inside & (np.abs(self.errors(q, poses) * (kept > 0)).max(axis=1) <= TOLERANCE))
+        missed = np.abs(self.errors(q, poses) / self._scale * (kept > 0)).max(axis=1)
+        return np.asarray(inside & (missed <= self._tolerance))
 
     def nearest(self, q: Array, poses: Array, kept: Array, free: Flags) -> Array:
         """From starts q (N, n): the rows kept (N, m) met, and of the others as little error as can be had next to it."""

@@ -16,6 +16,7 @@ from holdfast.control.law import Law
 from holdfast.converge.linearisation import Kind, Kinds, attracts, kinds
 from holdfast.converge.rest_system import RestSystem, distinct, idle_joints, wrapped
 from holdfast.errors import InputError
+from holdfast.notice import Progress, told, working
 
 if TYPE_CHECKING:
     from holdfast.converge.curves import Curves
@@ -152,11 +153,13 @@ def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None
             raise InputError(f"locked names {len(joints)} joints; curves over the locked value are those of one, or give at")
         from holdfast.converge.tracing import trace
 
-        return trace(law, pose, joints[0], seed)
+        with working("tracing stationary points") as advance:
+            return trace(law, pose, joints[0], seed, advance=advance)
     values = np.atleast_1d(np.asarray(at, dtype=np.float64))
     if values.shape != (len(joints),) or not np.isfinite(values).all():
         raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
-    return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed))
+    with working("looking for stationary points") as advance:
+        return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed), advance)
 
 
 def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
@@ -168,17 +171,22 @@ def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
     return joints
 
 
-def search(system: RestSystem, at: Array, generator: np.random.Generator) -> RestPoints:
+def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> RestPoints:
     """All points of rest that random starts find with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
     spare = int(system.healthy.sum()) > system.law.task.m
-    reached, first = _gathered(system, at, system.solutions, generator, 1 if spare else MOST_WAVES)
-    stuck, second = _gathered(system, at, system.stuck, generator, MOST_WAVES)
+    reached, first = _gathered(system, at, system.solutions, generator, 1 if spare else MOST_WAVES, told)
+    stuck, second = _gathered(system, at, system.stuck, generator, MOST_WAVES, advance)
     return rest_points(system, at, np.concatenate([reached, stuck]), first + second)
 
 
 def _gathered(
-    system: RestSystem, at: Array, attempt: Callable[[Array], Array], generator: np.random.Generator, most: int
+    system: RestSystem,
+    at: Array,
+    attempt: Callable[[Array], Array],
+    generator: np.random.Generator,
+    most: int,
+    advance: Progress,
 ) -> tuple[Array, int]:
     """Points of rest (P, n) from waves of starts, until some waves bring none that is isolated and new; how many starts."""
     arm = system.law.arm
@@ -194,6 +202,7 @@ def _gathered(
         alone = np.concatenate([alone, fresh])
         loose = np.concatenate([loose, distinct(arm, found[~firm], loose, SAME_DEGENERATE)])[:SAMPLE]
         idle = 0 if len(fresh) else idle + 1
+        advance(starts, starts + (PATIENCE - idle) * WAVE)  # if nothing new comes
         if idle == PATIENCE:
             break
     return np.concatenate([alone, loose]), starts

@@ -19,6 +19,7 @@ from holdfast.converge.starts import Places, read_places
 from holdfast.converge.workspace import analysed, mean_intervals, mean_over
 from holdfast.converge.workspace_job import ENDS, Beginnings, Method, prepared, usual_method
 from holdfast.interval import check_confidence
+from holdfast.notice import says
 
 Array = NDArray[np.float64]
 
@@ -83,6 +84,7 @@ class TargetMeasures:
             f"failures: {told}",
         ]
 
+    @says("writing the results")
     def save(self, folder: str | Path) -> list[Path]:
         """Write ``targets.csv``, ``targets.json`` and maps, ``targets-reach.png`` and ``targets-finish.png``.
 
@@ -116,6 +118,7 @@ class TargetMeasures:
 
 
 @checked
+@says("simulating failures")
 def target_measures(
     law: Law,
     targets: ArrayLike | str | int | Places | None = None,

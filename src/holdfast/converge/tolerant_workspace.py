@@ -17,6 +17,7 @@ from holdfast.converge import tolerant_planar, tolerant_sampled
 from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.errors import InputError, TaskError
 from holdfast.interval import Interval, check_confidence
+from holdfast.notice import says
 
 Array = NDArray[np.float64]
 Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
@@ -96,6 +97,7 @@ class TolerantWorkspace:
 
 
 @checked
+@says("measuring the failure-tolerant workspace")
 def tolerant_workspace(
     arm: Arm,
     task: str | Task | Sequence[str] = "position",

@@ -19,6 +19,7 @@ from holdfast.converge.equations import TOLERANCE
 from holdfast.converge.events import marked
 from holdfast.converge.rest_system import RestSystem, wrapped
 from holdfast.converge.stationary import rest_points
+from holdfast.notice import Progress, told
 from holdfast.solve.self_motion import Component, distance_to_curve
 
 Array = NDArray[np.float64]
@@ -38,11 +39,11 @@ _NEW = 0.2  # of a curve's points must lie on no other curve
 _CONSTANT = 1e-6  # rad (and m): a locked value that changes less along a whole curve is one value
 
 
-def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPACING) -> Curves:
+def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPACING, advance: Progress = told) -> Curves:
     """All curves of erroneous rest that a random start arrives on; see :func:`holdfast.converge.stationary`."""
     system = RestSystem(law, pose, (joint,))
     tracer = Tracer(system, joint, spacing)
-    found, loose, starts = tracer.all(np.random.default_rng(seed))
+    found, loose, starts = tracer.all(np.random.default_rng(seed), advance)
     return Curves(law, pose, joint, tuple(found), rest_points(system, np.array([np.nan]), loose, starts), starts, system)
 
 
@@ -54,7 +55,7 @@ class Tracer:
         self._arm = without_limits(system.law.arm)
         self._n = system.law.arm.n
 
-    def all(self, generator: np.random.Generator) -> tuple[list[Curve], Array, int]:
+    def all(self, generator: np.random.Generator, advance: Progress = told) -> tuple[list[Curve], Array, int]:
         """Every curve on which a start arrives, until some waves bring no new one; points that lie on none; how many starts."""
         found: list[Curve] = []
         loose = np.empty((0, self._n))
@@ -75,6 +76,7 @@ class Tracer:
                         found.append(curve)
                     left = self._off(left, [curve])
             idle = 0 if len(found) > known else idle + 1
+            advance(starts, starts + (PATIENCE - idle) * WAVE)  # if nothing new comes
             if idle == PATIENCE:
                 break
         return found, wrapped(self.system.law.arm, loose), starts

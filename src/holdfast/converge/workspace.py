@@ -29,6 +29,7 @@ from holdfast.converge.workspace_job import (
 )
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
+from holdfast.notice import says
 from holdfast.registry import LAWS
 from holdfast.simulate import Outcome
 from holdfast.study import Store
@@ -154,6 +155,7 @@ class Workspace:
 
 
 @checked
+@says("simulating failures")
 def workspace(
     law: Law,
     target: ArrayLike,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.converge.place_panels import measure_maps
 from holdfast.converge.places_file import save_places
+from holdfast.notice import says
 
 if TYPE_CHECKING:
     from holdfast.converge.workspace import Workspace
@@ -48,6 +49,7 @@ def summary(w: Workspace) -> dict[str, Any]:
     }
 
 
+@says("writing the results")
 def save(w: Workspace, folder: str | Path) -> list[Path]:
     """Write ``workspace.csv``, ``workspace.json`` and the :func:`figures`: ``reach.png``, ``finish.png``.
 

@@ -11,12 +11,13 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.converge.solutions import Solutions
 from holdfast.design.design_joints import LawOfDesigns
 from holdfast.simulate import Outcome, simulate
+from holdfast.simulate.motion import own_units
 from holdfast.solve import joint_space
 
 Array = NDArray[np.float64]
 
 TIME_CONSTANTS, TOLERANCE = 500.0, 1e-8  # of a run, as in a convergence map
-NEAR = 1e-3  # m and rad: a run that creeps this near to its target has arrived
+NEAR = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has arrived
 _TRIES = 40  # random starts of inverse kinematics for each configuration that is wanted
 
 
@@ -93,7 +94,8 @@ class Failures:
             time_limit=TIME_CONSTANTS / self.law.gain,
             tolerance=TOLERANCE,
         )
-        near = (runs.code == Outcome.CONVERGED) | ((runs.code == Outcome.UNDECIDED) & (runs.error < NEAR))
+        left = own_units(self.law, runs.error, runs.x_final, poses[target])
+        near = (runs.code == Outcome.CONVERGED) | ((runs.code == Outcome.UNDECIDED) & (left < NEAR))
         arrived = np.zeros((*shape, n), dtype=bool)
         arrived[rows] = near
         ends = np.zeros((len(values), len(Outcome)), dtype=np.int64)

@@ -25,6 +25,7 @@ from holdfast.design.planar_rest import PlanarRest, Radial
 from holdfast.design.space import DesignSpace, Vary, design_space
 from holdfast.errors import InputError, StoreError
 from holdfast.interval import Difference, Interval
+from holdfast.notice import says
 from holdfast.registry import LAWS
 
 Array = NDArray[np.float64]
@@ -126,6 +127,7 @@ class ConvergenceDesigns:
             out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
         return out
 
+    @says("writing the results")
     def save(self, folder: str | Path) -> list[Path]:
         """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), ``best-arm.yaml`` and
         ``report.html``.
@@ -154,6 +156,7 @@ class ConvergenceDesigns:
         arm = self.arm()
         return text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
 
+    @says("drawing the report")
     def report(self, path: str | Path) -> Path:
         """Write one HTML file that needs nothing else: what to build, what that gains, and how it was found.
 
@@ -166,6 +169,7 @@ class ConvergenceDesigns:
 
 
 @checked
+@says("searching designs")
 def design_for_convergence(
     law: Law,
     vary: Vary,

@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import made_finite
+from holdfast.arm.scale import length_unit
 from holdfast.design.family import Family
 from holdfast.solve.optimise import FIRST_STEPS, LAST_STEPS, RADIUS, best_of_each, default_starts
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-TOLERANCE = 1e-6  # of the pose, m and rad
+TOLERANCE = 1e-6  # of the pose, m and rad; of an arm that is shorter than 1 m as much less
 _IK_STEPS = 40
 _KEPT = 2  # configurations of a design and pose that the next designs begin from
 _FEW = 8  # of a design with neighbours: the given number of random starts by this, besides what the neighbours found
@@ -83,6 +84,7 @@ class Evaluator:
     def __init__(self, family: Family, poses: Array, seed: int = 0) -> None:
         self.family, self.poses = family, poses
         self.starts = default_starts(family.arm, family.task)
+        self._tolerance = TOLERANCE * min(length_unit(family.space.arm), 1.0)
         self._targets = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
         self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(4,))).random((_POOL, family.arm.n))
 
@@ -187,7 +189,7 @@ class Evaluator:
         design, pose = np.divmod(owner, len(self.poses))
         low, high = self.family.limits(values)
         parameters = np.concatenate([self._targets[pose], values[design]], axis=1)
-        run = self.family.inverse.run(np.clip(q, low[design], high[design]), parameters, TOLERANCE**2, _IK_STEPS)
+        run = self.family.inverse.run(np.clip(q, low[design], high[design]), parameters, self._tolerance**2, _IK_STEPS)
         size = np.sqrt(np.where(np.isnan(run.residual), np.inf, run.residual))
         top = best_of_each(owner, -size, 1)
         top = top[size[top] < miss[owner[top]]]
@@ -204,7 +206,7 @@ class Evaluator:
         q, _ = self._ascended(values, owner, q, LAST_STEPS, radius)
         design, pose = np.divmod(owner, len(self.poses))
         parameters = np.concatenate([self._targets[pose], values[design]], axis=1)
-        q = self.family.inverse.run(q, parameters, (1e-3 * TOLERANCE) ** 2, _IK_STEPS).state
+        q = self.family.inverse.run(q, parameters, (1e-3 * self._tolerance) ** 2, _IK_STEPS).state
         q = np.where(self.family.turning, np.arctan2(np.sin(q), np.cos(q)), q)
         good = self.on_pose(values, owner, q)
         return owner[good], q[good], self.value(values, owner[good], q[good])
@@ -237,7 +239,7 @@ class Evaluator:
         p, r = self._targets[pose, :3], self._targets[pose, 3:].reshape(-1, 3, 3)
         errors = self.family.errors.rows(q, p, r, values[design])
         inside = ((q >= low[design]) & (q <= high[design])).all(axis=1)
-        return np.asarray(inside & (errors <= TOLERANCE).all(axis=1))
+        return np.asarray(inside & (errors <= self._tolerance).all(axis=1))
 
     def rows(self, owner: Index, values: Array) -> tuple[Array, Array, Array]:
         """Position (R, 3), rotation (R, 3, 3) and design (R, k) of rows."""

@@ -18,6 +18,7 @@ from holdfast.design.space import DesignSpace
 from holdfast.errors import StoreError
 from holdfast.indices import Index
 from holdfast.interval import Interval
+from holdfast.notice import says
 from holdfast.whole_file import replaced
 
 Array = NDArray[np.float64]
@@ -113,6 +114,7 @@ class Designs:
 
     # ---- out -------------------------------------------------------------------------------------------------------
 
+    @says("drawing the report")
     def report(self, path: str | Path) -> Path:
         """Write one HTML file that needs nothing else: what to build, what that gains, and what it costs in reach.
 
@@ -123,6 +125,7 @@ class Designs:
 
         return write(self, path)
 
+    @says("writing the results")
     def save(self, folder: str | Path) -> list[Path]:
         """Write ``report.html``, ``best-arm.yaml``, ``designs.csv`` and, for what comes next, ``region.yaml`` into a folder.
 

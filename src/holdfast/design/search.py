@@ -28,6 +28,7 @@ from holdfast.design.space import DesignSpace, Vary, design_space
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec
 from holdfast.interval import Interval
+from holdfast.notice import says
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -42,6 +43,7 @@ _CLIMB_WORTH = 32  # designs that a climb counts as, for the progress
 
 
 @checked
+@says("searching designs")
 def design(
     arm: Arm,
     vary: Vary,

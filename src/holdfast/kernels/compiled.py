@@ -11,12 +11,15 @@ import os
 import queue
 import threading
 from collections.abc import Callable
+from ctypes import c_int64, c_void_p
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import notice
 from holdfast.kept import cached_property
-from holdfast.kernels import cache, llvm_backend, notice
+from holdfast.kernels import cache, llvm_backend
 from holdfast.kernels.llvm_ir import Machine
 from holdfast.kernels.program import Program
 
@@ -25,7 +28,9 @@ Array = NDArray[np.float64]
 AT_ONCE = 1500  # operations that level 1 compiles in less than a tenth of a second
 WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
 LONG = 40_000  # operations: nobody waits for level 1 of more
-WORTH = 500_000  # rows after which level 1 repays its compiling, whatever the size of the program
+# Rows after which level 1 is compiled, whatever the size of the program. It repays that after some 1,000,000 (measured); at a
+# quarter of them a long batch takes little longer than if it had been compiled beforehand, and a short one wastes little.
+WORTH = 250_000
 
 
 class Compiled:
@@ -50,11 +55,13 @@ class Compiled:
 
     def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
         """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes."""
-        places, width = (inputs.ctypes.data, outputs.ctypes.data), inputs.shape[1]
+        width = inputs.shape[1]
+        # Made once: a step of few rows takes less than ctypes takes to convert four numbers.
+        given: tuple[Any, ...] = (c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data), c_int64(width), c_int64(width))
 
         def call(kept: tuple[Array, Array] = (inputs, outputs)) -> None:
             code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it
-            code.call(*places, width, width)
+            code.call(*given)
             if not self.level:
                 self._count(width)
 
@@ -129,7 +136,7 @@ def settle() -> None:
 def _hold() -> None:
     """Before a fork: CasADi, which a job may use, has locks that a child process cannot open, as has LLVM.
 
-    In this order: a job that runs needs LLVM to come to its end.
+    In this order: a job that runs needs LLVM to end.
     """
     _busy.acquire()
     _fork.enter_context(llvm_backend.lock())

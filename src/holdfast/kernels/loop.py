@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -121,46 +121,62 @@ class Loop:
         left = batch.take(most)
         if not left.size:
             return
-        columns = self._columns(batch.inputs(left))
-        out = np.empty((size + 1, columns.shape[1]))
-        step = self.step.bound(columns, out)
+        columns, out, step = self._stage(batch.inputs(left))
+        state, after, residual = columns[:size], out[:size], out[-1, : left.size]  # views are made once, not in each step
         begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
         now, last = int(ahead), batch.most_steps  # steps taken where a residual is measured; when a row gives up
         while True:
             step()
-            residual = out[-1, : left.size]
             small = residual <= tolerance
             if now < last and not np.count_nonzero(small):  # a few rows may take many steps: nothing else is done for them
-                columns[:size] = out[:size]
+                state[...] = after
                 now += 1
                 continue
-            done = np.flatnonzero(waiting & (small | (now - begun >= batch.most_steps)))
+            over = waiting & (small if now < last else small | (now - begun >= batch.most_steps))
+            done = over.nonzero()[0]
             rows = left[done]
-            result.state[rows] = (out if ahead else columns)[:size, done].T
+            result.state[rows] = (after if ahead else state)[:, done].T
             result.residual[rows] = residual[done]
             result.done[rows] = small[done]
             result.steps[rows] = now - begun[done]
-            columns[:size] = out[:size]
+            state[...] = after
             fresh = batch.take(done.size)
             places, gone = done[: fresh.size], done[fresh.size :]
             if fresh.size:
                 columns[:, places] = batch.inputs(fresh)
                 left[places], begun[places] = fresh, now + (not ahead)
             waiting[gone] = False
-            still = np.flatnonzero(waiting)
-            if not still.size:
-                return
-            if 4 * still.size <= 3 * left.size:
-                # No rows are left to take: a batch that shrinks is cheaper.
-                columns = self._columns(columns[:, still])
-                left, begun, waiting = left[still], begun[still], waiting[still]
-                out = np.empty((size + 1, columns.shape[1]))
-                step = self.step.bound(columns, out)
-            elif gone.size:
-                idle = np.flatnonzero(~waiting)  # they do what another row does, so that nobody needs to look at them
-                columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
+            if gone.size:
+                still = waiting.nonzero()[0]
+                if not still.size:
+                    return
+                if 4 * still.size <= 3 * left.size:
+                    # No rows are left to take: a batch that shrinks is cheaper.
+                    columns, out, step = self._stage(columns[:, still])
+                    left, begun, waiting = left[still], begun[still], waiting[still]
+                    state, after, residual = columns[:size], out[:size], out[-1, : left.size]
+                else:
+                    idle = (~waiting).nonzero()[0]  # they do what another row does, so that nobody needs to look at them
+                    columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
             now += 1
             last = int(begun.min()) + batch.most_steps
+
+    def walk(self, state: Array, parameters: Array, steps: int) -> Array:
+        """The states (steps + 1, N, s) of every row on its way, ``state`` first; the residual is not looked at."""
+        way = np.empty((steps + 1, *state.shape))
+        way[0] = state
+        columns, out, step = self._stage(np.concatenate([state.T, parameters.T]))
+        before, after, rows = columns[: self.size], out[: self.size], out[: self.size, : len(state)].T
+        for k in range(1, steps + 1):
+            step()
+            way[k], before[...] = rows, after
+        return way
+
+    def _stage(self, values: Array) -> tuple[Array, Array, Callable[[], None]]:
+        """Columns of states and parameters, those of the results, and the step from these to those."""
+        columns = self._columns(values)
+        out = np.empty((self.size + 1, columns.shape[1]))
+        return columns, out, self.step.bound(columns, out)
 
     def _columns(self, values: Array) -> Array:
         """Contiguous (s + p, W) with W a multiple of the SIMD width, padded with the last column."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import threading
 from collections.abc import Callable
 from functools import wraps
 from typing import ParamSpec, TypeVar, cast
@@ -16,6 +18,10 @@ from holdfast.kernels.recipe import digest_of
 P = ParamSpec("P")
 K = TypeVar("K", Kernel, Loop)
 T = TypeVar("T")
+
+_making: dict[str, threading.RLock] = {}  # by recipe: what a build needs in turn is of another recipe
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_making.clear)  # a child process has none of the threads that hold them
 
 
 def recalled(build: Callable[P, K]) -> Callable[P, K]:
@@ -31,13 +37,14 @@ def recalled(build: Callable[P, K]) -> Callable[P, K]:
         if recipe is None:
             return build(*args, **kwargs)
         entry = cache.key(recipe, "facts")
-        facts = cache.load(entry)
-        if facts is None:
-            made = build(*args, **kwargs)
-            cache.store(entry, _facts(made))
-            _kernel(made).program.recipe = recipe
-            return made
-        return cast(K, _known(facts, recipe, lambda: _kernel(build(*args, **kwargs)).program))
+        with _making.setdefault(recipe, threading.RLock()):  # threads that need it at once: one builds, the others find it
+            facts = cache.load(entry)
+            if facts is None:
+                made = build(*args, **kwargs)
+                cache.store(entry, _facts(made))
+                _kernel(made).program.recipe = recipe
+                return made
+            return cast(K, _known(facts, recipe, lambda: _kernel(build(*args, **kwargs)).program))
 
     return from_memory
 

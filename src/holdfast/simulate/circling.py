@@ -40,10 +40,7 @@ def _circling(steps: Steps, states: Array, parameters: Array, turning: NDArray[n
     layout, limit = steps.state, parameters[:, -2]
     going = parameters.copy()
     going[:, -3:-1] = FAR
-    way = np.empty((_CALLS + 1, *states.shape))
-    way[0] = states
-    for k in range(_CALLS):
-        way[k + 1] = steps.loop.run(way[k], going, 0.0, 1).state
+    way = steps.loop.walk(states, going, _CALLS)
     out = np.zeros(len(states), dtype=bool)
     for row in range(len(states)):
         samples = layout.values(way[:, row])

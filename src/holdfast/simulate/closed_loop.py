@@ -14,6 +14,7 @@ from holdfast.arm.targets import target_poses
 from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.simulate.compiled import Setting, motion_of
 from holdfast.simulate.runs import Runs
 from holdfast.simulate.tableaus import CLASSIC
@@ -28,6 +29,7 @@ TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
 
 
 @checked
+@says("simulating motions")
 def simulate(
     law: Law,
     q0: ArrayLike,

@@ -19,6 +19,7 @@ from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.interval import Difference, Interval
 from holdfast.kept import cached_property
+from holdfast.notice import says, working
 from holdfast.simulate.closed_loop import RADIUS, TOLERANCE, simulate
 from holdfast.simulate.compiled import ARRIVES
 from holdfast.simulate.healthy_cost import HealthyCost, healthy_cost
@@ -312,6 +313,7 @@ class LawComparison:
         reason = self.runs[self._law(law)].reason
         return {r.name.lower(): int((reason == r).sum()) for r in Reason if r and (reason == r).any()}
 
+    @says("drawing the report")
     def report(self, path: str | Path, command: str = "", about: str = "") -> Path:
         """Write an HTML report that needs nothing else.
 
@@ -327,6 +329,7 @@ class LawComparison:
 
         return compare_laws_report.write(self, Path(path), command, about)
 
+    @says("writing the results")
     def save(self, folder: str | Path) -> list[Path]:
         """Write ``outcomes.csv`` (:attr:`table`), ``gains.csv``, ``healthy.csv`` and ``runs.csv`` into a folder.
 
@@ -407,27 +410,29 @@ def compare_laws(
     goal = np.broadcast_to(goal, (count, *goal.shape[1:]))
     stood = np.repeat(np.array([-1, *joints]), count)
     many = len(joints) + 1
-    runs = []
-    for law in every:
-        every_start, every_goal = np.tile(start, (many, 1)), np.tile(goal, (many, *[1] * single))
-        runs.append(
-            simulate(
-                law,
-                every_start,
-                every_goal,
-                stood,
-                cycles,
-                time_limit=time_limit,
-                tolerance=tolerance,
-                radius=radius,
+    runs, costs = [], []
+    with working("comparing control laws") as advance:
+        for k, law in enumerate(every):
+            every_start, every_goal = np.tile(start, (many, 1)), np.tile(goal, (many, *[1] * single))
+            runs.append(
+                simulate(
+                    law,
+                    every_start,
+                    every_goal,
+                    stood,
+                    cycles,
+                    time_limit=time_limit,
+                    tolerance=tolerance,
+                    radius=radius,
+                )
             )
-        )
-    least = _least(runs, radius if cycles else _at_rest(every[0]), restarts, seed).reshape(many, count)
-    poses = _poses(every[0], goal)
+            poses = _poses(law, goal)
+            costs.append(healthy_cost(law, start, poses, cycles, radius))
+            advance(k + 1, len(every) + 1)
+        least = _least(runs, radius if cycles else _at_rest(every[0]), restarts, seed).reshape(many, count)
     names = (HEALTHY, *[arm.joint_names[k] for k in joints])
     way = prescribed_way(every[0], arm.forward_kinematics(start), poses)
-    costs = tuple(healthy_cost(law, start, poses, cycles, radius) for law in every)
-    return LawComparison(every, tuple(named), names, tuple(runs), least, np.linalg.norm(way, axis=1), costs)
+    return LawComparison(every, tuple(named), names, tuple(runs), least, np.linalg.norm(way, axis=1), tuple(costs))
 
 
 def _by_label(laws: Sequence[Law]) -> dict[str, Law]:

@@ -30,7 +30,7 @@ _OUTCOMES = [o.name.lower() for o in Outcome]
 _COSTS = (
     ("deviation", "off the straight line, m", 1.0),
     ("angle", "largest angle to the command, deg", 180 / np.pi),
-    ("time", "until within 1e-3 of the target, {unit}", 1.0),
+    ("time", "until within 1e-3 of the target (of the arm's length, and rad), {unit}", 1.0),
 )
 
 

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
-from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kept import cached_property
@@ -20,7 +19,18 @@ from holdfast.kernels import Kernel, recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.simulate.circling import circling
 from holdfast.simulate.cycles import SUBSTEPS, Cycles
-from holdfast.simulate.motion import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, prescribed_way
+from holdfast.simulate.motion import (
+    ARRIVED,
+    COLLAPSE,
+    FAR,
+    PHASE,
+    REST,
+    RUNNING,
+    TIME,
+    System,
+    known_at,
+    own_units,
+)
 from holdfast.simulate.nearest import Nearest
 from holdfast.simulate.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulate.runs import Outcome, Path, Reason, Runs
@@ -144,7 +154,7 @@ class Motion:
         else:
             hand = np.full(target.shape, np.nan)
             hand[chosen] = self.law.arm.forward_kinematics(q[chosen])
-        code, reason = self._verdict(self._scaled(error, hand, target), parts)
+        code, reason = self._verdict(own_units(self.law, error, hand, target), parts)
         code[~good], reason[~good] = Outcome.UNDECIDED, Reason.BAD_INPUT
         if flips:
             # A tight tolerance shrinks the steps to nothing there, as a singular configuration does.
@@ -199,14 +209,6 @@ class Motion:
             seen[left] = np.where(turned, np.where(hopeless, seen[left], 0) + 1, 0)
             left = left[seen[left] <= LOOKS]
         return states, done
-
-    def _scaled(self, error: Array, hand: Array, target: Array) -> Array:
-        """Errors (N,) with lengths in units of the arm's own."""
-        unit = length_unit(self.law.arm)
-        if not self.law.task.angular:
-            return error / unit
-        linear = np.linalg.norm(prescribed_way(self.law, hand, target), axis=1)
-        return np.asarray(np.hypot(linear / unit, np.sqrt(np.maximum(error**2 - linear**2, 0.0))))
 
     @property
     def _unit(self) -> float:

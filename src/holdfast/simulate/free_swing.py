@@ -13,6 +13,7 @@ from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm, Joint
 from holdfast.checked import checked
 from holdfast.errors import ArmError, InputError
+from holdfast.notice import says
 from holdfast.simulate.mujoco_model import mujoco_model
 
 Array = NDArray[np.float64]
@@ -101,6 +102,7 @@ class FreeSwing:
 
 @checked
 @quiet()
+@says("simulating the swing")
 def free_swing(
     arm: Arm,
     q: ArrayLike,

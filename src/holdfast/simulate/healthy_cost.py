@@ -14,12 +14,12 @@ from holdfast.control.law import Law
 from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.simulate.closed_loop import CYCLE_LIMIT, simulate
-from holdfast.simulate.motion import prescribed_way
+from holdfast.simulate.motion import own_units, prescribed_way
 from holdfast.solve.inverse import task_error
 
 Array = NDArray[np.float64]
 
-NEAR = 1e-3  # m and rad: a hand within it of its target has as good as arrived
+NEAR = 1e-3  # rad, and of the arm's own length: a hand within it of its target has as good as arrived
 HORIZON, SAMPLES = 40.0, 64  # 1/Ke; samples of a motion, closer to each other at its start
 
 
@@ -30,8 +30,9 @@ class HealthyCost:
     Attributes:
         deviation: (N,) largest distance of the tool point from the straight line between start and target, m; of the
             directions that the task prescribes.
-        angle: (N,) largest angle between the task's velocity and the one commanded while the error is above 1e-3, rad.
-        time: (N,) until the error is below 1e-3 (m and rad), s; in cycles, until the run ended. NaN: never.
+        angle: (N,) largest angle between the task's velocity and the one commanded while the error is above 1e-3
+            (rad, and of the arm's own length, its links end to end rounded to a power of two), rad.
+        time: (N,) until the error is below that, s; in cycles, until the run ended. NaN: never.
     """
 
     deviation: Array
@@ -55,13 +56,12 @@ def healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float
         configurations.append(q)
         times.append(now)
     look = _Look(law)
-    error, gap, angle = look(np.array(configurations), check_poses(target))
-    size, time = np.linalg.norm(error, axis=2), np.array(times)
-    far = size > NEAR
+    size, scaled, gap, angle = look(np.array(configurations), check_poses(target))
+    time, far = np.array(times), scaled > NEAR
     return HealthyCost(
         deviation=_off_the_line(gap),
         angle=np.where(far & np.isfinite(angle), angle, 0.0).max(axis=0),
-        time=_arrival(size, time, radius if cycles else NEAR),
+        time=_arrival(size, time, radius) if cycles else _arrival(scaled, time, NEAR),
     )
 
 
@@ -78,15 +78,18 @@ class _Look:
         q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
         return Kernel("error of the task", [q, p, r], [task_error(arm, self._law.task, q, p, r)[0]])
 
-    def __call__(self, q: Array, poses: Array) -> tuple[Array, Array, Array]:
-        """Errors (K, N, m), what is left of the way in directions that the task prescribes (K, N, 3), angles (K, N)."""
+    def __call__(self, q: Array, poses: Array) -> tuple[Array, Array, Array, Array]:
+        """Errors (K, N), and with lengths in the arm's own unit; what is left of the way (K, N, 3); angles (K, N)."""
         samples, count, n = q.shape
         rows, every = q.reshape(-1, n), np.tile(poses, (samples, 1, 1))
         error = self._error.rows(rows, every[:, :3, 3], every[:, :3, :3]).reshape(len(rows), -1)
         hand = self._law.arm.forward_kinematics(rows)
         gap = prescribed_way(self._law, hand, every)
         angle = self._law.healthy_angle(rows, error)
-        return error.reshape(samples, count, -1), gap.reshape(samples, count, 3), angle.reshape(samples, count)
+        size = np.linalg.norm(error, axis=1)
+        scaled = own_units(self._law, size, hand, every)
+        shape = samples, count
+        return size.reshape(shape), scaled.reshape(shape), gap.reshape(*shape, 3), angle.reshape(shape)
 
 
 def _off_the_line(gap: Array) -> Array:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
+from holdfast.arm.scale import length_unit
 from holdfast.control.law import Law
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Loop
@@ -118,6 +119,15 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
         return np.asarray(way @ into)
     turn = hand[:, :3, :3]
     return np.asarray(np.einsum("nij,jk,nlk,nl->ni", turn, into, turn, way))
+
+
+def own_units(law: Law, error: Array, hand: Array, target: Array) -> Array:
+    """Norms of errors (N,), m and rad, with lengths in units of the arm's own; places and targets as they have them."""
+    unit = length_unit(law.arm)
+    if not law.task.angular:
+        return np.asarray(error / unit)
+    linear = np.linalg.norm(prescribed_way(law, hand, target), axis=1)
+    return np.asarray(np.hypot(linear / unit, np.sqrt(np.maximum(error**2 - linear**2, 0.0))))
 
 
 def known_at(here: Here) -> dict[str, SX]:

@@ -15,6 +15,7 @@ from holdfast.checked import checked
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import Kernel, recalled
+from holdfast.notice import says
 from holdfast.simulate.closed_loop import Locked, simulate
 from holdfast.simulate.compiled import ARRIVES, DECAYS
 from holdfast.simulate.motion import HALF, WINDOW, System
@@ -35,6 +36,7 @@ EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
 
 @checked
 @quiet()
+@says("simulating the physics")
 def simulate_physics(
     law: Law,
     q0: ArrayLike,
@@ -53,7 +55,8 @@ def simulate_physics(
     flexibility.
 
     How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
-    both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5, *stuck* if not. *moving*, if at the time limit
+    both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own
+    length), *stuck* if not. *moving*, if at the time limit
     that command was never below 10 rad per time limit during the last 20 % of the time, and did not decay (as in the
     kinematic loop, which has more time and so a lower threshold). Else *undecided*: slow; or singular, where the law has no
     answer; or unstable, where the physics left all bounds, as servos that are too stiff for their rate may make it.
@@ -136,7 +139,7 @@ def _drive(
             next_lock = float(lock_time[healthy].min(initial=np.inf))
         row[:n] = q = plant.q
         out = asked(row)
-        rates, square = out[:n], out[n + 1]
+        rates, square, scaled = out[:n], out[n + 1], out[n + 2]
         if not np.isfinite(square + rates.sum()):
             end = ("undecided", "singular" if np.isfinite(q).all() else "unstable")
             break
@@ -152,7 +155,7 @@ def _drive(
             break
         still = still + 1 if max(speed, np.sqrt(moving)) < REST * law.gain else 0
         if still > patience:
-            end = ("converged" if square < ARRIVES**2 else "stuck", "none")
+            end = ("converged" if scaled < ARRIVES**2 else "stuck", "none")
             break
     table = np.array(cycles).reshape(-1, 3 * n + 2)
     q, references, torque = (table[:, i * n : (i + 1) * n].copy() for i in range(3))
@@ -231,12 +234,12 @@ def _model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos) -> 
 
 @recalled
 def _command(law: Law) -> Kernel:
-    """``(q, p, R) -> rates`` (n,) as the law commands them, by how much the speed limit slows them, and the squared error."""
+    """``(q, p, R) -> rates`` (n,) as commanded, how far they are slowed, and squared errors, in m and in the arm's own unit."""
     system = System(law)
     e, _ = system.error(system.q)
     v, share = system.command(e)
     rates = law.rates(system.q, v) * law.gain
-    known = ca.vertcat(rates, share, ca.sumsqr(e))
+    known = ca.vertcat(rates, share, ca.sumsqr(e), ca.sumsqr(system.scaled_error(system.q)[0]))
     return Kernel("command in physics", [system.q, system.target, system.rotation], [known])
 
 

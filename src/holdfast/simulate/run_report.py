@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.control.stick_figure import corners, projections
 from holdfast.kept import cached_property
+from holdfast.notice import says
 from holdfast.report import figures, page
 from holdfast.report.animation import Motion, animation, shown_seconds
 from holdfast.report.motion import Panel, drawn_motion, motion_figure
@@ -141,6 +142,7 @@ class RunReport:
     def _xlabel(self) -> str:
         return "cycle" if self.runs.cycles else "time, s"
 
+    @says("drawing the motion")
     def write(self, file: File, command: str = "") -> File:
         """The run as one HTML file that needs nothing else.
 

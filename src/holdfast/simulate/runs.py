@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.checked import checked
 from holdfast.errors import InputError
+from holdfast.notice import says
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
@@ -143,6 +144,7 @@ class Runs:
         return {str(name): int(count) for name, count in zip(_NAMES, found, strict=True)}
 
     @checked
+    @says("looking for the least errors")
     def least_error(self, restarts: int = 24, seed: int = 0) -> Array:
         """(N,) least norm of the task's error that each arm can have with its joints standing where they stood at the end.
 

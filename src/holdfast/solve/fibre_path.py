@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.solve import joint_space
 from holdfast.solve.self_motion import STARTS, SelfMotion, fibres
 from holdfast.status import Status, require_ok
@@ -57,6 +58,7 @@ class FibrePath:
         return self
 
 
+@says("looking for the best path")
 def best_path(
     arm: Arm,
     poses: ArrayLike,

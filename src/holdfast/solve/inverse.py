@@ -22,6 +22,7 @@ from holdfast.errors import InputError
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
+from holdfast.notice import says
 from holdfast.solve import joint_space
 from holdfast.status import Status, require_ok
 
@@ -385,6 +386,7 @@ def solver(arm: Arm, task: Task) -> InverseKinematics:
 
 
 @checked
+@says("solving inverse kinematics")
 def solve_ik(
     arm: Arm,
     poses: ArrayLike,

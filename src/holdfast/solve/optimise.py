@@ -25,6 +25,7 @@ from holdfast.indices import Objective
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, in_pool, pool, recalled, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
+from holdfast.notice import says
 from holdfast.solve import joint_space
 from holdfast.solve.inverse import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solve.maximin import maximin_step
@@ -307,6 +308,7 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
 
 
 @checked
+@says("optimising configurations")
 def optimise(
     arm: Arm,
     poses: ArrayLike,

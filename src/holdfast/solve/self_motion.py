@@ -25,6 +25,7 @@ from holdfast.errors import InputError, TaskError
 from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
 from holdfast.linalg import damped_least_norm, householder
+from holdfast.notice import says
 from holdfast.solve import joint_space
 from holdfast.solve.inverse import scaled_error, solver
 from holdfast.status import Status
@@ -128,6 +129,7 @@ def self_motion(
     return fibres(arm, target_pose(rows, target), rows, spacing, seed, starts)[0]
 
 
+@says("tracing self-motions")
 def fibres(
     arm: Arm,
     poses: ArrayLike,

@@ -13,6 +13,7 @@ from holdfast.assess.plan import Plan
 from holdfast.assess.structure import Structure, explain, structure
 from holdfast.errors import StoreError
 from holdfast.interval import Interval
+from holdfast.notice import says
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.outcomes import Gains, Stack, share_figure, stack_figure
@@ -31,6 +32,7 @@ T = TypeVar("T")
 _ENDS = ("arrives", "stands still elsewhere", "keeps moving", "undecided")
 
 
+@says("drawing the report")
 def write(study: Study, path: str | Path) -> Path:
     """Write the report of a study, also of one that is not complete.
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast import reading
 from holdfast.errors import StoreError
+from holdfast.notice import says
 from holdfast.study.folder import held
 from holdfast.study.store import Store
 from holdfast.study.study import LOCK, Study
@@ -35,6 +36,7 @@ class Merged:
     apart: tuple[tuple[str, int], ...]
 
 
+@says("joining the studies")
 def merge(path: str | Path, folders: Sequence[str | Path], progress: Progress | None = None) -> Merged:
     """Take over what other folders of a study have and this one lacks.
 

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError
+from holdfast.notice import told, working
 from holdfast.study.job import Chunk, Job
 from holdfast.study.machine import machine
 
@@ -62,7 +63,8 @@ def compute(task: Task, alone: bool = True) -> Result:
     try:
         task.job.prepare(alone)
         begin = time.perf_counter()
-        columns = task.job.run(task.chunk)
+        with working("a chunk", told):  # who runs the study tells of it
+            columns = task.job.run(task.chunk)
     except HoldfastError as error:
         return Result(task, None, time.perf_counter() - begin, machine(), error)
     return Result(task, columns, time.perf_counter() - begin, machine())

@@ -11,6 +11,7 @@ from typing import Any
 
 from holdfast import reading
 from holdfast.errors import HoldfastError, StoreError
+from holdfast.notice import says
 from holdfast.study.folder import held, is_plain, too_many
 from holdfast.study.job import Cell
 from holdfast.study.journal import Entry, Journal
@@ -311,6 +312,7 @@ class Study:
 
     # ---- computing -------------------------------------------------------------------------------------------------
 
+    @says("computing the study")
     def run(
         self,
         cells: Sequence[Cell],
@@ -343,6 +345,7 @@ class Study:
 
     # ---- checking and joining --------------------------------------------------------------------------------------
 
+    @says("reading the study")
     def verify(self, progress: Progress | None = None) -> list[Damage]:
         """Read every committed chunk and compare its checksum; damaged ones are missing from then on, to be run again.
 

@@ -57,4 +57,5 @@ from holdfast.teleop.tasks import random_tasks as random_tasks
 from holdfast.teleop.tasks import run as run
 from holdfast.teleop.tasks import task_bank as task_bank
 from holdfast.teleop.trials import End as End
+from holdfast.teleop.trials import RecordedCycles as RecordedCycles
 from holdfast.teleop.trials import Trials as Trials

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.teleop.entries import Kind, State, Subject, Who
 from holdfast.teleop.operators import Person, SimulatedPeople, population, rate
 from holdfast.teleop.order import Indices
@@ -19,6 +20,7 @@ from holdfast.teleop.tasks import drive_tasks
 from holdfast.teleop.trials import End, Trials
 
 
+@says("simulating the experiment", counts=False)
 def simulate_experiment(
     folder: str | Path,
     protocol: Protocol,

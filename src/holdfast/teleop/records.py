@@ -25,8 +25,8 @@ from holdfast.teleop.entries import ENTRY, SUBJECT, Entry, Kind, State, Subject,
 from holdfast.teleop.order import next_row
 from holdfast.teleop.point_task import PointTasks
 from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records_file import beside, connect, make, now, place
-from holdfast.teleop.trials import End, Trials
+from holdfast.teleop.records_file import alone, beside, connect, make, now, place
+from holdfast.teleop.trials import End, RecordedCycles, Trials
 
 Array = NDArray[np.float64]
 
@@ -174,14 +174,16 @@ class Records:
 
         Raises:
             InputError: There is no such subject.
+            StoreError: The folder is served, or cannot be written.
         """
         self.subject(code)
-        self._db.execute("PRAGMA secure_delete = ON")
-        with self.together():
-            self._chain.prepare()
-            self._db.execute("DELETE FROM subjects WHERE code = ?", (code,))
-        self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-        self._db.execute("VACUUM")
+        with alone(self.folder):
+            self._db.execute("PRAGMA secure_delete = ON")
+            with self.together():
+                self._chain.prepare()
+                self._db.execute("DELETE FROM subjects WHERE code = ?", (code,))
+            self._db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+            self._db.execute("VACUUM")
 
     # ---- sessions of pages -----------------------------------------------------------------------------------------
 
@@ -395,20 +397,12 @@ class Records:
 
         Commands and configurations come from the file; tool points and actual velocities follow from them.
         """
-        n, m = self.protocol.arm.n, self.protocol.rows.m
+        recorded = self.recorded(entries)
         plant = self.protocol.plants
-        velocity, q, first, q_end = [np.empty((0, m))], [np.empty((0, n))], [0], []
-        for e in entries:
-            rows = self._db.execute("SELECT velocity, q FROM cycles WHERE trial = ? ORDER BY k", (e.id,)).fetchall()
-            v = np.frombuffer(b"".join([r[0] for r in rows])).reshape(-1, m)
-            c = np.frombuffer(b"".join([r[1] for r in rows])).reshape(-1, n)
-            # The last row is where the arm stood at the end; of a trial that was broken off, that before the last command.
-            q_end.append(c[-1] if len(c) else e.q0)
-            velocity.append(v[:-1])
-            q.append(c[:-1])
-            first.append(first[-1] + len(velocity[-1]))
-        every_q, every_v, ends = np.concatenate(q), np.concatenate(velocity), np.array(q_end).reshape(-1, n)
-        starts = np.array(first, dtype=np.int64)
+        ends = recorded.first[1:] - 1
+        cycles = np.delete(np.arange(len(recorded.q)), ends)
+        every_q, every_v = recorded.q[cycles], recorded.velocity[cycles]
+        starts = recorded.first - np.arange(len(entries) + 1)
         of = np.repeat(np.arange(len(entries)), np.diff(starts))
         tasks = self.tasks(entries)
         scenario = np.array([e.scenario for e in entries], dtype=np.int64)
@@ -422,14 +416,38 @@ class Records:
         return Trials(
             velocity=every_v,
             q=every_q,
-            x=plant[0].position(every_q) if len(every_q) else np.empty((0, m)),
+            x=plant[0].position(every_q),
             actual=actual,
             first=starts,
-            q_end=ends,
-            x_end=plant[0].position(ends) if len(ends) else np.empty((0, m)),
+            q_end=recorded.q[ends],
+            x_end=plant[0].position(recorded.q[ends]),
             target=tasks.target,
             end=np.array([int(e.end) for e in entries], dtype=np.uint8),
         )
+
+    def recorded(self, entries: list[Entry]) -> RecordedCycles:
+        """What is in the file of some trials."""
+        time: list[float] = []
+        velocity, q, first = bytearray(), bytearray(), [0]
+        for e in entries:
+            # The last row is where the arm stood at the end; of a trial that was broken off, that before the last command.
+            rows = self._db.execute("SELECT time, velocity, q FROM cycles WHERE trial = ? ORDER BY k", (e.id,)).fetchall()
+            times, velocities, configurations = zip(
+                *(rows or [(np.nan, blob(np.zeros(self.protocol.rows.m)), blob(e.q0))]), strict=True
+            )
+            time += times
+            velocity += b"".join(velocities)
+            q += b"".join(configurations)
+            first.append(len(time))
+        found = RecordedCycles(
+            time=np.array(time, dtype=np.float64),
+            velocity=np.frombuffer(velocity).reshape(-1, self.protocol.rows.m),
+            q=np.frombuffer(q).reshape(-1, self.protocol.arm.n),
+            first=np.array(first),
+        )
+        ends = found.first[1:] - 1
+        found.time[ends], found.velocity[ends] = np.nan, np.nan
+        return found
 
     def times(self, entry: Entry) -> Array:
         """(K,) s since the trial began, of each cycle, by the clock of who held the stick."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from holdfast.teleop.protocol import Protocol
 from holdfast.versions import versions
 
 FILE, PROTOCOL = "records.sqlite", "protocol.yaml"
+_LOCK = "serve.lock"
 _BEGUN = "1"  # format of a file without digests, which get their tables after the rest
 _FORMATS = (_BEGUN, str(FORMAT))
 
@@ -162,6 +164,25 @@ def place(folder: Path) -> tuple[int, int] | None:
     except OSError:
         return None
     return found.st_dev, found.st_ino
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """No server has the folder meanwhile, or no other: each knows nothing of what is done behind its back.
+
+    Raises:
+        StoreError: A server has it, or it cannot be written.
+    """
+    from holdfast.study.folder import held
+
+    with ExitStack() as held_:
+        try:
+            held_.enter_context(held(folder, _LOCK))
+        except StoreError as error:
+            if not isinstance(error.__cause__, BlockingIOError):
+                raise
+            raise StoreError(f"'{folder}' is served by another program already; stop that one first") from error
+        yield
 
 
 def now() -> str:

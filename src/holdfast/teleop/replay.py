@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.notice import says
 from holdfast.teleop.entries import Entry
 from holdfast.teleop.records import Records
 from holdfast.teleop.trials import Trials
@@ -37,6 +38,7 @@ class Replay:
         return [e for e, d in zip(self.entries, self.difference, strict=True) if not d <= SAME]
 
 
+@says("replaying the trials")
 def replay(records: Records, entries: list[Entry] | None = None) -> Replay:
     """Drive the arm with the recorded commands, and compare configurations cycle by cycle.
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, StoreError
+from holdfast.notice import says
 from holdfast.spreadsheet import csv_text
 from holdfast.teleop.drive import Computer, Rules
 from holdfast.teleop.entries import Entry, Kind, Subject, Who
@@ -83,6 +84,7 @@ def computer_table(protocol: Protocol) -> pd.DataFrame:
     return _table(protocol, computer_trials(protocol), facts)
 
 
+@says("running the tasks")
 def computer_trials(protocol: Protocol) -> Trials:
     """The protocol's tasks under computer control: scenario by scenario, in each all tasks.
 
@@ -186,34 +188,22 @@ def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | Non
     return path
 
 
+@says("reading the records")
 def cycle_table(records: Records) -> pd.DataFrame:
     """One row for each cycle of every trial, with one more for where the arm stood at the end."""
     import pandas as pd
 
     protocol = records.protocol
     entries = records.entries()
-    trials = records.trials(entries)
-    parts = []
-    for i, e in enumerate(entries):
-        cycles = slice(trials.first[i], trials.first[i + 1])
-        time = records.times(e)[: trials.cycles[i]]
-        count = int(trials.cycles[i])
-        last = np.full((1, protocol.rows.m), np.nan)
-        parts.append(
-            np.column_stack(
-                [
-                    np.full(count + 1, e.id),
-                    np.arange(count + 1),
-                    np.append(time, np.nan),
-                    np.vstack([trials.velocity[cycles], last]),
-                    trials.configurations(i),
-                    trials.path(i),
-                ]
-            )
-        )
-    names = [*_CYCLE_COLUMNS, *_vectors(protocol)]
-    table = pd.DataFrame(np.concatenate(parts) if parts else np.empty((0, len(names))), columns=names)
-    return table.astype({"trial": np.int64, "k": np.int64})
+    recorded = records.recorded(entries)
+    rows = np.diff(recorded.first)
+    table = pd.DataFrame(
+        np.column_stack([recorded.time, recorded.velocity, recorded.q, protocol.plants[0].position(recorded.q)]),
+        columns=[*list(_CYCLE_COLUMNS)[2:], *_vectors(protocol)],
+    )
+    table.insert(0, "trial", np.repeat(np.array([e.id for e in entries], dtype=np.int64), rows))
+    table.insert(1, "k", np.arange(len(recorded.q)) - np.repeat(recorded.first[:-1], rows))
+    return table
 
 
 def _vectors(protocol: Protocol) -> dict[str, tuple[str, str]]:
@@ -239,6 +229,7 @@ def dictionary(protocol: Protocol) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["table", "column", "unit", "description"])
 
 
+@says("writing the tables")
 def export(records: Records, folder: str | Path, parquet: bool = False) -> list[Path]:
     """Write ``trials``, ``cycles``, ``subjects`` and ``events``, with ``dictionary.csv`` and the protocol.
 

@@ -12,6 +12,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.solve.inverse import InverseKinematics, solver
 from holdfast.teleop.drive import Computer, Operator, Rules, drive
 from holdfast.teleop.measures import RECORDED, cpm, measures
@@ -225,6 +226,7 @@ class TaskBank:
         return np.asarray((self.end == End.ARRIVED).all(axis=0))
 
 
+@says("running the tasks")
 def task_bank(
     arm: Arm,
     per_joint: int = 400,

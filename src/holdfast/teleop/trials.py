@@ -36,6 +36,23 @@ _SENTENCES = {
 }
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RecordedCycles:
+    """Rows of N trials as they are in the records, trial i's at ``first[i]`` to ``first[i + 1]``, the last of them its end.
+
+    Attributes:
+        time: (R,) s since the trial began, by the clock of who held the stick; NaN at the end.
+        velocity: (R, m) commanded in each cycle, after dead zone and limit, m/cycle; NaN at the end.
+        q: (R, n) configuration when the cycle began, and when the trial ended, rad and m.
+        first: (N + 1,) where each trial begins; the last entry is R.
+    """
+
+    time: Array
+    velocity: Array
+    q: Array
+    first: NDArray[np.int64]
+
+
 @dataclass(frozen=True, eq=False)
 class Trials:
     """N recorded trials; their C cycles lie one after the other, trial i's at ``first[i]`` to ``first[i + 1]``.

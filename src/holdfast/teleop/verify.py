@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from holdfast.errors import StoreError
+from holdfast.notice import says
 from holdfast.teleop import digests
 from holdfast.teleop.records_file import FILE, opened
 
@@ -41,6 +42,7 @@ class Verified:
     whole: str = ""
 
 
+@says("comparing the records with their digests")
 def verify(folder: str | Path) -> Verified:
     """Compare everything that is stored with its digests. Nothing is changed.
 

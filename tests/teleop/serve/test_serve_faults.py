@@ -59,6 +59,19 @@ def test_one_server_for_a_folder(server, built):
         serve(Options(server.folder, static=built[0], english=built[1]), port=0)
 
 
+def test_nobody_is_deleted_behind_a_servers_back(start, tmp_path, protocol):
+    served = start(tmp_path / "study")
+    code = Client(served.url, protocol).connect().subject
+    with Records.open(served.folder) as records:
+        with pytest.raises(hf.StoreError, match="is served by another program already; stop that one first"):
+            records.delete_subject(code)
+        assert records.subject(code).code == code
+        served.process.kill()
+        served.process.wait()
+        records.delete_subject(code)
+        assert records.subjects() == []
+
+
 def test_a_lost_answer_makes_no_second_subject(server):
     hello = {"type": "hello", "format": 1, "session": None, "code": None, "kind": "simulated", "fresh": "0123456789abcdef" * 3}
     found = []

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import HoldfastError, InputError
+from holdfast.notice import says
 from holdfast.teleop.analysis import sufficient, tables
 from holdfast.teleop.analysis.anova import anova, empty_cells
 from holdfast.teleop.analysis.correlations import Correlation, correlation
@@ -33,6 +34,7 @@ FACTORS = ("law", "difficulty")
 _LAW = "pseudoinverse"
 
 
+@says("analysing the trials")
 def analyse(
     table: DataFrame,
     computer: DataFrame | None = None,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
+from holdfast.notice import says
 from holdfast.teleop.analysis.anova import Anova
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import Cells, Groups
@@ -134,6 +135,7 @@ class Analysis:
         lines += [str(c) for c in self.correlations]
         return lines + [f"note: {n}" for n in self.notes]
 
+    @says("drawing the report")
     def write(
         self,
         folder: str | Path,

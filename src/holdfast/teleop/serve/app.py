@@ -6,8 +6,8 @@ import asyncio
 import json
 import logging
 import socket
-from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import ExitStack, asynccontextmanager, contextmanager, suppress
+from collections.abc import AsyncIterator, Callable
+from contextlib import ExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,7 +21,7 @@ from starlette.types import ASGIApp
 from holdfast.errors import InputError, StoreError
 from holdfast.teleop.protocol import Protocol, read_protocol
 from holdfast.teleop.records import Records
-from holdfast.teleop.records_file import FILE
+from holdfast.teleop.records_file import FILE, alone
 from holdfast.teleop.serve import bounded, experimenter
 from holdfast.teleop.serve.connection import session
 from holdfast.teleop.serve.control import Control
@@ -32,7 +32,6 @@ from holdfast.teleop.serve.texts import ENGLISH
 from holdfast.teleop.serve.texts import read as read_texts
 
 STATIC = Path(__file__).with_name("static")
-_LOCK = "serve.lock"
 _BACKLOG = 1024  # connections that the system keeps until they are taken ...
 _AT_ONCE = 8  # ... so many at a time, so that stations are answered meanwhile
 _PAGE = "index.html"
@@ -166,7 +165,7 @@ def serve(options: Options, host: str = "127.0.0.1", port: int = 8000, ready: Ca
             timeout_graceful_shutdown=5,
         )
         logging.getLogger("uvicorn.error").addFilter(bounded.Sparing())
-        with _alone(options.folder), suppress(KeyboardInterrupt):
+        with alone(options.folder), suppress(KeyboardInterrupt):
             _Server(config).run(sockets=[listener])
 
 
@@ -175,23 +174,6 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         for listener in sockets or ():
             listener.listen(_BACKLOG)  # asyncio has set it to what is taken at once
-
-
-@contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """No other server has the folder meanwhile: each would know nothing of the other's pages and pauses."""
-    from holdfast.study.folder import held
-
-    with ExitStack() as held_:
-        try:
-            held_.enter_context(held(folder, _LOCK))
-        except StoreError as error:
-            if not isinstance(error.__cause__, BlockingIOError):
-                raise
-            raise StoreError(
-                f"'{folder}' is served by another program already; stop that one, or give another folder"
-            ) from error
-        yield
 
 
 def _listening(host: str, port: int) -> socket.socket:
