@@ -32,7 +32,7 @@ def test_a_label_reads_back(name, settings):
     assert read == name
     if len(settings) == 1:
         by_key = {next(iter(settings)): alone}
-    assert {key.replace("-", "_"): repr(grammar.value(text)) for key, text in by_key.items()} == {
+    assert {key: repr(grammar.value(text)) for key, text in by_key.items()} == {
         key: repr(value) for key, value in settings.items()
     }
 
@@ -44,6 +44,7 @@ def test_a_label_reads_back(name, settings):
         ("damped:0.1", ("damped", "0.1", {})),
         (" weighted : 1, 2 ,3 ", ("weighted", "1, 2 ,3", {})),
         ("a:b=1,c=2", ("a", None, {"b": "1", "c": "2"})),
+        ("a:b-c=1", ("a", None, {"b_c": "1"})),
         ("a:b=0,0,1,c=word", ("a", None, {"b": "0,0,1", "c": "word"})),
         ("a:", ("a", "", {})),
     ],
@@ -64,6 +65,7 @@ def test_settings_as_usual_are_left_out_and_a_later_one_has_its_key():
         ("damped:1e+3", "a value holds no '+'; write 1e3 for 1e+3"),
         ("a:1,b=2", "'1' has no name; write a:key=value,key=value"),
         ("a:b=1,b=2", "gives b twice; give it once"),
+        ("a:b-c=1,b_c=2", "gives b_c twice; give it once"),
     ],
 )
 def test_what_cannot_be_read(label, words):

@@ -138,6 +138,16 @@ def test_a_label_keeps_every_digit(kind, name, data):
         np.testing.assert_array_equal(again.settings[key], value)
 
 
+def test_a_setting_is_given_once_and_a_whole_number_is_whole():
+    with pytest.raises(InputError, match=r"'damped:0\.1' and an option both give damping; give it once"):
+        hf.control.by_name("damped:0.1", PANDA, damping=0.2)
+    with pytest.raises(InputError, match="'torque:effort' and an option both give weights; give it once"):
+        hf.susceptibility.by_name("torque:effort", PANDA, [1.0] * 7)
+    whole = Parameter("1", "which", name="row", kind="int")
+    assert [whole.read(text, "x") for text in ("3", "2.0", "1.5")] == [3, 2, 1.5]  # the constructor refuses what is not whole
+    assert np.isinf(whole.read("inf", "x"))
+
+
 @pytest.mark.parametrize(("kind", "name"), [(k, n) for k, n in EVERYTHING if KINDS[k][n].parameters])
 def test_a_parameter_is_refused_beyond_its_bounds(kind, name):
     registry, options = KINDS[kind], given_task(kind)

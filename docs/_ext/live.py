@@ -188,7 +188,7 @@ class Registered(SphinxDirective):
         formulas = any(entry.formula for entry in known.values())
         lines = ["| name | equation | |", "|---|---|---|"] if formulas else ["| name | |", "|---|---|"]
         for entry in known.values():
-            settings = "".join(f"<br>`{p.key}`: {p.describe()}" for p in entry.parameters)
+            settings = "".join(f"<br>`{p.name}`: {p.describe()}" for p in entry.parameters)
             formula = [entry.formula] if formulas else []
             lines.append(" | ".join(["", f"`{entry.usage}`", *formula, entry.help + settings, ""]).strip())
         return self.parse_text_to_nodes("\n".join(lines))

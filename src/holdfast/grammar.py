@@ -30,6 +30,8 @@ def is_number(text: str) -> bool:
 def split(label: str) -> tuple[str, str | None, dict[str, str]]:
     """The parts of a label: its name, the value that has no key, if there is one, and the values by key, as text.
 
+    A hyphen in a key is an underscore.
+
     Raises:
         InputError: A value with a ``+``, a value without a key among those with one, or a key given twice.
     """
@@ -42,6 +44,7 @@ def split(label: str) -> tuple[str, str | None, dict[str, str]]:
     key = ""
     for part in rest.split(","):
         before, equals, value = (x.strip() for x in part.rpartition("="))
+        before = before.replace("-", "_")
         if equals and before in found:
             raise InputError(f"'{label}' gives {before} twice; give it once")
         key = before if equals else key

@@ -15,8 +15,6 @@ from importlib import import_module
 from importlib.resources import files
 from typing import Any, ParamSpec, TypeVar
 
-import numpy as np
-
 from holdfast import grammar
 from holdfast.checked import checked
 from holdfast.errors import HoldfastError, InputError, TaskError
@@ -47,18 +45,12 @@ class Parameter:
     kind: str = ""
     default: Any = ...
 
-    @property
-    def key(self) -> str:
-        """The name in a label."""
-        return self.name.replace("_", "-")
-
     def describe(self) -> str:
         """The phrase with its unit, bounds and default."""
-        unit = [] if self.unit == "1" else [self.unit]
-        low = [] if self.low is None else [f"above {self.low:g}"]
-        high = [] if self.high is None else [f"below {self.high:g}"]
-        default = [] if self.default in (..., None) else [f"default {self.default}"]
-        return ", ".join([self.help, *unit, " and ".join([*low, *high]), *default]).replace(", ,", ",").removesuffix(", ")
+        bounds = [f"{word} {x:g}" for word, x in (("above", self.low), ("below", self.high)) if x is not None]
+        default = "" if self.default in (..., None) else f"default {self.default}"
+        unit = "" if self.unit == "1" else self.unit
+        return ", ".join(filter(None, [self.help, unit, " and ".join(bounds), default]))
 
     def read(self, text: str, what: str) -> Any:
         """The value that a label says.
@@ -69,18 +61,18 @@ class Parameter:
         found = grammar.value(text)
         if self.kind in ("float", "int"):
             if isinstance(found, tuple):
-                raise InputError(f"{what} has {len(found)} numbers for {self.key}; give one")
+                raise InputError(f"{what} has {len(found)} numbers for {self.name}; give one")
             if isinstance(found, str):
                 raise InputError(f"{what}: '{text}' is not a number; give one: {self.describe()}")
-            return int(found) if self.kind == "int" and found == int(found) else found
+            return int(found) if self.kind == "int" and found.is_integer() else found
         if isinstance(found, str) and "," in text:
             wrong = next(x for x in text.split(",") if not grammar.is_number(x))
             raise InputError(f"{what}: '{wrong.strip()}' is not a number; give {self.describe()}")
-        return found if isinstance(found, str) else np.atleast_1d(found).tolist()
+        return found if isinstance(found, str) else list(found) if isinstance(found, tuple) else [found]
 
 
 def constructor(
-    formula: str = "", needs: tuple[str, ...] = (), properties: tuple[str, ...] = ()
+    *, formula: str = "", needs: tuple[str, ...] = (), properties: tuple[str, ...] = ()
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Mark the public way to make an index, a law or a susceptibility; its arguments are :func:`holdfast.checked.checked`.
 
@@ -90,7 +82,7 @@ def constructor(
     Args:
         formula: The equation as HTML, for reports and documentation.
         needs: What an arm must have: ``"inertia"``, ``"redundancy"``.
-        properties: What tests may rely on: ``"free of the base joint"``, ``"Abdi 2012"``.
+        properties: What tests may rely on: ``"Abdi 2012"``, ``"base-free"`` (the base joint does not matter).
     """
     return checked
 
@@ -127,12 +119,10 @@ class Entry:
     @property
     def usage(self) -> str:
         """Its label with the names of its parameters, those that may be left out in brackets: ``damped:DAMPING``."""
-        names = [p.key.upper() for p in self.parameters]
-        if len(names) > 1:
-            names = [f"{p.key}={p.key.upper()}" for p in self.parameters]
+        names = [p.name.replace("_", "-") for p in self.parameters]
+        text = ",".join(f"{name}={name.upper()}" if len(names) > 1 else name.upper() for name in names)
         needed = any(p.default is ... for p in self.parameters)
-        text = f":{','.join(names)}" if names else ""
-        return self.name + (text if needed or not text else f"[{text}]")
+        return self.name + (f":{text}" if needed else f"[:{text}]" if names else "")
 
     def example(self, arm: Any, task: Any = "pose") -> dict[str, Any]:
         """Values of the parameters that fit an arm and a task, for menus, templates and tests."""
@@ -147,12 +137,12 @@ class Entry:
         if value is not None:
             if not self.parameters:
                 raise InputError(f"{what}: {self.kind} '{self.name}' takes no setting; write {self.name} alone")
-            by_key = {self.parameters[0].key: value}
-        known = {p.key: p for p in self.parameters} | {p.name: p for p in self.parameters}
+            by_key = {self.parameters[0].name: value}
+        known = {p.name: p for p in self.parameters}
         for key in by_key:
             if key not in known:
                 raise InputError(f"{what}: {self.kind} '{self.name}' has no setting '{key}'; write {self.usage}")
-        return {known[key].name: known[key].read(text, what) for key, text in by_key.items()}
+        return {key: known[key].read(text, what) for key, text in by_key.items()}
 
 
 class Labelled:
@@ -241,6 +231,8 @@ class Registry(Mapping[str, Entry]):
         for name in options:
             if name not in known:
                 raise InputError(f"{self.kind} '{entry.name}' has no option '{name}'; it takes {', '.join(known)}")
+            if name in settings:
+                raise InputError(f"'{label}' and an option both give {name}; give it once")
         given = settings | options
         for p in entry.parameters:
             if p.default is ... and p.name not in given:
@@ -303,15 +295,12 @@ def _constructors(kind: str, module: str, offered: set[str]) -> Iterator[Entry]:
     body = ast.parse(text).body
     aliases = {ast.unparse(node.targets[0]): node.value for node in body if isinstance(node, ast.Assign)}
     for node in body:
-        marks = [d for d in getattr(node, "decorator_list", []) if ast.unparse(d).startswith("constructor(")]
-        if isinstance(node, ast.FunctionDef) and marks and node.name in offered:
-            mark = marks[0]
-            assert isinstance(mark, ast.Call)
-            facts = dict(zip(("formula",), mark.args, strict=False)) | {k.arg: k.value for k in mark.keywords if k.arg}
-            about = (ast.get_docstring(node) or "").partition("\n")[0]
-            values = {name: ast.literal_eval(x) for name, x in facts.items()}
-            name = node.name.replace("_", "-")
-            yield Entry(kind, name, module, node.name, about, tuple(_parameters(node.args, aliases)), **values)
+        match node:
+            case ast.FunctionDef(name, decorator_list=[ast.Call(ast.Name("constructor")) as mark]) if name in offered:
+                facts = {k.arg: ast.literal_eval(k.value) for k in mark.keywords if k.arg}
+                about = (ast.get_docstring(node) or "").partition("\n")[0]
+                parameters = tuple(_parameters(node.args, aliases))
+                yield Entry(kind, name.replace("_", "-"), module, name, about, parameters, **facts)
 
 
 def _parameters(arguments: ast.arguments, aliases: Mapping[str, ast.expr]) -> Iterator[Parameter]:

@@ -18,7 +18,7 @@ from holdfast.indices.relative import _bound_note
 from holdfast.registry import INDICES
 
 INVARIANT = ("relative-manipulability", "manipulability")
-BASE_FREE = [name for name, entry in INDICES.items() if "free of the base joint" in entry.properties]
+BASE_FREE = [name for name, entry in INDICES.items() if "base-free" in entry.properties]
 
 # arm, task, frame, failures, length
 CASES = {

@@ -329,7 +329,8 @@ class Manipulability(RelativeManipulability):
 
 
 @constructor(
-    "ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )", properties=("Abdi 2012", "free of the base joint")
+    formula="ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )",
+    properties=("Abdi 2012", "base-free"),
 )
 def relative_manipulability(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
@@ -338,7 +339,7 @@ def relative_manipulability(
     return RelativeManipulability(arm, task, failures, length)
 
 
-@constructor("<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)", properties=("Abdi 2012", "free of the base joint"))
+@constructor(formula="<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)", properties=("Abdi 2012", "base-free"))
 def manipulability(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> Manipulability:

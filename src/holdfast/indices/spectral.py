@@ -267,7 +267,8 @@ class SpectralIndex(Index):
 
 
 @constructor(
-    "(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m", properties=("Abdi 2012", "free of the base joint")
+    formula="(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m",
+    properties=("Abdi 2012", "base-free"),
 )
 def mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
@@ -277,8 +278,8 @@ def mean_singular_value(
 
 
 @constructor(
-    "(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>",
-    properties=("Abdi 2012", "free of the base joint"),
+    formula="(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>",
+    properties=("Abdi 2012", "base-free"),
 )
 def geometric_mean_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
@@ -287,7 +288,7 @@ def geometric_mean_singular_value(
     return SpectralIndex("geometric mean", arm, task, failures, length)
 
 
-@constructor("<sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "free of the base joint"))
+@constructor(formula="<sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "base-free"))
 def minimum_singular_value(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> SpectralIndex:
@@ -295,7 +296,7 @@ def minimum_singular_value(
     return SpectralIndex("minimum", arm, task, failures, length)
 
 
-@constructor("<sup>S</sup>σ<sub>1</sub> / <sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "free of the base joint"))
+@constructor(formula="<sup>S</sup>σ<sub>1</sub> / <sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "base-free"))
 def condition_number(
     arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
 ) -> SpectralIndex:

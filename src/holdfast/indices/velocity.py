@@ -115,7 +115,7 @@ def _prescribed(arm: Arm, task: TaskSpec) -> Array:
     return next((u for u in candidates if u.any() and _prescribes(made, u)), candidates[0])
 
 
-@constructor("1 / √( uᵀ (<sup>S</sup>J <sup>S</sup>Jᵀ)<sup>−1</sup> u ) for the unit vector u of a direction")
+@constructor(formula="1 / √( uᵀ (<sup>S</sup>J <sup>S</sup>Jᵀ)<sup>−1</sup> u ) for the unit vector u of a direction")
 def directional_velocity(
     arm: Arm,
     direction: Annotated[ArrayLike, Parameter("1", "x,y,z in the axes of the task's frame", example="_prescribed")],
