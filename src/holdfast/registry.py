@@ -74,7 +74,7 @@ class Parameter:
 def constructor(
     *, formula: str = "", needs: tuple[str, ...] = (), properties: tuple[str, ...] = ()
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Mark the public way to make an index, a law or a susceptibility; its arguments are :func:`holdfast.checked.checked`.
+    """Mark the public way to make an index, a law or a susceptibility; arguments of another kind are refused.
 
     Its first argument is the arm, its name with hyphens is the one in labels, and the first line of its docstring is the help.
     Arguments annotated with a :class:`Parameter` are its settings.
