@@ -68,8 +68,10 @@ IndexOption = Annotated[
         help=f"{INDICES.usage}.",
     ),
 ]
-OBJECTIVES = f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:0,1,0, torque:joint2 for one joint \
-alone), or an index: {', '.join(e.usage for e in INDICES.values())}"
+OBJECTIVES = (
+    f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, torque:joint2 for "
+    f"one joint alone), or an index: {', '.join(e.usage for e in INDICES.values())}"
+)
 PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 BasesOption = Annotated[
     list[str] | None,
