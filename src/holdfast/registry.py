@@ -7,12 +7,11 @@ the text of its constructor, so that help, menus and error messages can be writt
 from __future__ import annotations
 
 import ast
-import difflib
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
-from importlib.resources import files
+from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from holdfast import grammar
@@ -277,6 +276,8 @@ class Registry(Mapping[str, Entry]):
 
 def unknown(kind: str, name: str, *known: Iterable[str]) -> str:
     """The sentence about a name that is not known: the nearest, and all."""
+    import difflib
+
     names = [x for several in known for x in several]
     close = difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.6)
     guess = f"did you mean {close[0]}? Or " if close else ""
@@ -284,7 +285,7 @@ def unknown(kind: str, name: str, *known: Iterable[str]) -> str:
 
 
 def _text(path: str) -> str:
-    file = files("holdfast").joinpath(path)
+    file = Path(__file__).parent / path
     return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 

@@ -20,8 +20,8 @@ from holdfast.cli.clearance_options import (
     shape_summary,
     shape_text,
 )
+from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
-    OBJECTIVES,
     ArmArgument,
     BaseOption,
     GravityOption,

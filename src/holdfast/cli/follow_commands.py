@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
+from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
-    OBJECTIVES,
     ArmArgument,
     BaseOption,
     GravityOption,

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import typer
 
+from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     DegreesOption,
     FailuresOption,
     HoldOption,
-    IndexOption,
     JsonOption,
     LengthOption,
     QOption,

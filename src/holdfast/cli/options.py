@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from holdfast import reading
 from holdfast.errors import InputError
 from holdfast.grammar import is_number
-from holdfast.registry import INDICES, SUSCEPTIBILITIES, unknown
 from holdfast.written import check_unit_of_joints as check_unit_of_joints
 from holdfast.written import check_unit_of_places as check_unit_of_places
 from holdfast.written import default_task as default_task
@@ -61,17 +60,6 @@ TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,v
 TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
 TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
-IndexOption = Annotated[
-    str,
-    typer.Option(
-        "--index",
-        help=f"{INDICES.usage}.",
-    ),
-]
-OBJECTIVES = (
-    f"{', '.join(SUSCEPTIBILITIES)} (each may take weights: torque:effort, torque:worst-case, torque:0,1,0, torque:joint2 for "
-    f"one joint alone), or an index: {', '.join(e.usage for e in INDICES.values())}"
-)
 PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 BasesOption = Annotated[
     list[str] | None,
@@ -234,6 +222,8 @@ _SUMMAND = re.compile(
 
 
 def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task) -> Objective:
+    from holdfast.registry import INDICES, SUSCEPTIBILITIES, unknown
+
     found: Objective
     if name in SUSCEPTIBILITIES:
         given = {} if weights is None else {"weights": _joint_weights(arm, option, name, weights)}
