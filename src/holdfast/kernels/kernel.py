@@ -176,12 +176,14 @@ class Kernel:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""
         return Single(self)
 
-    def _buffers(self, width: int) -> tuple[Array, Array]:
-        made: dict[int, tuple[Array, Array]] | None = getattr(self._scratch, "made", None)
+    def _buffers(self, width: int) -> tuple[Array, Array, Callable[[], None]]:
+        """Columns of inputs and of outputs, and what computes these from those; of this thread."""
+        made: dict[int, tuple[Array, Array, Callable[[], None]]] | None = getattr(self._scratch, "made", None)
         if made is None:
             made = self._scratch.made = {}
         if width not in made:
-            made[width] = (np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width)))
+            inputs, outputs = np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width))
+            made[width] = inputs, outputs, self.bound(inputs, outputs)
         return made[width]
 
     def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> bool:
@@ -190,7 +192,7 @@ class Kernel:
         width = self.lanes
         while width < used:
             width *= 2
-        scratch_in, scratch_out = self._buffers(width)
+        scratch_in, scratch_out, compute = self._buffers(width)
         row = 0
         for a in arrays:
             rows = slice(row, row + a.shape[1])
@@ -198,7 +200,7 @@ class Kernel:
             row += a.shape[1]
         if used < width:
             scratch_in[:, used:] = scratch_in[:, used - 1 : used]
-        self.evaluate_columns(scratch_in, scratch_out)
+        compute()
         out[start:stop] = scratch_out[:, :used].T
         return math.isnan(scratch_out[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
 
