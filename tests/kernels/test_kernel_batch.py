@@ -294,6 +294,15 @@ def test_columns_of_another_layout_are_refused(large, rng):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+def test_the_first_results_are_those_of_all(backend, rng):
+    kernel = build(backend)
+    values = draw(rng, 3 * kernel.lanes + 1)
+    every = kernel.rows(*values)
+    for first in (1, every.shape[1]):
+        np.testing.assert_array_equal(kernel.rows(*values, first=first), every[:, :first])
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_columns_are_prepared_once(backend, rng, monkeypatch):
     """A call of a few microseconds has no time to look at its own scratch arrays again."""
     kernel = build(backend)

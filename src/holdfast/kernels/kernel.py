@@ -104,17 +104,20 @@ class Kernel:
             results = [r[()] if r.ndim == 0 else r for r in results]
         return results[0] if len(results) == 1 else tuple(results)
 
-    def rows(self, *inputs: ArrayLike) -> Array:
-        """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row."""
-        return self._evaluate(*self._read(inputs))[0]
+    def rows(self, *inputs: ArrayLike, first: int | None = None) -> Array:
+        """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row.
+
+        Of small programs half the time is spent on writing the results down; ``first`` gives only so many of them, (N, first).
+        """
+        return self._evaluate(*self._read(inputs), first)[0]
 
     def marked_rows(self, *inputs: ArrayLike) -> tuple[Array, bool]:
         """As :meth:`rows`, and whether any row has NaN in its first output: looked up while the chunk is in the cache."""
         return self._evaluate(*self._read(inputs))
 
-    def _evaluate(self, arrays: list[Array], rows: int | None) -> tuple[Array, bool]:
+    def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
         count = 1 if rows is None else rows
-        out = np.empty((count, self.program.n_out))
+        out = np.empty((count, self.program.n_out if first is None else first))
         marks: list[bool] = []
         starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
 
@@ -201,7 +204,7 @@ class Kernel:
         if used < width:
             scratch_in[:, used:] = scratch_in[:, used - 1 : used]
         compute()
-        out[start:stop] = scratch_out[:, :used].T
+        out[start:stop] = scratch_out[: out.shape[1], :used].T
         return math.isnan(scratch_out[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
 
     def __repr__(self) -> str:
