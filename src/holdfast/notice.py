@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, ParamSpec, TypeVar, cast
+from typing import Any, ParamSpec, TypeVar
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -62,6 +62,7 @@ def says(what: str, counts: bool = True) -> Callable[[Callable[P, T]], Callable[
     def decorated(function: Callable[P, T]) -> Callable[P, T]:
         names = list(inspect.signature(function).parameters)
         at = names.index("progress") if counts and "progress" in names else None
+        call: Callable[..., T] = function
 
         @functools.wraps(function)
         def called(*args: P.args, **kwargs: P.kwargs) -> T:
@@ -73,8 +74,8 @@ def says(what: str, counts: bool = True) -> Callable[[Callable[P, T]], Callable[
             given: Any = args[at] if by_place else kwargs.get("progress")
             with working(what, given) as advance:
                 if by_place:
-                    return cast(Any, function)(*args[:at], advance, *args[at + 1 :], **kwargs)
-                return cast(Any, function)(*args, **{**kwargs, "progress": advance})
+                    return call(*args[:at], advance, *args[at + 1 :], **kwargs)
+                return call(*args, **{**kwargs, "progress": advance})
 
         return called
 

@@ -118,6 +118,8 @@ class Kernel:
     def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
         count = 1 if rows is None else rows
         out = np.empty((count, self.program.n_out if first is None else first))
+        if 0 < count <= self._chunk:
+            return out, self._run(arrays, out, 0, count)
         marks: list[bool] = []
         starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
 
