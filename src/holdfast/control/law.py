@@ -220,9 +220,11 @@ class Law(Labelled, Steps):
                 f"the velocity has shape {b.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or (N, {m}), "
                 "a row for each configuration"
             )
+        if a.ndim == b.ndim == 1:
+            return a[None], b[None], True
         lengths = [len(x) for x in (a, b) if x.ndim == 2]
         count = min(lengths, default=1)
-        return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
+        return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), False
 
     @checked
     def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path, Path, Path]:

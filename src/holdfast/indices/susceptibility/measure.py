@@ -214,7 +214,7 @@ class Susceptibility(Labelled, Objective):
     def __call__(self, q: ArrayLike) -> Array:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
         rows, single = configurations(self.arm, q)
-        value = self._values.rows(rows)[:, 0].copy()
+        value = self._values.rows(rows, first=1)[:, 0]
         return value[0] if single else value
 
     def by_joint(self, q: ArrayLike) -> Array:
