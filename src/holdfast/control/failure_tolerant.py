@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.checked import checked_class
-from holdfast.control import damping_search
+from holdfast.control import damping_search, damping_slopes
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import SX
@@ -76,6 +76,12 @@ class FailureTolerant(Law):
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
         """``rates`` (n,), ``damping``, ``largest_damping`` and ``feasible`` (1 or 0)."""
         return self._choose(self.jacobian(q), self.scaled(v))
+
+    def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
+        """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
+        j, scaled = self.jacobian(q), self.scaled(v)
+        found = self._choose(j, scaled)
+        return found["rates"], damping_slopes.slopes(j, scaled, self.pre_failure_error, found, by)
 
     def _choose(self, j: SX, v: SX) -> dict[str, SX]:
         size = ca.sqrt(ca.sumsqr(v))

@@ -104,6 +104,11 @@ class Law(Steps):
         """Joint rates (n,) of q (n,) and a task velocity v (m,), m/s and rad/s."""
         return self.inverse(self.jacobian(q), self.scaled(v))
 
+    def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
+        """:meth:`rates`, and their derivatives (n, k) by symbols (k,) of which q and v are expressions."""
+        rates = self.rates(q, v)
+        return rates, ca.jacobian(rates, by)
+
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
         """What the law tells of q (n,) and a task velocity v (m,): ``rates`` (n,) first, then what else it computes."""
         return {"rates": self.rates(q, v)}
