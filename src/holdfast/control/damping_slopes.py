@@ -41,7 +41,7 @@ def slopes(j: SX, v: SX, allowed: float, found: dict[str, SX], by: SX) -> SX:
     change = ca.jacobian(condition, ca.vertcat(by, s))
     moves = ca.logic_and(found["feasible"], found["damping"] > 0)
     follows = ca.SX.sym("follows")
-    through = ca.if_else(follows, -change[:k] / change[k], 0.0)
+    through = ca.if_else(ca.logic_and(follows, change[k] != 0), -change[:k] / change[k], 0.0)
     out = ca.jacobian(rates, by) + ca.jacobian(rates, s) @ through
 
     first, most, slope = _largest(errors, errors, steep)
