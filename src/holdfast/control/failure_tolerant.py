@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.checked import checked_class
-from holdfast.control import damping_search, damping_slopes
+from holdfast.control import damping_search
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import SX
@@ -81,7 +81,7 @@ class FailureTolerant(Law):
         """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
         j, scaled = self.jacobian(q), self.scaled(v)
         found = self._choose(j, scaled)
-        return found["rates"], damping_slopes.slopes(j, scaled, self.pre_failure_error, found, by)
+        return found["rates"], damping_search.slopes(j, scaled, self.pre_failure_error, found, by)
 
     def _choose(self, j: SX, v: SX) -> dict[str, SX]:
         size = ca.sqrt(ca.sumsqr(v))
