@@ -109,6 +109,7 @@ def _alternatives(annotation: str) -> tuple[str, ...]:
     """``A | B[C | D]`` as its alternatives; none where one is not known, which then may be anything."""
     found: list[str] = []
     for part in _split(annotation.strip().strip("'\""), "|"):
+        part = _inner(part)[0] if _head(part) == "Annotated" else part
         found += _split(_ALIASES[part], "|") if part in _ALIASES else [part]
     return tuple(found) if all(_head(kind) in (*_KINDS, *_CLASSES, "Literal") for kind in found) else ()
 
