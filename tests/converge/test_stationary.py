@@ -7,8 +7,9 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.control import Damped, Pseudoinverse, Weighted
+from holdfast.control import Damped, FailureTolerant, Pseudoinverse, Weighted
 from holdfast.converge import Kind
+from holdfast.converge.linearisation import linearisation
 from holdfast.errors import InputError
 
 RAD = np.deg2rad
@@ -170,3 +171,50 @@ def test_wrong_input_is_one_sentence(three, arguments, words):
         hf.stationary(three, TARGET, **arguments)
     with pytest.raises(InputError, match="give one target"):
         hf.stationary(three, [TARGET, TARGET], locked=0, at=1.0)
+
+
+@pytest.mark.parametrize(("joint", "angle"), [(0, 0.3), (1, 0.8)])
+def test_none_of_the_failure_tolerant_law_is_lost(joint, angle):
+    """What Newton's method finds on the law's own rates, with their differences for slopes, from a grid of starts."""
+    law = FailureTolerant(arms.load("planar-3r"), "planar")
+    target = law.arm.forward_kinematics([0.7, 1.2, 1.0])
+    points = hf.stationary(law, target, locked=joint, at=angle)
+    rest = rest_by_newton(law, target, joint, angle)
+    assert len(rest) >= 3
+    nearest = np.abs(np.exp(1j * rest)[:, None] - np.exp(1j * points.q)[None]).max(axis=2)
+    assert nearest.min(axis=1).max() < 1e-6
+    assert nearest.min(axis=0).max() < 1e-6
+    linear = linearisation(law)
+    for q, kind in zip(rest, nearest.argmin(axis=1), strict=True):
+        h = 1e-6 * np.eye(3)[np.arange(3) != joint]
+        slopes = (commanded(law, q + h, target) - commanded(law, q - h, target))[:, np.arange(3) != joint].T / 2e-6
+        real = np.linalg.eigvals(slopes).real
+        expected = "sink" if (real < 0).all() else "source" if (real > 0).all() else "saddle"
+        reached = linear.rates(q[None], target)[2][0] < 1e-6
+        assert points.kinds[kind] == ("solution" if reached else expected)
+
+
+def commanded(law, q, target):
+    error = target[:2, 3] - law.arm.forward_kinematics(q)[:, :2, 3]
+    return law.velocity(q, error)
+
+
+def rest_by_newton(law, target, joint, angle):
+    """(P, 3) where the healthy joints stand still, each once."""
+    healthy, grid, h = np.arange(3) != joint, np.arange(-np.pi, np.pi, np.pi / 12), 1e-7
+    q = np.full((grid.size**2, 3), angle)
+    q[:, healthy] = np.array(np.meshgrid(grid, grid)).reshape(2, -1).T + 0.01
+    for _ in range(60):
+        rates = commanded(law, q, target)[:, healthy]
+        ends = [
+            commanded(law, q + side * h * np.eye(3)[k], target)[:, healthy] for k in np.flatnonzero(healthy) for side in (1, -1)
+        ]
+        slopes = np.stack([ends[0] - ends[1], ends[2] - ends[3]], axis=2) / (2 * h)
+        step = -np.einsum("nij,nj->ni", np.linalg.pinv(slopes), rates)
+        q[:, healthy] += step * np.minimum(1, 0.3 / np.maximum(np.linalg.norm(step, axis=1, keepdims=True), 1e-12))
+    q = q[np.linalg.norm(commanded(law, q, target)[:, healthy], axis=1) < 1e-10]
+    kept = []
+    for x in q:
+        if all(np.abs(np.exp(1j * x) - np.exp(1j * y)).max() > 1e-4 for y in kept):
+            kept.append(x)
+    return np.array(kept)

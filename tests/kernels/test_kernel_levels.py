@@ -105,6 +105,18 @@ def test_quick_code_serves_until_enough_rows_have_come(fresh, monkeypatch, rng):
     assert Kernel("again", [x], [y])._compiled.level == 1  # from the disk
 
 
+def test_vast_programs_stay_as_they_are(fresh, monkeypatch, rng):
+    for name in ("WORTH", "AT_ONCE", "VAST"):
+        monkeypatch.setattr(compiled, name, 500)
+    x, y = long_function(60)
+    kernel = Kernel("vast", [x], [y])
+    assert kernel.program.size > compiled.VAST
+    for _ in range(3):
+        kernel.rows(rng.normal(size=(1024, 9)))
+    settle()
+    assert kernel._compiled.level == 0
+
+
 def test_a_short_program_is_compiled_well_at_once(fresh):
     x = ca.SX.sym("x")
     assert Kernel("short", [x], [ca.sin(x)])._compiled.level == 1

@@ -21,7 +21,7 @@ from itertools import pairwise
 import casadi as ca
 
 from holdfast.kernels import SX
-from holdfast.linalg import Vector, dot, singular_rows, smallest
+from holdfast.linalg import Vector, dot, gram, singular_rows, smallest, solve_spd
 
 SINGULAR = 1e-12  # of the largest singular value: at most this counts as 0
 FLOOR = 1e-3  # damping where none is allowed, in the unit of the singular values
@@ -34,6 +34,9 @@ _FIRST = 0.2  # of the smallest sigma^2: below about this the grid is even in s
 _NEVER = 1e300
 _NOTHING = 1e-200  # its square is 0; CasADi would carry a condition with a real 0 through every product
 _SAME = 1e-9  # relative: two peak errors closer than this are one, and the last point of the refinement is taken
+_END = 1e-9  # relative: a damping as near to the largest is that
+_KINK = 1e-6  # relative: as near is the second error to the first at a kink
+_FLAT = 1e-9  # of error / s: two slopes smaller than this are both 0, of joints that always share their error
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,55 @@ def search(j: SX, u: SX, allowed: SX | float) -> Choice:
     s = ca.if_else(feasible, _minimise(error, largest, m), FLOOR**2)
     end = ca.if_else(feasible, largest, FLOOR**2)
     return Choice(ca.sqrt(s), ca.sqrt(end), ca.if_else(feasible, 1.0, 0.0), error.rates(s))
+
+
+def slopes(j: SX, v: SX, allowed: float, found: dict[str, SX], by: SX) -> SX:
+    """Derivatives (n, k) of ``J' (J J' + s I)^-1 v``, without differentiating the search.
+
+    Where it has ended one of three equations holds, and by the implicit function theorem tells how s changes: the healthy
+    error is the allowed one, the errors of two joints are the same (a kink), or the slope of the worst error is 0. Where no
+    damping is best, or none is allowed, s stays.
+
+    Args:
+        j: (m, n) task Jacobian, an expression of ``by``.
+        v: (m,) task velocity, an expression of ``by``.
+        allowed: Error of the healthy arm for the unit velocity.
+        found: ``damping``, ``largest_damping`` and ``feasible`` there, as the search has them.
+        by: (k,) symbols.
+    """
+    n, k = j.shape[1], by.numel()
+    # Symbols stand for what is not differentiated, until the end.
+    s, ends, follows, kink = (ca.SX.sym(name) for name in ("s", "ends", "follows", "kink"))
+    top, other = ca.SX.sym("top", n), ca.SX.sym("other", n)
+    y = ca.vertcat(*solve_spd(gram(j, s), ca.vertsplit(ca.densify(v))))
+    rates = j.T @ y
+    healthy = s * s * ca.sumsqr(y)
+    errors = healthy + rates * rates * (2 * s + ca.sum1(j * j).T)
+    steep = ca.jacobian(errors, s)
+    turning = ca.if_else(kink, ca.dot(top - other, errors), ca.dot(top, steep))
+    condition = ca.if_else(ends, healthy - allowed**2 * ca.sumsqr(v), turning)
+    change = ca.jacobian(condition, ca.vertcat(by, s))
+    through = ca.if_else(ca.logic_and(follows, change[k] != 0), -change[:k] / change[k], 0.0)
+    out = ca.jacobian(rates, by) + ca.jacobian(rates, s) @ through
+
+    first, most, slope = _chosen(errors, errors, steep)
+    crossing = [ca.if_else(x * slope < 0, e, 0.0) for x, e in zip(ca.vertsplit(steep), ca.vertsplit(errors), strict=True)]
+    second, next_most, opposite = _chosen(ca.vertcat(*crossing), errors, steep)
+    near = ca.logic_and(next_most > most * (1 - _KINK), -slope * opposite * s * s > (_FLAT * most) ** 2)
+    out = ca.substitute(out, ca.vertcat(top, other, kink), ca.vertcat(first, second, near))
+    end = found["damping"] >= found["largest_damping"] * (1 - _END)
+    moves = ca.logic_and(found["feasible"], found["damping"] > 0)
+    return ca.substitute(out, ca.vertcat(s, ends, follows), ca.vertcat(found["damping"] ** 2, end, moves))
+
+
+def _chosen(sizes: SX, errors: SX, steep: SX) -> tuple[SX, SX, SX]:
+    """Which of the sizes (n,) is the largest, as 0 and 1 (n,); its error and slope."""
+    best, at = sizes[0], ca.SX(0)
+    for k in range(1, sizes.numel()):
+        more = sizes[k] > best
+        best, at = ca.if_else(more, sizes[k], best), ca.if_else(more, k, at)
+    chosen = ca.vertcat(*[at == k for k in range(sizes.numel())])
+    return chosen, ca.dot(chosen, errors), ca.dot(chosen, steep)
 
 
 @dataclass(frozen=True)

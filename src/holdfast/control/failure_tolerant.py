@@ -80,6 +80,12 @@ class FailureTolerant(Law):
         """``rates`` (n,), ``damping``, ``largest_damping`` and ``feasible`` (1 or 0)."""
         return self._choose(self.jacobian(q), self.scaled(v))
 
+    def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
+        """See :meth:`Law.with_slopes`: the search itself, some ten thousand operations, is not differentiated."""
+        j, scaled = self.jacobian(q), self.scaled(v)
+        found = self._choose(j, scaled)
+        return found["rates"], damping_search.slopes(j, scaled, self.pre_failure_error, found, by)
+
     def _choose(self, j: SX, v: SX) -> dict[str, SX]:
         size = ca.sqrt(ca.sumsqr(v))
         moving = size > 0

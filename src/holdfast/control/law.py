@@ -103,6 +103,11 @@ class Law(Labelled, Steps):
         """Joint rates (n,) of q (n,) and a task velocity v (m,), m/s and rad/s."""
         return self.inverse(self.jacobian(q), self.scaled(v))
 
+    def with_slopes(self, q: SX, v: SX, by: SX) -> tuple[SX, SX]:
+        """:meth:`rates`, and their derivatives (n, k) by symbols (k,) of which q and v are expressions."""
+        rates = self.rates(q, v)
+        return rates, ca.jacobian(rates, by)
+
     def quadratic(self) -> tuple[Array, float] | None:
         """``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v``, scaled rows; None for any other."""
         return None

@@ -47,15 +47,15 @@ class RestEquations:
         self.made_of = law, single
 
     @cached_property
-    def _expressions(self) -> tuple[SX, SX]:
-        """The equations, and what is left of ``A J' u`` on the locked joints."""
+    def _expressions(self) -> tuple[SX, SX, SX]:
+        """The equations, what is left of ``A J' u`` on the locked joints, and the Jacobian of the equations."""
         law, n, m = self.law, self.law.arm.n, self.law.task.m
         q, u, c, s = self._z[:n], self._z[n : n + m], self._z[n + m], self._z[n + m + 1]
         mask, form = self.system.mask, law.quadratic()
         error, _ = self.system.scaled_error(q)
         unit = length_unit(law.arm)
+        rates = ca.SX.sym("rates", n)
         if form is None:
-            rates = law.rates(q, ca.SX(ca.DM(np.linalg.inv(law.task.scale(unit)))) @ u)
             still, along = rates / ca.sqrt(ca.sumsqr(rates)), u
         else:
             a, damping = ca.SX(ca.DM(form[0])), form[1]
@@ -66,16 +66,18 @@ class RestEquations:
             along = j @ (1 - mask) if self._locks_one and not damping else j @ still + damping * (scale @ scale @ u)
         # As many equations as unknowns, but for the locked joints.
         equations = ca.vertcat(mask * still, ca.sumsqr(u) - 1, c * c + s * s - 1, c * error - s * along)
-        return equations, ca.sum1((1 - mask) * still)
-
-    @cached_property
-    def _slopes(self) -> SX:
-        return ca.jacobian(self._expressions[0], self._z)
+        out = [equations, ca.sum1((1 - mask) * still), ca.jacobian(equations, self._z)]
+        if form is None:
+            # A law knows the derivatives of its rates better than those of its code would tell.
+            commanded, slopes = law.with_slopes(q, ca.SX(ca.DM(np.linalg.inv(law.task.scale(unit)))) @ u, self._z)
+            out[2] += ca.jacobian(equations, rates) @ slopes
+            out = ca.substitute(out, [rates], [commanded])
+        return out[0], out[1], out[2]
 
     @cached_property
     @recalled
     def _kernel(self) -> Kernel:
-        inputs, outputs = [self._z, *self.system.parameters], [self._expressions[0], self._slopes]
+        inputs, outputs = [self._z, *self.system.parameters], [self._expressions[0], self._expressions[2]]
         return Kernel("rest", inputs, outputs)
 
     @cached_property
@@ -89,7 +91,7 @@ class RestEquations:
         """Levenberg and Marquardt: a step is kept if it lowers the norm."""
         free, damping = ca.SX.sym("free", self.size), ca.SX.sym("damping")
         state = ca.vertcat(self._z, damping)
-        slopes, equations = self._slopes @ ca.diag(free), self._expressions[0]
+        slopes, equations = self._expressions[2] @ ca.diag(free), self._expressions[0]
         trial = self._z + free * damped_least_norm(slopes, -equations, damping)
         size = ca.sumsqr(equations)
         better = ca.sumsqr(ca.substitute(equations, self._z, trial)) < size

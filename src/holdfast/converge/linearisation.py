@@ -80,7 +80,7 @@ class Linearisation:
         s = self._system
         e, j = s.error(s.q)
         inputs = [s.q, s.target, s.rotation]
-        outputs = [ca.jacobian(self.law.rates(s.q, e), s.q), j, ca.norm_2(s.scaled_error(s.q)[0])]
+        outputs = [self.law.with_slopes(s.q, e, s.q)[1], j, ca.norm_2(s.scaled_error(s.q)[0])]
         return Kernel("linearisation", inputs, outputs)
 
     def rates(self, q: Array, pose: Array) -> tuple[Array, Array, Array]:

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 AT_ONCE = 1500  # operations that level 1 compiles in less than a tenth of a second
 WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
 LONG = 40_000  # operations: nobody waits for level 1 of more
+VAST = 100_000  # operations: level 1 of more takes minutes (measured: 6 s of 74,000, not done after 250 s of 582,000)
 # Rows after which level 1 is compiled, whatever the size of the program. It repays that after some 1,000,000 (measured); at a
 # quarter of them a long batch takes little longer than if it had been compiled beforehand, and a short one wastes little.
 WORTH = 250_000
@@ -77,7 +78,7 @@ class Compiled:
 
     def _count(self, rows: int) -> None:
         self._rows += rows
-        if self._rows >= WORTH:
+        if self._rows >= WORTH and self._program.size <= VAST:
             self._rows = -(1 << 62)  # asked once
             _in_background(self._improve)
 
