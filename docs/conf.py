@@ -39,7 +39,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"holdfast\.study\..*"),
     (r"py:.*", r"holdfast\.studio\.(machine|body)\..*"),
     (r"py:class", r"holdfast\.interval\.Sums"),
-    (r"py:class", r"P|holdfast\.kernels\.recalled\.[KT]"),
+    (r"py:class", r"P|holdfast\.kernels\.recalled\.[KT]|holdfast\.registry\.[PT]"),
     (r"py:class", r"Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),

@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.linalg import null_space
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
 
 import holdfast as hf
+from holdfast.registry import INDICES, Registry
 
 ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
 EPS = float(np.finfo(np.float64).eps)
@@ -229,10 +229,11 @@ def jacobian_slope(arm: hf.Arm, j: np.ndarray) -> np.ndarray:
 
 
 def plane(arm: hf.Arm) -> np.ndarray:
-    """Normal of a planar arm's plane: the null space of the linear velocities it can have (sign open)."""
+    """Normal of a planar arm's plane: the null space of the linear velocities it can have, its largest entry above 0."""
     q = np.random.default_rng(0).uniform(-1, 1, (8, arm.n))
     velocities = np.concatenate(list(jacobian(arm, q)[:, :3].transpose(0, 2, 1)))
-    return np.linalg.svd(velocities)[2][-1]
+    normal = np.linalg.svd(velocities)[2][-1]
+    return normal * np.sign(normal[np.argmax(np.abs(normal))])
 
 
 def task_jacobian(arm: hf.Arm, q: np.ndarray, task, frame: str = "base", length: float = 1.0) -> np.ndarray:
@@ -244,7 +245,9 @@ def task_jacobian(arm: hf.Arm, q: np.ndarray, task, frame: str = "base", length:
     j = np.concatenate([j[:, :3] / np.asarray(length, q.dtype), j[:, 3:]], axis=1)
     if task in ("planar", "planar-pose"):
         normal = plane(arm)
-        across = null_space(normal[None]).T.astype(q.dtype)
+        first = np.eye(3)[np.argmin(np.abs(normal))]  # the axes in the plane, as the task has them
+        first = (first - normal * (normal @ first)) / np.linalg.norm(first - normal * (normal @ first))
+        across = np.array([first, np.cross(normal, first)]).astype(q.dtype)
         flat = across @ j[:, :3]
         return flat if task == "planar" else np.concatenate([flat, (normal @ j[:, 3:])[:, None]], axis=1)
     if isinstance(task, str):
@@ -255,38 +258,34 @@ def task_jacobian(arm: hf.Arm, q: np.ndarray, task, frame: str = "base", length:
 # ---- indices of a Jacobian -----------------------------------------------------------------------------------------
 
 
-def _without(j: np.ndarray, failures: Sequence[Sequence[int]]) -> list[np.ndarray]:
-    return [np.delete(j, list(s), axis=-1) for s in failures]
+def index(name: str, j: np.ndarray, failures: Sequence[Sequence[int]], of: hf.indices.Index | None = None) -> np.ndarray:
+    """A built-in index (N, F) of Jacobians (N, m, n); one with settings is told them by the index itself."""
+    return np.stack([ORACLES["index"][name](np.delete(j, list(s), axis=-1), j, of) for s in failures], axis=-1)
 
 
-def index(name: str, j: np.ndarray, failures: Sequence[Sequence[int]]) -> np.ndarray:
-    """A built-in index (N, F) of Jacobians (N, m, n), from the singular values of each reduced matrix."""
-    m = j.shape[-2]
-    values = []
-    whole = np.linalg.svd(j, compute_uv=False)
-    for kept in _without(j, failures):
-        s = np.linalg.svd(kept, compute_uv=False)
-        with np.errstate(divide="ignore"):
-            values.append(
-                {
-                    "relative-manipulability": lambda s: s.prod(-1) / whole.prod(-1),
-                    "manipulability": lambda s: s.prod(-1),
-                    "mean-singular-value": lambda s: s.mean(-1),
-                    "geometric-mean-singular-value": lambda s: s.prod(-1) ** (1 / m),
-                    "minimum-singular-value": lambda s: s[..., -1],
-                    "condition-number": lambda s: s[..., 0] / s[..., -1],
-                }[name](s)
-            )
-    return np.stack(values, axis=-1)
+def worst(better: str, values: np.ndarray) -> np.ndarray:
+    return values.max(-1) if better == "smaller" else values.min(-1)
 
 
-def worst(name: str, values: np.ndarray) -> np.ndarray:
-    return values.max(-1) if name == "condition-number" else values.min(-1)
+def singular_values(j: np.ndarray) -> np.ndarray:
+    return np.linalg.svd(j, compute_uv=False)
+
+
+def directional_velocity(kept: np.ndarray, whole: np.ndarray, of: hf.indices.Index) -> np.ndarray:
+    """The size t of the task velocity ``t u`` whose joint rates of least norm have norm 1; 0 where u cannot be had."""
+    direction = np.asarray(of.settings["direction"], dtype=float)
+    rows = of.task.rows
+    u = rows[:, :3] @ direction / np.linalg.norm(direction)
+    u = u / np.where(np.abs(rows[:, :3]).max(axis=1) > 0, of.task.length, 1.0)
+    rates = np.linalg.pinv(kept) @ u
+    had = np.linalg.norm(np.einsum("nij,nj->ni", kept, rates) - u, axis=1) < 1e-6 * np.linalg.norm(u)
+    return np.where(had, 1 / np.linalg.norm(rates, axis=1), 0.0)
 
 
 def condition(j: np.ndarray) -> np.ndarray:
     s = np.linalg.svd(j, compute_uv=False)
-    return s[..., 0] / s[..., -1]
+    with np.errstate(divide="ignore"):
+        return s[..., 0] / s[..., -1]
 
 
 def rho_long(j: np.ndarray) -> np.ndarray:
@@ -424,3 +423,92 @@ def two_link_ring(lengths: Sequence[float], joint: int, angle: float) -> tuple[n
         return a * np.array([np.cos(angle), np.sin(angle)]), abs(b - c), b + c
     first, second = (abs(a + b * np.exp(1j * angle)), c) if joint == 1 else (a, abs(b + c * np.exp(1j * angle)))
     return np.zeros(2), abs(first - second), first + second
+
+
+# ---- of everything that has a name ---------------------------------------------------------------------------------------
+
+
+def damped_inverse(j: np.ndarray, damping: float) -> np.ndarray:
+    """``J' (J J' + damping^2 I)^-1`` by singular values."""
+    u, s, v = np.linalg.svd(j, full_matrices=False)
+    return v.T @ np.diag(s / (s**2 + damping**2)) @ u.T
+
+
+def weighted(j: np.ndarray, u: np.ndarray, law: hf.control.Weighted, damping: float) -> np.ndarray:
+    w = np.linalg.inv(law.weights)
+    return w @ j.T @ np.linalg.solve(j @ w @ j.T, u)
+
+
+def jacobian_transpose(j: np.ndarray, u: np.ndarray, law: hf.control.Law, damping: float) -> np.ndarray:
+    """The step along ``J' u`` that leaves the least of u, as a least-squares problem of one unknown."""
+    slope = u @ j
+    return np.linalg.lstsq((j @ slope)[:, None], u, rcond=None)[0][0] * slope
+
+
+def generalized_gravity(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    import pinocchio as pin
+
+    model, _ = to_pinocchio(arm)
+    data = model.createData()
+    return np.array([pin.computeGeneralizedGravity(model, data, x) for x in q])
+
+
+def failed_acceleration(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """Of each joint as it fails, the others held: its torque over its entry of the mass matrix."""
+    import pinocchio as pin
+
+    model, _ = to_pinocchio(arm)
+    data = model.createData()
+    inertia = np.array([np.diag(pin.crba(model, data, x)).copy() for x in q])
+    return -generalized_gravity(arm, q) / inertia
+
+
+def swing_angle(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
+    """To the least potential energy, a sinusoid of each joint that three values fix; 0 for a joint that slides."""
+    import pinocchio as pin
+
+    model, _ = to_pinocchio(arm)
+    data = model.createData()
+    out = np.zeros(q.shape)
+    for row, x in zip(out, q, strict=True):
+        for k in np.flatnonzero(~arm.prismatic):
+            turned = (x + turn * np.eye(arm.n)[k] for turn in (0, np.pi / 2, np.pi))
+            a, b, c = (pin.computePotentialEnergy(model, data, y) for y in turned)
+            row[k] = np.arctan2((a + c) / 2 - b, (c - a) / 2)
+    return out
+
+
+ORACLES = {
+    "index": {  # (reduced Jacobians (N, m, c), whole ones (N, m, n), the index for its settings and task) -> (N,)
+        "relative-manipulability": lambda j, whole, of: singular_values(j).prod(-1) / singular_values(whole).prod(-1),
+        "manipulability": lambda j, whole, of: singular_values(j).prod(-1),
+        "mean-singular-value": lambda j, whole, of: singular_values(j).mean(-1),
+        "geometric-mean-singular-value": lambda j, whole, of: singular_values(j).prod(-1) ** (1 / j.shape[-2]),
+        "minimum-singular-value": lambda j, whole, of: singular_values(j)[..., -1],
+        "condition-number": lambda j, whole, of: condition(j),
+        "directional-velocity": directional_velocity,
+    },
+    "control law": {  # (Jacobian (m, n), task velocity (m,), both scaled, the law, the damping it says it took) -> rates (n,)
+        "pseudoinverse": lambda j, u, law, damping: np.linalg.pinv(j) @ u,
+        "weighted": weighted,
+        "damped": lambda j, u, law, damping: damped_inverse(j, law.fixed_damping) @ u,
+        "failure-tolerant": lambda j, u, law, damping: damped_inverse(j, damping) @ u,  # its choice has tests of its own
+        "jacobian-transpose": jacobian_transpose,
+    },
+    "susceptibility": {  # (arm, q (N, n)) -> of each joint (N, n)
+        "torque": generalized_gravity,
+        "acceleration": failed_acceleration,
+        "swing-angle": swing_angle,
+    },
+}
+"""Every registered name by another route. A name without one fails ``test_registry.py``, which says what to add here."""
+
+
+def example(registry: Registry, name: str, arm: hf.Arm, task="pose") -> str:
+    """A label for an arm and a task: the name, with the settings of its example where it cannot do without."""
+    return registry.labels(arm, task)[list(registry).index(name)]
+
+
+def index_of(name: str, arm: hf.Arm, task="pose", failures="single", length: float | None = None) -> hf.indices.Index:
+    """A registered index, with the settings of its example where it cannot do without."""
+    return hf.indices.by_name(example(INDICES, name, arm, task), arm, task, failures, length)

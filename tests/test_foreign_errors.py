@@ -305,3 +305,16 @@ def test_every_public_function_is_among_them() -> None:
     public = {n for n in hf.__all__ if inspect.isfunction(getattr(hf, n))}
     spared = {"design_for_convergence", "set_threads", "simulate_physics"}  # minutes; a number; by way of Servos
     assert public - spared <= set(NAMES)
+
+
+def test_a_call_that_python_refuses_is_refused_by_python() -> None:
+    law, q = good()["law"], good()["q"]
+    for wrong in (
+        lambda: law.velocity(q),
+        lambda: law.velocity(q, q[:2], q),
+        lambda: law.velocity(q, q[:2], q=q),
+        lambda: law.velocity(q, w=q[:2]),
+        lambda: hf.solve_ik(good()["arm"], np.eye(4), no_such=None),
+    ):
+        with pytest.raises(TypeError):
+            wrong()

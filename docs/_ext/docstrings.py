@@ -10,6 +10,7 @@ from sphinx.ext.napoleon import GoogleDocstring
 
 _VALUES = ("property", "attribute", "data")
 _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
+_SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.registry\.Parameter\(.*?\)\]")
 _QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
 
@@ -44,11 +45,18 @@ def repair(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: lis
     lines[:] = [escape_bars(line) for line in separate_names(lines)]
 
 
+def kind_of(setting: re.Match[str]) -> str:
+    """The kind of an annotated argument, without what else is said of it; of arrays by name, which is gone within."""
+    if "_SupportsArray" not in setting[1]:
+        return setting[1]
+    return "ArrayLike | str | None" if "Literal" in setting[1] else "ArrayLike"
+
+
 def plain_names(
     app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
 ) -> tuple[str | None, str | None]:
     """Sphinx 9 shows an alias as ``TypeAliasForwardRef('ArrayLike')``, and a full name where it cannot parse a default."""
-    shown = [x and _ALIAS.sub(r"\1", x) for x in (signature, returns)]
+    shown = [x and _SETTING.sub(kind_of, _ALIAS.sub(r"\1", x)) for x in (signature, returns)]
     if shown[0] and "<factory>" in shown[0]:
         shown[0] = _QUALIFIED.sub(r"\1", shown[0])
     return shown[0], shown[1]

@@ -9,6 +9,8 @@ Every page has one Python session and one temporary folder, shared by its direct
 ``file``: text that is shown and saved under the name given.
 ``module-example``: the example in a module's docstring.
 ``casadi-operations``: the CasADi operations that the compiled backend translates, found by trying.
+``registered``: the documented constructors of a registry, ``INDICES``, ``LAWS`` or ``SUSCEPTIBILITIES``.
+``registry``: everything of a kind that has a name (``index``, ``law`` or ``susceptibility``), as a table.
 
 The role ``cite`` refers to an entry of the list of references.
 """
@@ -175,6 +177,36 @@ class CasadiOperations(SphinxDirective):
         return [_codes(have), nodes.paragraph("", "Not available:"), _codes(lack)]
 
 
+class Registered(SphinxDirective):
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        from holdfast import registry
+
+        kinds = {"index": registry.INDICES, "law": registry.LAWS, "susceptibility": registry.SUSCEPTIBILITIES}
+        known = kinds[self.arguments[0]]
+        formulas = any(entry.formula for entry in known.values())
+        lines = ["| name | equation | |", "|---|---|---|"] if formulas else ["| name | |", "|---|---|"]
+        for entry in known.values():
+            settings = "".join(f"<br>`{p.name}`: {p.describe()}" for p in entry.parameters)
+            formula = [entry.formula] if formulas else []
+            lines.append(" | ".join(["", f"`{entry.usage}`", *formula, entry.help + settings, ""]).strip())
+        return self.parse_text_to_nodes("\n".join(lines))
+
+
+class Constructors(SphinxDirective):
+    """The constructors of everything that is registered, documented."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        from holdfast import registry
+
+        known: registry.Registry = getattr(registry, self.arguments[0])
+        text = "\n\n".join(f".. autofunction:: {known.package}.{entry.function}" for entry in known.values())
+        return self.parse_text_to_nodes(text)
+
+
 def _codes(texts: list[str]) -> nodes.Node:
     items = nodes.bullet_list(classes=["operations"])
     for text in texts:
@@ -198,5 +230,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("file", File)
     app.add_directive("module-example", ModuleExample)
     app.add_directive("casadi-operations", CasadiOperations)
+    app.add_directive("registry", Registered)
+    app.add_directive("registered", Constructors)
     app.add_role("cite", Cite())
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -59,10 +59,13 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
         elif name == "seed":
             wanted[name] = ("seed",)
 
+    names = [name for name, parameter in signature.parameters.items() if parameter.kind is not parameter.KEYWORD_ONLY]
+
     @functools.wraps(function)
     def called(*args: P.args, **kwargs: P.kwargs) -> T:
-        for name, value in signature.bind(*args, **kwargs).arguments.items():
-            kinds = wanted[name]
+        # By place and by name: binding the arguments to the signature would take longer than all the rest.
+        for name, value in (*zip(names, args, strict=False), *kwargs.items()):
+            kinds = wanted.get(name)
             if kinds and not any(_is(value, kind) for kind in kinds):
                 what = f"{function.__qualname__.removesuffix('.__init__')}: {name} is {_shown(value)}"
                 raise InputError(f"{what}; it must be {' or '.join(dict.fromkeys(_said(kind) for kind in kinds))}")
@@ -105,21 +108,25 @@ def _split(text: str, sign: str) -> list[str]:
     return [part.strip() for part in parts]
 
 
+@functools.cache
 def _alternatives(annotation: str) -> tuple[str, ...]:
     """``A | B[C | D]`` as its alternatives; none where one is not known, which then may be anything."""
     found: list[str] = []
     for part in _split(annotation.strip().strip("'\""), "|"):
+        part = _inner(part)[0] if _head(part) == "Annotated" else part
         found += _split(_ALIASES[part], "|") if part in _ALIASES else [part]
     return tuple(found) if all(_head(kind) in (*_KINDS, *_CLASSES, "Literal") for kind in found) else ()
 
 
+@functools.cache
 def _head(kind: str) -> str:
     return kind.partition("[")[0].rpartition(".")[2]
 
 
-def _inner(kind: str) -> list[str]:
+@functools.cache
+def _inner(kind: str) -> tuple[str, ...]:
     """What stands in the brackets."""
-    return _split(kind.partition("[")[2].removesuffix("]"), ",") if "[" in kind else []
+    return tuple(_split(kind.partition("[")[2].removesuffix("]"), ",")) if "[" in kind else ()
 
 
 # ---- values ------------------------------------------------------------------------------------------------------
@@ -142,6 +149,8 @@ def _text(value: Any) -> bool:
 
 
 def _numeric(value: Any) -> bool:
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind in "biuf"
     if isinstance(value, (str, bytes, Mapping, set, frozenset, bool, np.bool_)):
         return False
     try:

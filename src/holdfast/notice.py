@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -60,17 +60,22 @@ def says(what: str, counts: bool = True) -> Callable[[Callable[P, T]], Callable[
     """The function as :func:`working`, which tells its argument ``progress`` where it has one that ``counts``."""
 
     def decorated(function: Callable[P, T]) -> Callable[P, T]:
-        signature = inspect.signature(function)
+        names = list(inspect.signature(function).parameters)
+        at = names.index("progress") if counts and "progress" in names else None
+        call: Callable[..., T] = function
 
         @functools.wraps(function)
         def called(*args: P.args, **kwargs: P.kwargs) -> T:
-            if not counts or "progress" not in signature.parameters:
+            if at is None:
                 with working(what):
                     return function(*args, **kwargs)
-            given = signature.bind(*args, **kwargs)
-            with working(what, given.arguments.get("progress")) as advance:
-                given.arguments["progress"] = advance
-                return function(*given.args, **given.kwargs)
+            # Looked up by place: binding the arguments to the signature would take longer than all the rest.
+            by_place = len(args) > at
+            given: Any = args[at] if by_place else kwargs.get("progress")
+            with working(what, given) as advance:
+                if by_place:
+                    return call(*args[:at], advance, *args[at + 1 :], **kwargs)
+                return call(*args, **{**kwargs, "progress": advance})
 
         return called
 

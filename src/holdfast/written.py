@@ -1,21 +1,21 @@
-"""Tasks, joints, failures and laws as people write them, on the command line and in study files."""
+"""Tasks, joints and failures as people write them, on the command line and in study files."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
+from holdfast.grammar import is_number
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
-    from holdfast.control import Law
     from holdfast.failures import FailureSpec
 
 
@@ -179,38 +179,3 @@ def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
     except ValueError as error:
         wrong = next(x for x in parts if not is_number(x))
         raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
-
-
-def read_law_setting(text: str, option: str = "--law") -> tuple[str, dict[str, Any]]:
-    """``slug`` or ``slug:setting`` as the law's slug and its options; ``option`` is what an error calls it."""
-    from holdfast.control.laws import BY_NAME
-
-    slug, colon, value = text.partition(":")
-    setting = BY_NAME[slug].setting if slug in BY_NAME else ""
-    if not colon:
-        return slug, {}
-    if slug in BY_NAME and not setting:
-        raise InputError(f"{option} '{text}': the {BY_NAME[slug].name} takes no setting; write {slug} alone")
-    numbers = read_numbers(f"{option} {slug}", value, f"{slug}:NUMBER")
-    if numbers.size == 1 and setting != "weights":
-        return slug, {setting: float(numbers[0])}
-    if setting != "weights":
-        raise InputError(f"{option} '{text}' has {numbers.size} numbers after the colon; give one")
-    return slug, {setting: numbers}
-
-
-def read_labelled_law(text: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
-    """A law as its label says, ``slug`` or ``slug:setting``; ``option`` is what an error calls it."""
-    from holdfast.control import by_name
-
-    slug, setting = read_law_setting(text, option)
-    return by_name(slug, arm, task=task, **more, **setting)
-
-
-def is_number(text: str) -> bool:
-    """It can be read as a number."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

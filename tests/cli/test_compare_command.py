@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.cli.law_options import read_labelled_law
+from holdfast.cli.law_options import read_law
 
 CALL = ["compare", "planar-3r", "--law", "pseudoinverse", "--law", "damped:0.3", "--time-limit", "100"]
 
@@ -57,9 +57,9 @@ def test_one_motion_of_ones_own(ask):
 def test_laws_with_their_settings():
     arm = hf.arms.load("planar-3r")
     for text in ("weighted:1,2,3", "damped:0.1", "failure-tolerant:0.25", "pseudoinverse"):
-        assert read_labelled_law(text, arm, "planar", gain=2.0).label == text
-    assert read_labelled_law("failure-tolerant", arm, "planar").label == "failure-tolerant:0.5"
-    assert read_labelled_law("weighted:1,2,3", arm, "planar", gain=2.0).describe().endswith("weights 1, 2, 3, gain 2/s")
+        assert read_law(text, arm, "planar", gain=2.0).label == text
+    assert read_law("failure-tolerant", arm, "planar").label == "failure-tolerant:0.5"
+    assert read_law("weighted:1,2,3", arm, "planar", gain=2.0).describe().endswith("weights 1, 2, 3, gain 2/s")
     assert hf.control.weighted(arm, np.eye(3) + 0.1, "planar").label == "weighted"
 
 
@@ -68,7 +68,7 @@ def test_laws_with_their_settings():
     [
         (["--law", "magic"], "control law 'magic' is not known"),
         (["--law", "pseudoinverse:1"], "takes no setting"),
-        (["--law", "damped:1,2"], "2 numbers after the colon"),
+        (["--law", "damped:1,2"], "has 2 numbers for damping; give one"),
         (["--law", "damped"], "needs damping"),
         (["--start", "0,0,0"], "--start and --target go together"),
         (["--start", "0,0,0", "--target", "1,1", "--motions", "3"], "leave out --start and --target"),

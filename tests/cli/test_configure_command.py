@@ -98,9 +98,15 @@ def test_the_wrong_way_on_purpose(panda, rng):
         ("torque acceleration", "'acceleration' cannot be read"),
         ("torque + ", "'+' cannot be read"),
         ("torque: + acceleration", "': + acceleration' cannot be read"),
-        ("torques", "objective 'torques' is not known; use one of torque, acceleration, swing-angle, relative-"),
+        (
+            "torques",
+            "objective 'torques' is not known; did you mean torque? Or use one of torque, acceleration",
+        ),
         ("Torque", "objective 'Torque' is not known"),
-        ("relative-manipulability:effort", "relative-manipulability takes no weights"),
+        (
+            "relative-manipulability:effort",
+            "index 'relative-manipulability' takes no setting",
+        ),
         ("acceleration:effort", "weights 'effort' are of torques"),
         ("torque:joint8", "joint 8 is out of range; 'panda' has joints 1 to 7"),
         ("torque:elbow", "weights 'elbow' of torque are not known"),

@@ -15,8 +15,10 @@ import pinocchio as pin
 import pytest
 
 import holdfast as hf
+import oracles
 from holdfast.arm.builtin import DATA
 from holdfast.errors import InputError, StoreError
+from holdfast.registry import LAWS
 
 COMPILER = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -44,12 +46,10 @@ def compiled(source, header, m, n, others, optimise="-O1"):
 
 
 @needs_compiler
-@pytest.mark.parametrize("slug", list(hf.control.BY_NAME))
+@pytest.mark.parametrize("slug", LAWS)
 def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
     arm = hf.arms.load("planar-3r")
-    options = {"weighted": {"weights": [1.0, 2, 3]}, "damped": {"damping": 0.3}}
-    law = hf.control.by_name(slug, arm, task="planar", **options.get(slug, {}))
-    jit = hf.control.by_name(slug, arm, task="planar", **options.get(slug, {}))
+    law, jit = (hf.control.by_name(oracles.example(LAWS, slug, arm), arm, task="planar") for _ in range(2))
     others = 3 if slug == "failure-tolerant" else 0
     files = law.export_c(tmp_path / "new" / "folder")
     name = slug.replace("-", "_")
@@ -122,14 +122,12 @@ TASKS = [("planar-3r", "planar", 2), ("panda", "position", 3), ("panda", "pointi
 
 @needs_compiler
 @pytest.mark.parametrize(("name", "task", "m"), TASKS)
-@pytest.mark.parametrize("slug", ["pseudoinverse", "weighted", "damped", "failure-tolerant"])
+@pytest.mark.parametrize("slug", LAWS)
 def test_c_agrees_with_numpy_formulas_over_a_jacobian_of_pinocchio(slug, name, task, m, rng, tmp_path):
     """Nothing of holdfast on the other side: the Jacobian is Pinocchio's, or a plane's, and the laws are formulas in NumPy."""
     panda = hf.Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8")
     arm = panda if name == "panda" else hf.arms.load(name)
-    weights = rng.uniform(0.5, 3, arm.n)
-    options = {"weighted": {"weights": weights}, "damped": {"damping": 0.3}, "failure-tolerant": {"pre_failure_error": 0.4}}
-    law = hf.control.by_name(slug, arm, task=task, **options.get(slug, {}))
+    law = hf.control.by_name(oracles.example(LAWS, slug, arm, task), arm, task=task)
     jacobian = pinocchio_jacobian(law.task) if name == "panda" else planar_jacobian
     others = 3 if slug == "failure-tolerant" else 0
     call = compiled(*law.export_c(tmp_path, "law")[:2], m, arm.n, others, "-O0" if others and m > 3 else "-O1")
@@ -139,14 +137,12 @@ def test_c_agrees_with_numpy_formulas_over_a_jacobian_of_pinocchio(slug, name, t
         if np.linalg.cond(j) > 50:
             continue
         code, rates, told = call(q, v)
-        inverse = np.diag(1 / weights) if slug == "weighted" else np.eye(arm.n)
-        damping = {"damped": 0.3, "failure-tolerant": told[0] if told else None}.get(slug, 0.0)
-        expected = inverse @ j.T @ np.linalg.solve(j @ inverse @ j.T + damping**2 * np.eye(m), v)
+        expected = oracles.ORACLES["control law"][slug](j, v, law, told[0] if told else 0.0)
         assert code == 0
         np.testing.assert_allclose(rates, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
         if others:
             u = v / np.linalg.norm(v)
-            _, least, largest = damping_oracle.optimum(j, u, 0.4)
+            _, least, largest = damping_oracle.optimum(j, u, law.pre_failure_error)
             assert told[0] <= told[1] == pytest.approx(largest, rel=1e-9)
             assert told[2] == 1
             assert least - 1e-9 <= damping_oracle.peak(j, u, told[0]) <= least + 1e-6

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-from itertools import product
 
 import damping_oracle
 import numpy as np
@@ -11,43 +10,18 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.control import BY_NAME, by_name
+from holdfast.control import by_name
 from holdfast.errors import InputError, TaskError
+from holdfast.registry import LAWS
 
 LENGTH = 0.3
 
 
-def exported():
-    """Every law that holdfast.control offers."""
-    kinds = [getattr(hf.control, name) for name in hf.control.__all__]
-    return [k for k in kinds if isinstance(k, type) and issubclass(k, hf.control.Law) and not inspect.isabstract(k)]
-
-
 def laws_of(arm, task, rng):
-    """One law or more of every kind; a kind that needs an option of which nothing is known here fails."""
+    """Every registered law with the settings of its example, and a full matrix of weights."""
     root = rng.normal(size=(arm.n, arm.n))
-    options = {"weights": [rng.uniform(0.2, 3, arm.n), root @ root.T + np.eye(arm.n)], "damping": [0.2]}
-    laws = []
-    for kind in exported():
-        known = list(inspect.signature(kind).parameters.values())[1:]
-        needed = [p.name for p in known if p.default is inspect.Parameter.empty]
-        assert set(needed) <= set(options), f"{kind.__name__} needs {needed}: give values, and its formula"
-        laws += [kind(arm, **dict(zip(needed, v, strict=True)), task=task) for v in product(*(options[x] for x in needed))]
-    return laws
-
-
-def by_hand(law, j, u, damping):
-    """Rates (n,) for a scaled Jacobian and velocity from the law's formula; ``damping`` is what the law says it took."""
-    if isinstance(law, hf.control.Weighted):
-        w = np.linalg.inv(law.weights)
-        return w @ j.T @ np.linalg.solve(j @ w @ j.T, u)
-    if isinstance(law, hf.control.Damped):
-        return damping_oracle.damped(j, law.fixed_damping) @ u
-    if isinstance(law, hf.control.Pseudoinverse):
-        return np.linalg.pinv(j) @ u
-    if isinstance(law, hf.control.FailureTolerant):  # of which the choice of damping has tests of its own
-        return damping_oracle.damped(j, damping) @ u
-    raise AssertionError(f"no formula of {type(law).__name__} is written here")
+    full = hf.control.weighted(arm, root @ root.T + np.eye(arm.n), task)
+    return [full, *(LAWS.make(label, arm, task=task) for label in LAWS.labels(arm, task))]
 
 
 @pytest.fixture(scope="module")
@@ -64,8 +38,10 @@ def cases(mixed5, generator):
     patch.undo()
 
 
-def test_every_law_that_is_offered_is_among_the_cases_and_has_a_name(cases):
-    assert {type(law) for law in cases[0]} == set(exported()) == set(BY_NAME.values())
+def test_every_law_that_is_offered_has_a_name(cases):
+    offered = [getattr(hf.control, name) for name in hf.control.__all__]
+    kinds = {k for k in offered if isinstance(k, type) and issubclass(k, hf.control.Law) and not inspect.isabstract(k)}
+    assert {type(law) for law in cases[0]} == kinds
 
 
 def test_rates_are_those_of_the_formulas(cases):
@@ -74,7 +50,7 @@ def test_rates_are_those_of_the_formulas(cases):
         rates = law.velocity(q, v)
         damping = law.damping(q, v)
         for k in range(len(q)):
-            expected = by_hand(law, j[k], u[k], damping[k])
+            expected = oracles.ORACLES["control law"][law.slug](j[k], u[k], law, damping[k])
             size = np.abs(expected).max()
             np.testing.assert_allclose(rates[k], expected, rtol=0, atol=1e-9 * size, err_msg=law.name)
         if law.slug != "failure-tolerant":
@@ -147,19 +123,17 @@ def test_a_hand_that_does_not_move_has_a_right_angle_and_a_flag():
 
 
 def test_by_name(planar4):
-    options = {"weighted": {"weights": np.ones(4)}, "damped": {"damping": 0.1}}
-    for slug, kind in BY_NAME.items():
-        law = by_name(slug, planar4, task="planar", gain=2.0, speed_limit=0.1, **options.get(slug, {}))
-        assert type(law) is kind
-        assert (law.slug, law.gain, law.speed_limit, law.task.name) == (slug, 2.0, 0.1, "planar")
+    for label in LAWS.labels(planar4, "planar"):
+        law = by_name(label, planar4, task="planar", gain=2.0, speed_limit=0.1)
+        assert (law.slug, law.gain, law.speed_limit, law.task.name) == (label.partition(":")[0], 2.0, 0.1, "planar")
         assert law.name in repr(law)
         assert law.source
     assert by_name("failure-tolerant", planar4, task="planar", pre_failure_error=0.2).pre_failure_error == 0.2
-    with pytest.raises(InputError, match=r"'pinv' is not known; use one of pseudoinverse, weighted, damped, failure-tolerant"):
+    with pytest.raises(InputError, match=r"'pinv' is not known; use one of failure-tolerant, pseudoinverse, "):
         by_name("pinv", planar4)
-    with pytest.raises(InputError, match="the damped inverse needs damping"):
+    with pytest.raises(InputError, match=r"'damped' needs damping, .*, above 0; write damped:DAMPING"):
         by_name("damped", planar4, task="planar")
-    with pytest.raises(InputError, match="the pseudoinverse has no option 'damping'; it takes task, gain, speed_limit"):
+    with pytest.raises(InputError, match="'pseudoinverse' has no option 'damping'; it takes task, gain, speed_limit"):
         by_name("pseudoinverse", planar4, damping=0.1)
 
 

@@ -10,7 +10,8 @@ import oracles
 from holdfast import indices
 from holdfast.arm.task import rows_task
 from holdfast.failures import failure_sets
-from holdfast.indices import BY_NAME, CustomIndex, by_name
+from holdfast.indices import CustomIndex
+from holdfast.registry import INDICES
 
 # arm, task, frame, failures, length
 CASES = {
@@ -23,13 +24,13 @@ CASES = {
 }
 
 
-def away_from_kinks(name, jacobian, q, sets):
+def away_from_kinks(index, jacobian, q, sets):
     """Rows whose worst failure is clear and which are not near a singularity or a double extreme singular value."""
     j = jacobian(q)
-    values = oracles.index(name, j, sets)
-    ordered = np.sort(-values if name == "condition-number" else values, axis=1)
+    values = oracles.index(index.slug, j, sets, index)
+    ordered = np.sort(-values if index.better == "smaller" else values, axis=1)
     gap = (ordered[:, 1] - ordered[:, 0]) / np.abs(ordered[:, 0])
-    worst = values.argmax(1) if name == "condition-number" else values.argmin(1)
+    worst = values.argmax(1) if index.better == "smaller" else values.argmin(1)
     apart = []
     for x, k in zip(j, worst, strict=True):
         s = np.linalg.svd(np.delete(x, list(sets[k]), axis=1), compute_uv=False)
@@ -39,23 +40,23 @@ def away_from_kinks(name, jacobian, q, sets):
 
 
 @pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("name", BY_NAME)
+@pytest.mark.parametrize("name", INDICES)
 def test_gradient_against_central_differences(name, case, request, rng):
     arm_name, task, frame, failures, length = CASES[case]
     arm = request.getfixturevalue(arm_name)
     given = task if isinstance(task, str) else rows_task(task, frame=frame)
-    index, sets = by_name(name, arm, given, failures, length), failure_sets(arm, failures)
+    index, sets = oracles.index_of(name, arm, given, failures, length), failure_sets(arm, failures)
 
     def jacobian(q):
         return oracles.task_jacobian(arm, q, task, frame, length)
 
     q = oracles.inside(arm, rng, 400)
-    q = q[away_from_kinks(name, jacobian, q, sets)][:6]
+    q = q[away_from_kinks(index, jacobian, q, sets)][:6]
     assert len(q) >= 3
     gradient = index.gradient(q)
     assert gradient.shape == q.shape
     for row, g in zip(q, gradient, strict=True):
-        expected = oracles.slope(lambda x: oracles.worst(name, oracles.index(name, jacobian(x), sets)), row)
+        expected = oracles.slope(lambda x: oracles.worst(index.better, oracles.index(name, jacobian(x), sets, index)), row)
         np.testing.assert_allclose(g, expected, atol=2e-7 * max(1.0, np.abs(expected).max()))
         assert np.abs(expected).max() > 1e-3
         np.testing.assert_array_equal(index.gradient(row), g)

@@ -9,21 +9,18 @@ import pytest
 import oracles
 from holdfast import indices
 from holdfast.errors import InputError
-from holdfast.indices import BY_NAME, SINGULAR_RATIO, CustomIndex, by_name
+from holdfast.indices import SINGULAR_RATIO, CustomIndex
+from holdfast.registry import INDICES
 from holdfast.status import Status
 
 
-def convention(name):
-    return np.inf if name == "condition-number" else 0.0
-
-
-@pytest.mark.parametrize("name", BY_NAME)
+@pytest.mark.parametrize("name", INDICES)
 def test_a_singular_configuration(name, pa10, rng):
     """q = 0 of the PA10 has three zero singular values; section 6 of probabilistic-tolerance.md."""
-    index = by_name(name, pa10)
+    index = oracles.index_of(name, pa10)
     zero = np.zeros(9)
-    assert index(zero) == convention(name)
-    np.testing.assert_array_equal(index.by_joint(zero), convention(name))
+    assert index(zero) == index.singular_value_by_convention
+    np.testing.assert_array_equal(index.by_joint(zero), index.singular_value_by_convention)
     np.testing.assert_array_equal(index.gradient(zero), 0)
     assert index.singular(zero)
     assert index.evaluate(zero).status == Status.SINGULAR
@@ -34,7 +31,7 @@ def test_a_singular_configuration(name, pa10, rng):
     expected = np.isin(np.arange(21), [0, 7, 20])
     np.testing.assert_array_equal(e.status == Status.SINGULAR, expected)
     np.testing.assert_array_equal(index.singular(q), expected)
-    np.testing.assert_array_equal(e.value[expected], convention(name))
+    np.testing.assert_array_equal(e.value[expected], index.singular_value_by_convention)
     assert np.isfinite(e.value[~expected]).all()
     np.testing.assert_array_equal(index(q), e.value)
     for a, b in ((index.worst_case(q), e), (index.worst_case(zero), index.evaluate(zero))):
@@ -59,18 +56,18 @@ def nearly_straight(flat4):
     return of
 
 
-@pytest.mark.parametrize("name", BY_NAME)
+@pytest.mark.parametrize("name", INDICES)
 @pytest.mark.parametrize(("ratio", "singular"), [(1e-6, False), (1e-11, False), (1e-13, True)])
 def test_the_threshold(name, ratio, singular, flat4, nearly_straight):
     q = nearly_straight(ratio)
     s = np.linalg.svd(oracles.jacobian(flat4, q.astype(np.longdouble)[None])[0, :2].astype(float), compute_uv=False)
     assert s[1] / s[0] == pytest.approx(ratio, rel=0.01)
-    index = by_name(name, flat4, "planar")
+    index = oracles.index_of(name, flat4, "planar")
     e = index.evaluate(q)
     assert bool(index.singular(q)) == singular
     assert e.status == (Status.SINGULAR if singular else Status.OK)
     if singular:
-        assert e.value == convention(name)
+        assert e.value == index.singular_value_by_convention
         np.testing.assert_array_equal(index.gradient(q), 0)
     else:
         assert np.isfinite(e.by_failure).all()
@@ -88,7 +85,7 @@ def test_rho_just_above_the_threshold_is_still_rho(flat4, nearly_straight):
 
 def test_all_indices_agree_on_what_is_singular(flat4, nearly_straight, rng):
     q = np.array([nearly_straight(r) for r in 10 ** rng.uniform(-14, -10, 60) if abs(np.log10(r / SINGULAR_RATIO)) > 0.02])
-    statuses = [by_name(name, flat4, "planar").evaluate(q).status for name in BY_NAME]
+    statuses = [oracles.index_of(name, flat4, "planar").evaluate(q).status for name in INDICES]
     own = CustomIndex(ca.sumsqr, flat4, "planar")
     for status in (*statuses, own.evaluate(q).status):
         np.testing.assert_array_equal(status, statuses[0])
@@ -104,15 +101,15 @@ def test_the_definition_uses_the_task_jacobian_with_its_length(length, pa10, rng
     ratio = s[:, -1] / s[:, 0]
     clear = np.abs(np.log10(np.maximum(ratio, 1e-300) / SINGULAR_RATIO)) > 0.6
     for name in ("relative-manipulability", "manipulability", "mean-singular-value"):
-        status = by_name(name, pa10, length=length).evaluate(q).status
+        status = oracles.index_of(name, pa10, length=length).evaluate(q).status
         np.testing.assert_array_equal(status[clear] == Status.SINGULAR, ratio[clear] <= SINGULAR_RATIO)
     assert 20 < (ratio[clear] <= SINGULAR_RATIO).sum() < clear.sum() - 20
 
 
-@pytest.mark.parametrize("name", BY_NAME)
+@pytest.mark.parametrize("name", INDICES)
 def test_a_failure_that_ends_the_task_is_an_ordinary_zero(name, pa10_7):
     """The elbow of the 7-joint PA10: not singular before, singular after."""
-    index = by_name(name, pa10_7)
+    index = oracles.index_of(name, pa10_7)
     q = np.radians([10.0, 35, -20, 70, 15, 50, 0])
     e = index.evaluate(q)
     assert e.status == Status.OK
@@ -127,9 +124,9 @@ def test_a_failure_that_ends_the_task_is_an_ordinary_zero(name, pa10_7):
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
-@pytest.mark.parametrize("name", [*BY_NAME, "custom"])
+@pytest.mark.parametrize("name", [*INDICES, "custom"])
 def test_nan_in_a_batch_and_alone(name, bad, mixed7, rng):
-    index = CustomIndex(ca.sumsqr, mixed7, "position") if name == "custom" else by_name(name, mixed7, "position")
+    index = CustomIndex(ca.sumsqr, mixed7, "position") if name == "custom" else oracles.index_of(name, mixed7, "position")
     q = oracles.inside(mixed7, rng, 25)
     clean, slopes = index.evaluate(q), index.gradient(q)
     q[[3, 24], [0, 6]] = bad
@@ -157,8 +154,8 @@ def test_nan_beside_a_singular_row(pa10):
     q = np.zeros((3, 9))
     q[1] = np.nan
     q[2] = oracles.NOMINAL
-    for name in BY_NAME:
-        index = by_name(name, pa10)
+    for name in INDICES:
+        index = oracles.index_of(name, pa10)
         np.testing.assert_array_equal(index.evaluate(q).status, [Status.SINGULAR, Status.BAD_INPUT, Status.OK])
         np.testing.assert_array_equal(np.isnan(index(q)), [False, True, False])
         np.testing.assert_array_equal(np.isnan(index.gradient(q)).all(1), [False, True, False])

@@ -11,6 +11,7 @@ import oracles
 from holdfast.arm import kinematics
 from holdfast.indices import CustomIndex, Opposite, WeightedSum, condition_number, manipulability, relative_manipulability
 from holdfast.linalg import householder
+from holdfast.registry import INDICES, SUSCEPTIBILITIES
 from holdfast.status import Status
 
 
@@ -91,10 +92,10 @@ def test_exact_parts_are_the_values_and_their_slopes(mixed8, rng):
     assert checked
 
 
-@pytest.mark.parametrize("name", [*hf.indices.BY_NAME, "torque", "acceleration", "swing-angle"])
+@pytest.mark.parametrize("name", [*INDICES, *SUSCEPTIBILITIES])
 def test_parts_of_every_objective_give_its_value(name, rng):
     arm = hf.arms.load("panda")
-    objective = hf.indices.by_name(name, arm) if name in hf.indices.BY_NAME else hf.susceptibility.by_name(name, arm)
+    objective = oracles.index_of(name, arm) if name in INDICES else hf.susceptibility.by_name(name, arm)
     q = kinematics.joint_symbols(arm)
     j = kinematics.invariant_jacobian(arm, q)
     qr = householder(j)

@@ -12,9 +12,10 @@ import oracles
 from holdfast import arms
 from holdfast import susceptibility as sus
 from holdfast.indices.susceptibility import JointStatus
+from holdfast.registry import SUSCEPTIBILITIES
 from holdfast.status import Status
 
-NAMES = list(sus.BY_NAME)
+NAMES = list(SUSCEPTIBILITIES)
 ROD = hf.Link(1.0, np.array([0.5, 0, 0]), np.diag([0.01, 0.08, 0.08]))
 POINT = np.zeros((3, 3))
 

@@ -17,9 +17,10 @@ from holdfast import susceptibility as sus
 from holdfast.arm import kinematics
 from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE
 from holdfast.kernels import Kernel
+from holdfast.registry import SUSCEPTIBILITIES
 
 FORMULAS = {f.name: f for f in (TORQUE, ACCELERATION, SWING_ANGLE)}
-NAMES = list(sus.BY_NAME)
+NAMES = list(SUSCEPTIBILITIES)
 
 
 @pytest.fixture(autouse=True)

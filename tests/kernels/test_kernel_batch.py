@@ -293,6 +293,29 @@ def test_columns_of_another_layout_are_refused(large, rng):
             kernel.evaluate_columns(inputs, outputs)
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_the_first_results_are_those_of_all(backend, rng):
+    kernel = build(backend)
+    values = draw(rng, 3 * kernel.lanes + 1)
+    every = kernel.rows(*values)
+    for first in (1, every.shape[1]):
+        np.testing.assert_array_equal(kernel.rows(*values, first=first), every[:, :first])
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_columns_are_prepared_once(backend, rng, monkeypatch):
+    """A call of a few microseconds has no time to look at its own scratch arrays again."""
+    kernel = build(backend)
+    bound, prepared = kernel.bound, []
+    monkeypatch.setattr(kernel, "bound", lambda *columns: prepared.append(1) or bound(*columns))
+    monkeypatch.setattr(kernel, "evaluate_columns", None)
+    rows = [draw(rng, 1) for _ in range(3)]
+    found = [kernel.rows(*row) for row in rows]
+    assert len(prepared) == 1
+    for one, all_ in zip(found, kernel.rows(*map(np.concatenate, zip(*rows, strict=True))), strict=True):
+        np.testing.assert_array_equal(one[0], all_)
+
+
 def row_function(name, count=60):
     """Long enough that a compiler could contract, reorder or vectorise it in another way for one row."""
     x = ca.SX.sym("x", 13)

@@ -50,7 +50,9 @@ def pose_error(arm, q, poses, task):
 
 def worst(name, arm, q, task="pose"):
     j = oracles.task_jacobian(arm, q, task)
-    return oracles.worst(name, oracles.index(name, j, [(k,) for k in range(arm.n)]))
+    return oracles.worst(
+        "smaller" if name == "condition-number" else "larger", oracles.index(name, j, [(k,) for k in range(arm.n)])
+    )
 
 
 def tie(arm, q):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.control import laws
 from holdfast.converge.starts import read_places
 from holdfast.converge.workspace_job import NAMES
 from holdfast.errors import InputError
@@ -64,7 +63,7 @@ def chunks(study, cell):
 
 
 def test_a_chunk_of_a_workspace_is_the_workspace_of_its_starts_and_seed(straight):
-    law = laws.pseudoinverse(ARM, "planar")
+    law = hf.control.pseudoinverse(ARM, "planar")
     places = read_places(ARM, law.task, 5, np.random.default_rng(SEED))
     for c in chunks(straight, 0):
         w = hf.workspace(law, [1.2, 0.4], places.poses[c.start : c.stop], configurations=2, points=1, seed=c.own_seed)

@@ -93,7 +93,7 @@ def test_defaults_are_the_home_of_the_arm_and_this_machine(opened):
         ("--q 1,2", "it must have 7"),
         ("--lock 9", "joints 1 to 7"),
         ("--lock 2 --free 2", "given twice"),
-        ("--index best", "--index 'best' is not known"),
+        ("--index best", "--index: index 'best' is not known"),
         ("--show all", "--show 'all' is not known"),
         ("--law pseudoinverse", "given 1 times"),
         ("--law pseudoinverse --law magic", "not known"),

@@ -11,8 +11,8 @@ import holdfast as hf
 import javascript as browser
 import oracles
 from holdfast.arm.task import as_task
-from holdfast.control.laws import BY_NAME
 from holdfast.errors import TaskError
+from holdfast.registry import LAWS
 from holdfast.teleop import protocol
 from holdfast.teleop.plant import Plant
 from holdfast.teleop.point_task import Scenario
@@ -54,8 +54,8 @@ to+=m;
 
 def every_law(arm, rows, substeps, rng):
     """The paper's experiment with another arm, and a scenario for each registered law."""
-    options = {"weighted": {"weights": rng.uniform(0.5, 2, arm.n).tolist()}, "damped": {"damping": 0.1}}
-    scenarios = tuple(Scenario(k + 1, name, False, options.get(name, {})) for k, name in enumerate(BY_NAME))
+    named = [LAWS.read(label) for label in LAWS.labels(arm, rows)]
+    scenarios = tuple(Scenario(k + 1, law.name, False, options) for k, (law, options) in enumerate(named))
     return dataclasses.replace(
         protocol.read_protocol(), arm=arm, rows=as_task(arm, rows), scenarios=scenarios, substeps=substeps
     )
@@ -249,8 +249,7 @@ def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
     def never(*_):
         raise AssertionError("built again")
 
-    for law in BY_NAME.values():
-        monkeypatch.setattr(law, "rates", never)
+    monkeypatch.setattr(hf.control.Law, "rates", never)
     assert all_of_it() == first
     with pytest.raises(AssertionError, match="built again"):
         arm_module(dataclasses.replace(study, substeps=7))

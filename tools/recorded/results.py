@@ -21,6 +21,7 @@ import holdfast as hf
 from holdfast import arms, control, teleop
 from holdfast.arm.task import as_task
 from holdfast.assess import structures
+from holdfast.registry import INDICES
 from holdfast.teleop.analysis import analyse
 
 INPUTS = Path(__file__).parent
@@ -36,7 +37,7 @@ AT = np.deg2rad([20, 40, 60])
 RESULTS: dict[str, Callable[[], Any]] = {
     "arm": lambda: hf.Arm.from_urdf(INPUTS / "arm.urdf", tip="link7"),
     "task": lambda: [as_task(PANDA, rows) for rows in ("pose", "pointing", ["vx", "vy", "wz"])],
-    "index_values": lambda: [hf.indices.by_name(name, PANDA).evaluate(HOME) for name in sorted(hf.indices.BY_NAME)],
+    "index_values": lambda: [hf.indices.by_name(label, PANDA).evaluate(HOME) for label in sorted(INDICES.labels(PANDA))],
     "susceptibilities": lambda: [
         make(PANDA).evaluate(HOME) for make in (hf.susceptibility.torque, hf.susceptibility.swing_angle)
     ],

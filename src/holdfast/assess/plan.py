@@ -17,7 +17,8 @@ from holdfast.arm.task import Task
 from holdfast.assess.region import Region, Sampling
 from holdfast.clearance import Capsules, Clearance
 from holdfast.errors import HoldfastError, InputError, StoreError
-from holdfast.indices import BY_NAME, Evaluation, Index, WorstCase, by_name
+from holdfast.indices import Evaluation, Index, WorstCase, by_name
+from holdfast.registry import INDICES
 from holdfast.solve import solver
 from holdfast.solve.optimise import Ascent, default_starts, objective_ascent
 from holdfast.status import Status
@@ -112,18 +113,14 @@ class Plan:
     # ---- files -----------------------------------------------------------------------------------------------------
 
     def to_dict(self) -> dict[str, Any]:
-        """JSON data that :meth:`from_dict` reads; ``poses`` is kept by the folder.
-
-        Raises:
-            InputError: The index is a function of the user's own.
-        """
+        """JSON data that :meth:`from_dict` reads if the plan is storable; ``poses`` is kept by the folder."""
         index, task = self.index, self.index.task
         data: dict[str, Any] = {
             "kind": "assess",
             "arm": to_dict(self.arm),
             "fingerprint": self.arm.fingerprint,
             "region": self.region.to_dict(),
-            "index": index.slug,
+            "index": index.label,
             "task": task.to_dict(),
             "failures": [[self.arm.joint_names[k] for k in f] for f in index.failures],
             "seed": self.seed,
@@ -146,7 +143,7 @@ class Plan:
     @property
     def storable(self) -> bool:
         """False for an index or a region that a folder cannot hold."""
-        return self.index.slug in BY_NAME and self.region.storable
+        return INDICES.storable(self.index) and self.region.storable
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:

@@ -17,7 +17,7 @@ from holdfast.assess.assess import Assessment
 from holdfast.assess.region import Region
 from holdfast.assess.weights import Density
 from holdfast.failures import FailureSets, failure_sets
-from holdfast.indices import BY_NAME
+from holdfast.registry import INDICES
 from holdfast.report.page import Block, Code, Text
 
 _POSES_FILE = "poses.csv"
@@ -30,7 +30,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     index, task = a.index, a.index.task
     if not a.region.storable:
         return None, "The region has a function of your own, so no command line makes this run again; keep the script."
-    if index.slug not in BY_NAME:
+    if not INDICES.storable(index):
         return None, "The index is a function of your own, so no command line makes this run again; keep the script."
     asked = task_option(a.arm, task)
     if asked is None:
@@ -44,7 +44,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
         tool = {"tool": f"tool={text}"}
         if known_arm.with_tool(attachment(text.split(","))).fingerprint != a.arm.fingerprint:
             remark = "the tool to 12 digits"
-    options = {**tool, "region": "region.yaml", "index": index.slug, "task": asked}
+    options = {**tool, "region": "region.yaml", "index": index.label, "task": asked}
     if task.length != 1.0:
         options["length"] = repr(task.length)
     if index.failures != failure_sets(a.arm, "single"):

@@ -6,12 +6,14 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from holdfast import grammar
 from holdfast.assess import collisions
 from holdfast.assess.assess import Assessment
 from holdfast.assess.facts import Facts
 from holdfast.assess.rerun import capsule_files, command_line, region_files
 from holdfast.assess.structure import explain
 from holdfast.failures import failure_sets
+from holdfast.registry import INDICES
 from holdfast.report import figures, scenes
 from holdfast.report.page import Block, Callout, Code, Picture, Table, Text
 from holdfast.report.words import as_given, counted, interval, number, percent
@@ -22,15 +24,6 @@ _ZERO = 1e-9  # values that a structural failure leaves behind are rounding nois
 _MOST_DOTS = 20_000
 _MOST_ROWS = 40
 _LEAST_FOR_MAP = 200
-
-_FORMULAS = {
-    "relative-manipulability": "ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )",
-    "manipulability": "<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)",
-    "mean-singular-value": "(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m",
-    "geometric-mean-singular-value": "(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>",
-    "minimum-singular-value": "<sup>S</sup>σ<sub>m</sub>",
-    "condition-number": "<sup>S</sup>σ<sub>1</sub> / <sup>S</sup>σ<sub>m</sub>",
-}
 
 
 def alerts(f: Facts) -> list[Callout]:
@@ -234,15 +227,18 @@ def method(f: Facts) -> list[Block]:
     """How it was computed, and the command that does it again."""
     a, index = f.a, f.index
     p = f.provenance
-    formula = _FORMULAS.get(index.slug)
+    entry = INDICES.get(index.slug) if INDICES.storable(index) else None
+    formula = entry.formula if entry else ""
     worst = "smallest" if f.larger else "largest"
     definition = Markup("the {} value over the failures S").format(worst)
-    if formula is not None:
+    if formula:
         definition = Markup(
             "the {} over the failures S of {}, where <sup>S</sup>J is the task Jacobian J without the columns of S"
         ).format(worst, Markup(formula))
         if "σ" in formula:
             definition += Markup(" and <sup>S</sup>σ<sub>1</sub> ≥ … ≥ <sup>S</sup>σ<sub>m</sub> are its singular values")
+    for name, value in index.settings.items() if formula else ():
+        definition += Markup("; {} {}").format(name, grammar.written(value))
     if index.source:
         definition += Markup(". Source: {}").format(index.source)
     box = a.region.kind != "joints"

@@ -21,12 +21,12 @@ from holdfast.cli.clearance_options import (
     check_clearance,
     read_clearance,
 )
+from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     TASK_HELP,
     BasesOption,
     FailuresOption,
     HoldsOption,
-    IndexOption,
     JsonOption,
     LengthOption,
     NamesOption,

@@ -23,7 +23,7 @@ def summary(result: Assessment, at_least: list[float] | None, rates: dict[str | 
     return {
         **result.arm.entry(),
         "fingerprint": result.arm.fingerprint,
-        "index": result.index.slug,
+        "index": result.index.label,
         "unit": result.index.unit,
         "better": result.index.better,
         "bound": result.index.bound,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from holdfast.cli.law_options import LawsOption, read_labelled_law
+from holdfast.cli.law_options import LawsOption, read_law
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -103,7 +103,7 @@ def compare(
     model = read_arm(arm, base, tip, hold)
     chosen = read_task(task, arm, model)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
-    laws = [read_labelled_law(text, model, chosen, **options) for text in law or ["pseudoinverse", "failure-tolerant"]]
+    laws = [read_law(text, model, chosen, **options) for text in law or ["pseudoinverse", "failure-tolerant"]]
     locked = _locks(model, lock)
     drawn: PointToPoint | None = None
     if start is None and target is None:

@@ -20,6 +20,7 @@ from holdfast.cli.clearance_options import (
     shape_summary,
     shape_text,
 )
+from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -59,10 +60,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-SUMMANDS = (
-    "torque, acceleration, swing-angle (each may take weights: torque:effort, torque:worst-case, torque:joint2 for one joint "
-    "alone, torque:0,1,0), or an index such as relative-manipulability"
-)
 MANY = 0.5  # share of starts that agree, below which more starts are worth it
 
 
@@ -70,7 +67,7 @@ def configure(
     arm: ArmArgument,
     minimise: Annotated[
         str | None,
-        typer.Option("--minimise", help=f"{SUMMANDS}; or a sum: '0.5*torque:effort + 0.1*acceleration'.", show_default=False),
+        typer.Option("--minimise", help=f"{OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.", show_default=False),
     ] = None,
     maximise: Annotated[
         str | None,
@@ -242,7 +239,7 @@ class _Result:
                 )
             elif isinstance(measure, Index):
                 units = (measure.unit,) * self.arm.n
-                found[measure.slug] = measure.slug, units, measure.by_joint(self.before), measure.by_joint(self.optimum.q)
+                found[measure.label] = measure.label, units, measure.by_joint(self.before), measure.by_joint(self.optimum.q)
         return list(found.values())
 
 

@@ -28,6 +28,7 @@ from holdfast.cli.options import (
 )
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
+from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
     from holdfast.design import Designs
@@ -56,7 +57,7 @@ def design(
         str | None,
         typer.Option(
             "--law",
-            help="With --maximise convergence: pseudoinverse (the default), damped:0.1, weighted:1,2,3, failure-tolerant:0.5.",
+            help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.",
             show_default=False,
         ),
     ] = None,

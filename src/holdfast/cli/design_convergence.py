@@ -7,8 +7,9 @@ from pathlib import Path
 from holdfast.arm.task import Task
 from holdfast.cli.options import console, print_json, print_written
 from holdfast.cli.progress import progress_bar
+from holdfast.control import Law
 from holdfast.design import DesignSpace, design_for_convergence
-from holdfast.written import read_labelled_law
+from holdfast.registry import LAWS
 
 
 def converging(
@@ -26,7 +27,7 @@ def converging(
     from rich.markup import escape
     from rich.table import Table
 
-    chosen = read_labelled_law(law or "pseudoinverse", space.arm, task)
+    chosen: Law = LAWS.make(law or "pseudoinverse", space.arm, option="--law", task=task)
     with progress_bar(json_, "designs") as progress:
         found = design_for_convergence(
             chosen, space, designs=designs, climbs=climbs, keep_reach=keep_reach, seed=seed, progress=progress, store=out

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_law
+from holdfast.cli.law_options import LawOption, read_law
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -35,9 +35,6 @@ def export(
         typer.Option("--name", help="Of the function and the files. Default: the law's.", show_default=False),
     ] = None,
     task: TaskOption = None,
-    weights: WeightsOption = None,
-    damping: DampingOption = None,
-    pre_failure_error: PreFailureOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -50,7 +47,7 @@ def export(
     if language not in LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
     model = read_arm(arm, base, tip, hold)
-    made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
+    made = read_law(law, model, read_task(task, arm, model))
     files = made.export_c(out, name)
     if json_:
         written = dict(zip(("source", "header", "example", "test"), map(str, files), strict=True))

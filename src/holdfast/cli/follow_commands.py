@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
+from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -47,8 +48,7 @@ def follow(
         str | None,
         typer.Option(
             "--minimise",
-            help="What the self-motion makes small: torque, acceleration, swing-angle (each may take weights: torque:effort, "
-            "torque:worst-case, torque:joint2, torque:0,1,0), an index, or a sum: '0.5*torque:effort + 0.1*acceleration'.",
+            help=f"What the self-motion makes small: {OBJECTIVES}; or a sum: '0.5*torque:effort + 0.1*acceleration'.",
             show_default=False,
         ),
     ] = None,

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import typer
 
+from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
     DegreesOption,
     FailuresOption,
     HoldOption,
-    IndexOption,
     JsonOption,
     LengthOption,
     QOption,
@@ -71,7 +71,7 @@ def _evaluate(measure: Index, q: NDArray[np.float64]) -> dict[str, Any]:
     names = measure.failure_names
     return {
         **measure.arm.entry(),
-        "index": measure.slug,
+        "index": measure.label,
         "task": measure.task.name,
         "characteristic_length_m": measure.task.length,
         "unit": measure.unit,

@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from holdfast import reading
 from holdfast.errors import InputError
+from holdfast.grammar import is_number
 from holdfast.written import check_unit_of_joints as check_unit_of_joints
 from holdfast.written import check_unit_of_places as check_unit_of_places
 from holdfast.written import default_task as default_task
 from holdfast.written import each_arm as each_arm
-from holdfast.written import is_number, read_hold
 from holdfast.written import read_failures as read_failures
+from holdfast.written import read_hold
 from holdfast.written import read_joint as read_joint
 from holdfast.written import read_numbers as read_numbers
 from holdfast.written import read_task as read_task
@@ -59,14 +60,6 @@ TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,v
 TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
 TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
-IndexOption = Annotated[
-    str,
-    typer.Option(
-        "--index",
-        help="relative-manipulability, manipulability, mean-singular-value, geometric-mean-singular-value, "
-        "minimum-singular-value or condition-number.",
-    ),
-]
 PER_ARM = "once for all arms, or once for each in order ('-' for none)."
 BasesOption = Annotated[
     list[str] | None,
@@ -200,8 +193,7 @@ def read_weights(option: str, text: str) -> Any:
 def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Objective:
     """--minimise or --maximise as the library takes it: ``0.5*torque:effort + 0.1*acceleration``.
 
-    A summand is the name of an index or a susceptibility; after a colon follow the weights of a susceptibility, or the one
-    joint that counts.
+    A summand is the label of an index or a susceptibility; of this, after the colon may also be the one joint that counts.
     """
     from holdfast.indices import Opposite, WeightedSum
 
@@ -230,18 +222,17 @@ _SUMMAND = re.compile(
 
 
 def _summand(arm: Arm, option: str, name: str, weights: str | None, task: str | Task) -> Objective:
-    from holdfast import indices
-    from holdfast.indices import susceptibility
+    from holdfast.registry import INDICES, SUSCEPTIBILITIES, unknown
 
-    if name in indices.BY_NAME:
-        if weights is not None:
-            raise InputError(f"{option}: {name} takes no weights, got '{weights}'; only {_listed(susceptibility.BY_NAME)} do")
-        return indices.by_name(name, arm, task)
-    if name not in susceptibility.BY_NAME:
-        raise InputError(
-            f"{option}: objective '{name}' is not known; use one of {', '.join([*susceptibility.BY_NAME, *indices.BY_NAME])}"
-        )
-    return susceptibility.by_name(name, arm, None if weights is None else _joint_weights(arm, option, name, weights))
+    found: Objective
+    if name in SUSCEPTIBILITIES:
+        given = {} if weights is None else {"weights": _joint_weights(arm, option, name, weights)}
+        found = SUSCEPTIBILITIES.make(name, arm, option=option, **given)
+    elif name in INDICES:
+        found = INDICES.make(name if weights is None else f"{name}:{weights}", arm, option=option, task=task)
+    else:
+        raise InputError(f"{option}: {unknown('objective', name, SUSCEPTIBILITIES, INDICES)}")
+    return found
 
 
 def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
@@ -264,11 +255,6 @@ def _joint_weights(arm: Arm, option: str, name: str, text: str) -> Any:
             "alone as joint2"
         )
     return numbers
-
-
-def _listed(names: Iterable[str]) -> str:
-    *most, last = names
-    return f"{', '.join(most)} and {last}"
 
 
 def read_pose(arm: Arm, option: str, text: str) -> NDArray[np.float64]:

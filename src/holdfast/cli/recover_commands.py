@@ -40,8 +40,8 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError, StoreError
+from holdfast.grammar import is_number
 from holdfast.whole_file import replaced
-from holdfast.written import is_number
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm

@@ -11,11 +11,8 @@ import numpy as np
 import typer
 
 from holdfast.cli.law_options import (
-    DampingOption,
     LawOption,
-    PreFailureOption,
     TargetOption,
-    WeightsOption,
     read_law,
 )
 from holdfast.cli.options import (
@@ -62,9 +59,6 @@ def simulate(
     ] = None,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    weights: WeightsOption = None,
-    damping: DampingOption = None,
-    pre_failure_error: PreFailureOption = None,
     gain: Annotated[float, typer.Option("--gain", help="Ke, per s or per cycle.")] = 1.0,
     speed_limit: Annotated[
         float | None,
@@ -99,7 +93,7 @@ def simulate(
 
     model = read_arm(arm, base, tip, hold)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
-    made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error, **options)
+    made = read_law(law, model, read_task(task, arm, model), **options)
     goal, locks = read_target(made.arm, made.task, target), [_lock(model, text) for text in lock or []]
     runs = run(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
     physical = run_physics(runs, goal, locks, servo_bandwidth, time_limit) if physics else None

@@ -9,11 +9,8 @@ import numpy as np
 import typer
 
 from holdfast.cli.law_options import (
-    DampingOption,
     LawOption,
-    PreFailureOption,
     TargetOption,
-    WeightsOption,
     read_law,
 )
 from holdfast.cli.options import (
@@ -61,9 +58,6 @@ def stationary(
     degrees: DegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    weights: WeightsOption = None,
-    damping: DampingOption = None,
-    pre_failure_error: PreFailureOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -78,7 +72,7 @@ def stationary(
     from holdfast.converge import stationary as find
 
     model = read_arm(arm, base, tip, hold)
-    made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
+    made = read_law(law, model, read_task(task, arm, model))
     joints, goal = [read_joint(model, text) for text in lock], read_target(made.arm, made.task, target)
     if at is None:
         curves = find(made, goal, joints, seed=seed)
@@ -114,9 +108,6 @@ def basins(
     degrees: DegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    weights: WeightsOption = None,
-    damping: DampingOption = None,
-    pre_failure_error: PreFailureOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -131,7 +122,7 @@ def basins(
     from holdfast.converge import basins as find
 
     model = read_arm(arm, base, tip, hold)
-    made = read_law(law, model, read_task(task, arm, model), weights, damping, pre_failure_error)
+    made = read_law(law, model, read_task(task, arm, model))
     joints = [read_joint(model, text) for text in lock]
     found = find(made, read_target(made.arm, made.task, target), joints, _at(model, joints, at, degrees), starts, grid, seed)
     if plot is not None:

@@ -22,6 +22,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
+from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
 
 if TYPE_CHECKING:
     from holdfast.arm import Arm
@@ -49,7 +50,7 @@ def studio(
         list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.", show_default=False)
     ] = None,
     index: Annotated[str, typer.Option("--index", help="Of the bars.")] = "relative-manipulability",
-    susceptibility: Annotated[str, typer.Option("--susceptibility", help="Of the bars: torque, acceleration, swing-angle.")] = (
+    susceptibility: Annotated[str, typer.Option("--susceptibility", help=f"Of the bars: {SUSCEPTIBILITIES.usage}.")] = (
         "torque"
     ),
     objective: Annotated[
@@ -59,7 +60,7 @@ def studio(
         list[str] | None,
         typer.Option(
             "--law",
-            help="Two laws side by side, with a setting after a colon, as failure-tolerant:0.3. Give it twice.",
+            help=f"Two laws side by side: {LAWS.usage}. Give it twice.",
             show_default="pseudoinverse and failure-tolerant",
         ),
     ] = None,
@@ -150,22 +151,20 @@ def read_state(
     from holdfast.arm.poses import pose_numbers
     from holdfast.arm.targets import target_pose
     from holdfast.arm.task import as_task
-    from holdfast.cli.law_options import read_labelled_law
-    from holdfast.indices import BY_NAME as INDICES
-    from holdfast.indices.susceptibility import BY_NAME as SUSCEPTIBILITIES
+    from holdfast.cli.law_options import read_law
     from holdfast.studio.server import middle
     from holdfast.studio.state import SHOWS, State
 
     text = default_task(arm, model) if task is None else task
     rows = as_task(model, read_task(text, arm, model))
-    for option, value, known in (
-        ("--index", index, tuple(INDICES)),
-        ("--susceptibility", susceptibility, tuple(SUSCEPTIBILITIES)),
-        ("--objective", objective, (*INDICES, *SUSCEPTIBILITIES)),
-        ("--show", show or "arm", SHOWS),
-    ):
-        if value not in known:
-            raise InputError(f"{option} '{value}' is not known; use one of {', '.join(known)}")
+    INDICES.read(index, "--index")
+    SUSCEPTIBILITIES.read(susceptibility, "--susceptibility")
+    name = objective.partition(":")[0]
+    if name not in INDICES and name not in SUSCEPTIBILITIES:
+        raise InputError(f"--objective: {unknown('objective', name, INDICES, SUSCEPTIBILITIES)}")
+    (INDICES if name in INDICES else SUSCEPTIBILITIES).read(objective, "--objective")
+    if show is not None and show not in SHOWS:
+        raise InputError(f"--show '{show}' is not known; use one of {', '.join(SHOWS)}")
     if q is not None:
         start = read_configuration(model, q, degrees)
     else:
@@ -181,7 +180,7 @@ def read_state(
     if len(laws) != 2:
         raise InputError(f"--law is given {len(laws)} times; the studio shows two laws side by side, so give it twice")
     for label in laws:
-        read_labelled_law(label, model, rows)
+        read_law(label, model, rows)
     for option, path in (("--file", file), ("--region", region)):
         if path is not None and not Path(path).exists():
             raise InputError(f"{option}: there is no file or folder '{path}'")
@@ -202,7 +201,7 @@ def read_state(
         objective=objective,
         laws=(laws[0], laws[1]),
         target=goal,
-        show=show or ("file" if file else "region" if region else "arm"),  # type: ignore[arg-type]
+        show=show or ("file" if file else "region" if region else "arm"),
         file=file,
         region=region,
         time=time,

@@ -27,6 +27,7 @@ from holdfast.cli.options import (
     read_configuration,
     read_weights,
 )
+from holdfast.registry import SUSCEPTIBILITIES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 def susceptibility(
     arm: ArmArgument,
     q: QOption,
-    measure: Annotated[str, typer.Option("--measure", help="torque, acceleration or swing-angle.")] = "torque",
+    measure: Annotated[str, typer.Option("--measure", help=f"{SUSCEPTIBILITIES.usage}.")] = "torque",
     weights: Annotated[
         str | None,
         typer.Option(

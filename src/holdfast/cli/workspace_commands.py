@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.law_options import DampingOption, LawOption, PreFailureOption, WeightsOption, read_labelled_law, read_law
+from holdfast.cli.law_options import LawOption, read_law
 from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
@@ -97,9 +97,6 @@ def workspace(
     ] = None,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    weights: WeightsOption = None,
-    damping: DampingOption = None,
-    pre_failure_error: PreFailureOption = None,
     time_limit: Annotated[
         float | None, typer.Option("--time-limit", help="s.", show_default="2000 s; with --map 500 s")
     ] = None,
@@ -121,9 +118,9 @@ def workspace(
     model = read_arm(arm, base, tip, hold)
     wanted = read_task(task, arm, model)
     if laws is None:
-        made = [read_law(law, model, wanted, weights, damping, pre_failure_error)]
+        made = [read_law(law, model, wanted)]
     else:
-        made = [read_labelled_law(part, model, wanted, "--laws") for part in map(str.strip, laws.split(";")) if part]
+        made = [read_law(part, model, wanted, "--laws") for part in map(str.strip, laws.split(";")) if part]
     if not map_ and laws is None:
         if procedure and sampled:
             raise InputError("--procedure and --sampled exclude each other; leave one out")

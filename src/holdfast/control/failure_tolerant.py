@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
@@ -16,6 +16,9 @@ from holdfast.control import damping_search
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import SX
+from holdfast.registry import Parameter, constructor
+
+TaskSpec = str | Task | Sequence[str]
 
 
 @checked_class
@@ -51,7 +54,7 @@ class FailureTolerant(Law):
     minimum.
     """
 
-    name, slug, setting = "failure-tolerant inverse", "failure-tolerant", "pre_failure_error"
+    name, slug = "failure-tolerant inverse", "failure-tolerant"
     source = "Goel et al. 2003, eq. (8), (9)"
 
     def __init__(
@@ -111,10 +114,25 @@ class FailureTolerant(Law):
         return values[0] if single else values
 
     @property
-    def label(self) -> str:
-        """See :attr:`Law.label`."""
-        return f"{self.slug}:{self.pre_failure_error:g}"
+    def settings(self) -> dict[str, Any]:
+        """See :attr:`Law.settings`."""
+        return {"pre_failure_error": self.pre_failure_error}
 
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""
         return f"{super().phrase()}, pre-failure error at most {self.pre_failure_error:g}"
+
+
+@constructor()
+def failure_tolerant(
+    arm: Arm,
+    task: TaskSpec = "pose",
+    pre_failure_error: Annotated[
+        float,
+        Parameter("1", "allowed velocity error of the healthy arm, a fraction of the speed", low=0, high=1, example=0.5),
+    ] = 0.5,
+    gain: float = 1.0,
+    speed_limit: float | None = None,
+) -> FailureTolerant:
+    """Damped inverse that makes the worst single locked joint least bad; Goel et al. 2003, eq. (8), (9)."""
+    return FailureTolerant(arm, task, pre_failure_error, gain, speed_limit)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
@@ -16,6 +16,10 @@ from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels import SX
 from holdfast.linalg import damped_least_norm
+from holdfast.registry import Parameter, constructor
+
+Array = NDArray[np.float64]
+TaskSpec = str | Task | Sequence[str]
 
 
 class Pseudoinverse(Law):
@@ -30,6 +34,10 @@ class Pseudoinverse(Law):
         """See :meth:`Law.inverse`."""
         return damped_least_norm(j, v, 0.0)
 
+    def quadratic(self) -> tuple[Array, float]:
+        """See :meth:`Law.quadratic`."""
+        return np.eye(self.arm.n), 0.0
+
 
 @checked_class
 class Weighted(Law):
@@ -39,7 +47,6 @@ class Weighted(Law):
     """
 
     name, slug, source = "weighted inverse", "weighted", "Goel et al. 2005, eq. (10)"
-    setting = "weights"
 
     def __init__(
         self,
@@ -66,20 +73,20 @@ class Weighted(Law):
         spread = ca.sparsify(ca.SX(ca.DM(root)))
         return spread @ damped_least_norm(j @ spread, v, 0.0)
 
-    @property
-    def _diagonal(self) -> list[str]:
-        """The weights as text; empty if they are a full matrix."""
-        diagonal = np.diag(self.weights)
-        return [f"{x:g}" for x in diagonal] if np.array_equal(self.weights, np.diag(diagonal)) else []
+    def quadratic(self) -> tuple[Array, float]:
+        """See :meth:`Law.quadratic`."""
+        return np.asarray(np.linalg.inv(self.weights), dtype=np.float64), 0.0
 
     @property
-    def label(self) -> str:
-        """See :attr:`Law.label`; without its setting for a full matrix, which the command line does not take."""
-        return ":".join([self.slug, ",".join(self._diagonal)]) if self._diagonal else self.slug
+    def settings(self) -> dict[str, Any]:
+        """See :attr:`Law.settings`; a full matrix has no label."""
+        diagonal = np.diag(self.weights)
+        return {"weights": diagonal if np.array_equal(self.weights, np.diag(diagonal)) else self.weights}
 
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""
-        return f"{super().phrase()}, weights {', '.join(self._diagonal) or 'as a full matrix'}"
+        w = self.settings["weights"]
+        return f"{super().phrase()}, weights {'as a full matrix' if w.ndim == 2 else ', '.join(f'{x:g}' for x in w)}"
 
 
 @checked_class
@@ -90,7 +97,6 @@ class Damped(Law):
     """
 
     name, slug, source = "damped inverse", "damped", "Goel et al. 2003, section 2"
-    setting = "damping"
 
     def __init__(
         self,
@@ -113,11 +119,50 @@ class Damped(Law):
         """See :meth:`Law.damping`."""
         return self._constant(q, v, self.fixed_damping)
 
+    def quadratic(self) -> tuple[Array, float]:
+        """See :meth:`Law.quadratic`."""
+        return np.eye(self.arm.n), self.fixed_damping**2
+
     @property
-    def label(self) -> str:
-        """See :attr:`Law.label`."""
-        return f"{self.slug}:{self.fixed_damping:g}"
+    def settings(self) -> dict[str, Any]:
+        """See :attr:`Law.settings`."""
+        return {"damping": self.fixed_damping}
 
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""
         return f"{super().phrase()}, damping {self.fixed_damping:g}"
+
+
+def _one_to_n(arm: Arm, task: object) -> Array:
+    del task
+    return np.arange(1.0, arm.n + 1)
+
+
+@constructor()
+def pseudoinverse(arm: Arm, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None) -> Pseudoinverse:
+    """Least-norm joint rates; Goel et al. 2005, eq. (5)."""
+    return Pseudoinverse(arm, task, gain, speed_limit)
+
+
+@constructor()
+def weighted(
+    arm: Arm,
+    weights: Annotated[ArrayLike, Parameter("1", "one number for each joint", low=0, example="_one_to_n")],
+    task: TaskSpec = "pose",
+    gain: float = 1.0,
+    speed_limit: float | None = None,
+) -> Weighted:
+    """Joint rates of least weighted norm; Goel et al. 2005, eq. (10)."""
+    return Weighted(arm, weights, task, gain, speed_limit)
+
+
+@constructor()
+def damped(
+    arm: Arm,
+    damping: Annotated[float, Parameter("m for linear rows", "the damping", low=0, example=0.1)],
+    task: TaskSpec = "pose",
+    gain: float = 1.0,
+    speed_limit: float | None = None,
+) -> Damped:
+    """Damped least squares with fixed damping; Goel et al. 2003, section 2."""
+    return Damped(arm, damping, task, gain, speed_limit)

@@ -28,11 +28,12 @@ from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
+from holdfast.registry import LAWS, Labelled
 
 Array = NDArray[np.float64]
 
 
-class Law(Steps):
+class Law(Labelled, Steps):
     """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
 
     In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);
@@ -47,7 +48,6 @@ class Law(Steps):
     Attributes:
         name: For people.
         slug: On the command line and in files.
-        setting: The option that a value after the slug stands for, as in ``failure-tolerant:0.5``; empty if there is none.
         source: Paper and equation.
 
     Raises:
@@ -57,7 +57,6 @@ class Law(Steps):
 
     name = ""
     slug = ""
-    setting = ""
     source = ""
 
     @checked
@@ -103,6 +102,10 @@ class Law(Steps):
     def rates(self, q: SX, v: SX) -> SX:
         """Joint rates (n,) of q (n,) and a task velocity v (m,), m/s and rad/s."""
         return self.inverse(self.jacobian(q), self.scaled(v))
+
+    def quadratic(self) -> tuple[Array, float] | None:
+        """``A`` (n, n) and ``d`` of a law ``A J' (J A J' + d I)^-1 v``, scaled rows; None for any other."""
+        return None
 
     def outputs(self, q: SX, v: SX) -> dict[str, SX]:
         """What the law tells of q (n,) and a task velocity v (m,): ``rates`` (n,) first, then what else it computes."""
@@ -217,9 +220,11 @@ class Law(Steps):
                 f"the velocity has shape {b.shape}; task '{self.task.name}' has {m} rows, so it must be ({m},), or (N, {m}), "
                 "a row for each configuration"
             )
+        if a.ndim == b.ndim == 1:
+            return a[None], b[None], True
         lengths = [len(x) for x in (a, b) if x.ndim == 2]
         count = min(lengths, default=1)
-        return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), a.ndim == b.ndim == 1
+        return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), False
 
     @checked
     def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path, Path, Path]:
@@ -244,11 +249,6 @@ class Law(Steps):
         """
         return export.write(self, folder, self.slug.replace("-", "_") if name is None else name)
 
-    @property
-    def label(self) -> str:
-        """The law as the command line takes it, with its setting if it has one: ``pseudoinverse``, ``damped:0.1``."""
-        return self.slug
-
     def phrase(self) -> str:
         """The law and its task, without gain and speed limit, for people."""
         return f"{self.name}, task {self.task.describe()}"
@@ -265,3 +265,20 @@ class Law(Steps):
 def _linear(task: Task) -> Array:
     """(3, m): the linear velocity that a task velocity stands for."""
     return np.asarray(task.rows[:, :3].T)
+
+
+@checked
+def by_name(name: str, arm: Arm, **options: Any) -> Law:
+    """A law by its label: ``pseudoinverse``, or ``damped:0.1``.
+
+    Args:
+        name: The law's ``slug``, with its settings.
+        arm: The arm.
+        options: What the law takes besides: ``task``, ``gain``, ``speed_limit``; settings may also be given here.
+
+    Raises:
+        InputError: An unknown name, an option that the law does not have, or one that is missing.
+        TaskError: The task has more rows than the arm has joints.
+    """
+    made: Law = LAWS.make(name, arm, **options)
+    return made

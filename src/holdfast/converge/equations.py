@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.scale import length_unit
-from holdfast.control import Damped, Law, Pseudoinverse, Weighted
+from holdfast.control import Law
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import damped_least_norm
@@ -31,15 +31,6 @@ Flags = NDArray[np.bool_]
 TOLERANCE = 1e-11  # norm of the equations
 _STEPS, _NEAR = 40, 0.02  # after as many, only what is as near as that goes on for as many again
 _FIRST, _EASIER, _HARDER, _HOPELESS = 1e-2, 0.2, 5.0, 1e6
-
-
-def metric(law: Law) -> tuple[Array, float] | None:
-    """``A`` and ``d`` of a law ``A J' (J A J' + d I)^-1 v``; None for any other."""
-    if isinstance(law, Weighted):
-        return np.asarray(np.linalg.inv(law.weights), dtype=np.float64), 0.0
-    if isinstance(law, Damped):
-        return np.eye(law.arm.n), law.fixed_damping**2
-    return (np.eye(law.arm.n), 0.0) if isinstance(law, Pseudoinverse) else None
 
 
 class RestEquations:
@@ -60,7 +51,7 @@ class RestEquations:
         """The equations, and what is left of ``A J' u`` on the locked joints."""
         law, n, m = self.law, self.law.arm.n, self.law.task.m
         q, u, c, s = self._z[:n], self._z[n : n + m], self._z[n + m], self._z[n + m + 1]
-        mask, form = self.system.mask, metric(law)
+        mask, form = self.system.mask, law.quadratic()
         error, _ = self.system.scaled_error(q)
         unit = length_unit(law.arm)
         if form is None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from holdfast.arm.configurations import without_limits
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
-from holdfast.converge.equations import RestEquations, metric
+from holdfast.converge.equations import RestEquations
 from holdfast.converge.linearisation import REACHED, linearisation
 from holdfast.converge.solutions import Solutions
 from holdfast.solve import joint_space
@@ -127,7 +127,7 @@ class RestSystem:
 @lru_cache(maxsize=64)
 def idle_joints(law: Law) -> tuple[int, ...]:
     """Joints that do not move the task at any configuration, from 0."""
-    form = metric(law)
+    form = law.quadratic()
     if form is not None and not np.array_equal(form[0], np.diag(np.diag(form[0]))):
         return ()
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (8, law.arm.n))

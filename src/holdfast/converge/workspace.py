@@ -30,6 +30,7 @@ from holdfast.converge.workspace_job import (
 from holdfast.errors import InputError
 from holdfast.interval import Interval, check_confidence
 from holdfast.notice import says
+from holdfast.registry import LAWS
 from holdfast.simulate import Outcome
 from holdfast.study import Store
 
@@ -227,6 +228,8 @@ def workspace(
     Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the hand's
     path: the paper does not define it. Sampling and its intervals are ours.
     """
+    if store is not None:
+        LAWS.label(law)  # says so where there is none
     chosen = usual_method(law) if method is None else method
     usual = LATTICE if usual_method(law) == "brute" else SAMPLE
     each = usual[1] if configurations is None else configurations

@@ -26,6 +26,7 @@ from holdfast.design.space import DesignSpace, Vary, design_space
 from holdfast.errors import InputError, StoreError
 from holdfast.interval import Difference, Interval
 from holdfast.notice import says
+from holdfast.registry import LAWS
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -319,6 +320,8 @@ def _sampled(
     progress: Progress | None,
     store: str | Path | None,
 ) -> ConvergenceDesigns:
+    if store is not None:
+        LAWS.label(law)  # says so where there is none
     moved = LawOfDesigns(law, DesignJoints.of(box.space))
     search, check = np.random.SeedSequence(seed).spawn(2)
     given = TARGETS if targets is None else targets

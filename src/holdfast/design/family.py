@@ -160,7 +160,7 @@ class Family:
     @cached_property
     def numeric_index(self) -> Index:
         """The same index of the given arm, for facts such as its bound."""
-        return by_name(self.index.slug, self.space.arm, self.task, self.index.failures)
+        return by_name(self.index.label, self.space.arm, self.task, self.index.failures)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 

@@ -28,7 +28,6 @@ from holdfast.arm import kinematics
 from holdfast.arm.dh import DH
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
-from holdfast.converge.equations import metric
 from holdfast.converge.linearisation import ZERO_BAND
 from holdfast.converge.tolerant_planar import ThreeLinks
 from holdfast.design.design_joints import DesignJoints
@@ -92,7 +91,7 @@ class PlanarRest:
     """
 
     def __init__(self, law: Law) -> None:
-        form = metric(law)
+        form = law.quadratic()
         if form is None or not np.array_equal(form[0], np.diag(np.diag(form[0]))):
             raise InputError(
                 f"where the {law.name} rests is not known in closed form; use the pseudoinverse, the damped inverse, or the "

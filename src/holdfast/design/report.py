@@ -317,7 +317,7 @@ def command(d: Designs) -> tuple[str, str]:
     space = d.space
     spec, words, remark = arms.command_words(space.arm)
     words += [f"--vary {shlex.quote(p.written)}" for p in space.parameters]
-    words += [f"--maximise {d.index.slug}", "--region region.yaml", f"--task {_task(d)}"]
+    words += [f"--maximise {d.index.label}", "--region region.yaml", f"--task {_task(d)}"]
     if d.index.task.length != 1.0:
         words.append(f"--length {d.index.task.length!r}")
     if d.index.failures != failure_sets(space.arm, "single"):

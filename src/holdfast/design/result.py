@@ -180,7 +180,7 @@ class Designs:
 
         return {
             **self.space.arm.entry(),
-            "index": self.index.slug,
+            "index": self.index.label,
             "task": self.index.task.name,
             "region": self.region.name,
             "level": self.level,

@@ -111,7 +111,7 @@ def design(
         "kind": "design",
         "arm": to_dict(arm),
         "vary": [p.written for p in space.parameters],
-        "index": family.index.slug,
+        "index": family.index.label,
         "task": [family.task.rows.tolist(), family.task.frame, family.task.length],
         "failures": [list(f) for f in family.index.failures],
         "region": region.to_dict(),

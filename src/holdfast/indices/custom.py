@@ -1,7 +1,8 @@
-"""An index of your own: one symbolic function."""
+"""Indices that are one formula of the reduced Jacobian; one of your own is one symbolic function."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from typing import Literal
 
@@ -24,49 +25,23 @@ Array = NDArray[np.float64]
 Formula = Callable[[SX], SX]
 
 
-@checked_class
-class CustomIndex(Index):
-    """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
-
-    Args:
-        formula: Takes the reduced task Jacobian, CasADi ``SX`` ``(m, n - |S|)``, returns a scalar ``SX``.
-        arm: The arm.
-        task: As for every index.
-        failures: As for every index.
-        length: As for every index.
-        name: For people and files.
-        unit: Of the value.
-        better: ``"larger"`` or ``"smaller"``.
-        bound: The best value possible, if known.
+class FormulaIndex(Index):
+    """The worst case over the failures of one formula of the reduced Jacobian, with its exact gradient: what most indices are.
 
     Raises:
-        TaskError: The formula does not return one scalar.
+        TaskError: When it is first asked, if the formula does not return one scalar.
     """
 
-    def __init__(
-        self,
-        formula: Formula,
-        arm: Arm,
-        task: str | Task | Sequence[str] = "pose",
-        failures: FailureSpec = "single",
-        length: float | None = None,
-        name: str = "custom index",
-        better: Literal["larger", "smaller"] = "larger",
-        unit: str = "1",
-        bound: float | None = None,
-    ) -> None:
-        super().__init__(name, arm, task, failures, length)
-        if better not in ("larger", "smaller"):
-            raise TaskError(f"{name}: better is '{better}'; it must be 'larger' or 'smaller'")
-        self.better, self.unit, self.bound = better, unit, bound
-        self._formula = formula
+    @abstractmethod
+    def formula(self, j: SX) -> SX:
+        """The value, a scalar, of the reduced task Jacobian (m, n - |S|), linear rows divided by the characteristic length."""
 
     def _symbols(self) -> tuple[SX, list[SX]]:
         q = kinematics.joint_symbols(self.arm)
         j = self.task.jacobian(self.arm, q)
         values = []
         for failed in self.failures:
-            value = ca.SX(self._formula(j[:, [k for k in range(self.arm.n) if k not in failed]]))
+            value = self.formula(j[:, [k for k in range(self.arm.n) if k not in failed]])
             if value.shape != (1, 1):
                 raise TaskError(f"{self.name}: its formula returned shape {value.shape}; it must return one scalar")
             values.append(value)
@@ -110,3 +85,45 @@ class CustomIndex(Index):
         finite = np.flatnonzero(np.isfinite(q).all(axis=1))
         singular[finite] = self._is_singular(q[finite])
         return singular
+
+
+@checked_class
+class CustomIndex(FormulaIndex):
+    """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
+
+    Args:
+        formula: Takes the reduced task Jacobian, CasADi ``SX`` ``(m, n - |S|)``, returns a scalar ``SX``.
+        arm: The arm.
+        task: As for every index.
+        failures: As for every index.
+        length: As for every index.
+        name: For people and files.
+        unit: Of the value.
+        better: ``"larger"`` or ``"smaller"``.
+        bound: The best value possible, if known.
+
+    Raises:
+        TaskError: The formula does not return one scalar.
+    """
+
+    def __init__(
+        self,
+        formula: Formula,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+        name: str = "custom index",
+        better: Literal["larger", "smaller"] = "larger",
+        unit: str = "1",
+        bound: float | None = None,
+    ) -> None:
+        super().__init__(name, arm, task, failures, length)
+        if better not in ("larger", "smaller"):
+            raise TaskError(f"{name}: better is '{better}'; it must be 'larger' or 'smaller'")
+        self.better, self.unit, self.bound = better, unit, bound
+        self._formula = formula
+
+    def formula(self, j: SX) -> SX:
+        """See :meth:`FormulaIndex.formula`."""
+        return ca.SX(self._formula(j))

@@ -21,6 +21,7 @@ from holdfast.indices.objective import Better, Objective, Part
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
+from holdfast.registry import INDICES, Labelled
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -60,7 +61,7 @@ class WorstCase:
     status: NDArray[np.uint8]
 
 
-class Index(Objective):
+class Index(Labelled, Objective):
     """A number that says what a configuration is worth after any one of a set of failures.
 
     Attributes:
@@ -272,3 +273,21 @@ class Index(Objective):
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
+
+
+@checked
+def by_name(
+    name: str,
+    arm: Arm,
+    task: str | Task | Sequence[str] = "pose",
+    failures: FailureSpec = "single",
+    length: float | None = None,
+) -> Index:
+    """A built-in index by its label: ``relative-manipulability``, or ``directional-velocity:0,0,1``.
+
+    Raises:
+        TaskError: There is no such index; the message has the nearest, and all.
+        InputError: A setting that the index does not have, or one that is missing.
+    """
+    made: Index = INDICES.make(name, arm, task=task, failures=failures, length=length)
+    return made

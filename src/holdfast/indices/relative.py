@@ -22,9 +22,11 @@ from holdfast.indices.index import Index, WorstCase
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
+from holdfast.registry import constructor
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
+TaskSpec = str | Task | Sequence[str]
 
 _FLAT_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
 _FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
@@ -324,3 +326,22 @@ class Manipulability(RelativeManipulability):
         columns = [qr.pinv_transposed(qr.q_transposed(e)) for e in units]
         pinv_transposed = ca.horzcat(*[ca.vertcat(*c) for c in columns])
         return self._scale(qr) * (super()._assemble(qr, rho, a, p) + rho * pinv_transposed)
+
+
+@constructor(
+    formula="ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )",
+    properties=("Abdi 2012", "base-free"),
+)
+def relative_manipulability(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> RelativeManipulability:
+    """Worst-case relative manipulability, 0 to 1; Abdi et al. 2012, eq. (3), (4)."""
+    return RelativeManipulability(arm, task, failures, length)
+
+
+@constructor(formula="<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)", properties=("Abdi 2012", "base-free"))
+def manipulability(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> Manipulability:
+    """Worst-case manipulability of the reduced Jacobian; Abdi et al. 2012, eq. (1), (2)."""
+    return Manipulability(arm, task, failures, length)

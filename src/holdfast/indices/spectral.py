@@ -23,8 +23,10 @@ from holdfast.indices.relative import Manipulability
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, Loop, recalled
 from holdfast.linalg import HouseholderQR, dot, jacobi_sweep
+from holdfast.registry import constructor
 
 Array = NDArray[np.float64]
+TaskSpec = str | Task | Sequence[str]
 Formula = Literal["mean", "geometric mean", "minimum", "condition number"]
 
 _MOST_SWEEPS = 30
@@ -262,3 +264,41 @@ class SpectralIndex(Index):
         kink = singular | (sigma.min(axis=1) <= SINGULAR_RATIO * sigma.max(axis=1))
         seed[kink & np.isfinite(q).all(axis=1)] = 0.0
         return self._pull_back.rows(q, seed)
+
+
+@constructor(
+    formula="(<sup>S</sup>σ<sub>1</sub> + … + <sup>S</sup>σ<sub>m</sub>) / m",
+    properties=("Abdi 2012", "base-free"),
+)
+def mean_singular_value(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> SpectralIndex:
+    """Worst-case arithmetic mean of the singular values; Abdi et al. 2012, eq. (7)."""
+    return SpectralIndex("mean", arm, task, failures, length)
+
+
+@constructor(
+    formula="(<sup>S</sup>σ<sub>1</sub> · … · <sup>S</sup>σ<sub>m</sub>)<sup>1/m</sup>",
+    properties=("Abdi 2012", "base-free"),
+)
+def geometric_mean_singular_value(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> SpectralIndex:
+    """Worst-case geometric mean of the singular values; Abdi et al. 2012, eq. (8)."""
+    return SpectralIndex("geometric mean", arm, task, failures, length)
+
+
+@constructor(formula="<sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "base-free"))
+def minimum_singular_value(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> SpectralIndex:
+    """Worst-case smallest singular value; Abdi et al. 2012, eq. (9)."""
+    return SpectralIndex("minimum", arm, task, failures, length)
+
+
+@constructor(formula="<sup>S</sup>σ<sub>1</sub> / <sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "base-free"))
+def condition_number(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> SpectralIndex:
+    """Worst-case condition number, smaller is better; Abdi et al. 2012, eq. (10)."""
+    return SpectralIndex("condition number", arm, task, failures, length)

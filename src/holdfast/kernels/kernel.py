@@ -104,17 +104,22 @@ class Kernel:
             results = [r[()] if r.ndim == 0 else r for r in results]
         return results[0] if len(results) == 1 else tuple(results)
 
-    def rows(self, *inputs: ArrayLike) -> Array:
-        """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row."""
-        return self._evaluate(*self._read(inputs))[0]
+    def rows(self, *inputs: ArrayLike, first: int | None = None) -> Array:
+        """As calling it, but always (N, n_out): all outputs of a row one after the other, matrices row by row.
+
+        Of small programs half the time is spent on writing the results down; ``first`` gives only so many of them, (N, first).
+        """
+        return self._evaluate(*self._read(inputs), first)[0]
 
     def marked_rows(self, *inputs: ArrayLike) -> tuple[Array, bool]:
         """As :meth:`rows`, and whether any row has NaN in its first output: looked up while the chunk is in the cache."""
         return self._evaluate(*self._read(inputs))
 
-    def _evaluate(self, arrays: list[Array], rows: int | None) -> tuple[Array, bool]:
+    def _evaluate(self, arrays: list[Array], rows: int | None, first: int | None = None) -> tuple[Array, bool]:
         count = 1 if rows is None else rows
-        out = np.empty((count, self.program.n_out))
+        out = np.empty((count, self.program.n_out if first is None else first))
+        if 0 < count <= self._chunk:
+            return out, self._run(arrays, out, 0, count)
         marks: list[bool] = []
         starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
 
@@ -176,12 +181,14 @@ class Kernel:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""
         return Single(self)
 
-    def _buffers(self, width: int) -> tuple[Array, Array]:
-        made: dict[int, tuple[Array, Array]] | None = getattr(self._scratch, "made", None)
+    def _buffers(self, width: int) -> tuple[Array, Array, Callable[[], None]]:
+        """Columns of inputs and of outputs, and what computes these from those; of this thread."""
+        made: dict[int, tuple[Array, Array, Callable[[], None]]] | None = getattr(self._scratch, "made", None)
         if made is None:
             made = self._scratch.made = {}
         if width not in made:
-            made[width] = (np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width)))
+            inputs, outputs = np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width))
+            made[width] = inputs, outputs, self.bound(inputs, outputs)
         return made[width]
 
     def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> bool:
@@ -190,7 +197,7 @@ class Kernel:
         width = self.lanes
         while width < used:
             width *= 2
-        scratch_in, scratch_out = self._buffers(width)
+        scratch_in, scratch_out, compute = self._buffers(width)
         row = 0
         for a in arrays:
             rows = slice(row, row + a.shape[1])
@@ -198,8 +205,8 @@ class Kernel:
             row += a.shape[1]
         if used < width:
             scratch_in[:, used:] = scratch_in[:, used - 1 : used]
-        self.evaluate_columns(scratch_in, scratch_out)
-        out[start:stop] = scratch_out[:, :used].T
+        compute()
+        out[start:stop] = scratch_out[: out.shape[1], :used].T
         return math.isnan(scratch_out[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
 
     def __repr__(self) -> str:

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.registry import LAWS
 from holdfast.studies.law_job import LawJob
 from holdfast.study import Chunk, Column
 from holdfast.teleop.measures import RECORDED
 from holdfast.teleop.point_task import Scenario
 from holdfast.teleop.tasks import task_bank
-from holdfast.written import read_law_setting
 
 Rows = dict[str, NDArray[Any]]
 
@@ -40,8 +40,8 @@ class BankJob(LawJob):
         """See :class:`holdfast.study.Job`."""
         law = self.made
         count, n = len(chunk), law.arm.n
-        slug, options = read_law_setting(self.plan["law"], "laws")
-        scenarios = [Scenario(k + 1, slug, failed, options) for k, failed in enumerate((False, True))]
+        entry, options = LAWS.read(self.plan["law"], "laws")
+        scenarios = [Scenario(k + 1, entry.name, failed, options) for k, failed in enumerate((False, True))]
         bank = task_bank(law.arm, count, None, self.plan["distance"], law.task, chunk.own_seed, scenarios)
 
         def by_row(values: NDArray[Any]) -> NDArray[Any]:

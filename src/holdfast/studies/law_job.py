@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from holdfast.arm.serial import from_dict
 from holdfast.arm.task import Task
 from holdfast.control.law import Law
+from holdfast.registry import LAWS
 from holdfast.studies.process import PlannedJob, T
-from holdfast.written import read_labelled_law
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,8 @@ class PlannedLaw(PlannedJob[T]):
     def law(self) -> Law:
         """The law of the plan."""
         task = Task.from_dict(self.plan["task"])
-        return read_labelled_law(self.plan["law"], from_dict(self.plan["arm"]), task, "laws")
+        made: Law = LAWS.make(self.plan["law"], from_dict(self.plan["arm"]), option="laws", task=task)
+        return made
 
 
 @dataclass(frozen=True, eq=False)

@@ -172,9 +172,10 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
     tasks = len({t for _, t in keys}) > 1
     head: list[Cell] = ["Arm"]
     for index, task in keys:
-        larger = next(a for a in found if _key(a) == (index, task)).plan.index.better == "larger"
+        measure = next(a for a in found if _key(a) == (index, task)).plan.index
+        larger = measure.better == "larger"
         asks = f"{'≥' if larger else '≤'} {as_given(asked[index, task])}"
-        head.append(_stacked([index.replace("-", " "), f"{task}: {asks}" if tasks else asks]))
+        head.append(_stacked([measure.name, f"{task}: {asks}" if tasks else asks]))
     head += [_stacked([law, "arrives"]) for law, _ in names]
     body: list[list[Cell]] = []
     for row in rows:
@@ -281,8 +282,8 @@ def _worst(found: Sequence[Assessed]) -> list[Block]:
         worst = "–" if a.worst is None else f"{a.worst[0]} ({percent(a.worst[1])})"
         bound = "not known" if a.plan.index.bound is None else number(a.plan.index.bound)
         left = "–" if a.left is None else number(a.left)
-        index = str(a.labels["index"]).replace("-", " ")
-        rows.append([_name(a, [x for x in found if _key(x) == _key(a)]), index, " → ".join(medians), bound, worst, lost, left])
+        name, index = _name(a, [x for x in found if _key(x) == _key(a)]), a.plan.index.name
+        rows.append([name, index, " → ".join(medians), bound, worst, lost, left])
     if not rows:
         return []
     head = ["Arm", "index", "median", "bound", "worst failure", "poses not reached", "left after a lock"]

@@ -27,6 +27,7 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast import reading
 from holdfast.errors import HoldfastError, InputError
+from holdfast.registry import INDICES, LAWS
 from holdfast.study import Cell
 from holdfast.study.folder import MOST_CHUNKS, MOST_ROWS, too_many
 from holdfast.written import ArmSpec
@@ -35,6 +36,8 @@ from holdfast.yaml_file import Number, Strict, content, parse, sentence
 if TYPE_CHECKING:
     from holdfast.arm import Arm
     from holdfast.arm.task import Task
+    from holdfast.failures import FailureSpec
+    from holdfast.indices import Index
 
 _MOST_CELLS = 100_000
 _EXAMPLE = "'holdfast study new'"
@@ -239,7 +242,6 @@ def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
 def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str, folder: Path) -> Iterator[Cell]:
     from holdfast.assess.plan import make_plan
     from holdfast.assess.region import Region, default_region
-    from holdfast.indices import BY_NAME, by_name
     from holdfast.studies.assess_job import AssessJob
     from holdfast.written import read_failures, read_task
 
@@ -248,10 +250,8 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
             raise InputError(f"assess.thresholds: '{name}' is not among the indices; name one of {', '.join(block.indices)}")
     rows, chunk = block.poses or model.poses, block.chunk or model.chunk
     for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
-        if index not in BY_NAME:
-            raise InputError(f"assess.indices: index '{index}' is not known; use one of {', '.join(BY_NAME)}")
         rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
-        measure = by_name(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+        measure = _index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
         place = default_region(spec, arm) if region == _DEFAULT else Region.load(folder / region)
         plan = make_plan(
             arm,
@@ -290,7 +290,6 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     from holdfast.assess.region import Region, default_region
     from holdfast.design import DesignSpace, parse_vary
     from holdfast.design.search import region_poses
-    from holdfast.indices import by_name
     from holdfast.studies.design_job import DesignJob
     from holdfast.written import read_failures, read_task
 
@@ -308,7 +307,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
     poses = block.poses or model.poses
     for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
         rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
-        measure = by_name(index, arm, rows_of_task, read_failures(arm, failures), block.length)
+        measure = _index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
         if measure.better == "smaller":
             raise InputError(
                 f"assess.indices: {index} is better when smaller, and a guaranteed value must be larger; leave it out"
@@ -321,7 +320,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
             "fingerprint": arm.fingerprint,
             "vary": [[p.name, p.lower, p.upper, p.unit] for p in space.parameters],
             "region": place.to_dict(),
-            "index": measure.slug,
+            "index": measure.label,
             "task": t.to_dict(),
             "failures": [[arm.joint_names[k] for k in f] for f in measure.failures],
             "level": given.level,
@@ -331,6 +330,11 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
         labels = {"job": "designs", "arm": label, "index": index, "task": t.name, "region": place.name, "failures": failures}
         name = "-".join(["designs", label, index, *_said(task, region, failures)])
         yield Cell(name, DesignJob(plan, given.designs), plan, given.designs, given.chunk, labels=labels)
+
+
+def _index(label: str, arm: Arm, task: str | Task, failures: FailureSpec, length: float) -> Index:
+    made: Index = INDICES.make(label, arm, option="assess.indices", task=task, failures=failures, length=length)
+    return made
 
 
 def _said(task: str, region: str, failures: str) -> list[str]:
@@ -345,11 +349,11 @@ def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: 
     from holdfast.studies.bank_job import BankJob
     from holdfast.studies.convergence_job import ConvergenceJob
     from holdfast.studies.workspace_job import WorkspaceJob
-    from holdfast.written import read_labelled_law, read_task
+    from holdfast.written import read_task
 
     chunk = block.chunk or model.chunk
     for task, text in itertools.product(block.tasks, block.laws):
-        law = read_labelled_law(text, arm, _law_task(task, spec, arm, kind, read_task), f"{kind}.laws")
+        law = LAWS.make(text, arm, option=f"{kind}.laws", task=_law_task(task, spec, arm, kind, read_task))
         t = as_task(arm, law.task)
         plan: dict[str, Any] = {
             "kind": kind,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import textwrap
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import yaml
 
 from holdfast import arms, reading
 from holdfast.errors import InputError, StoreError
+from holdfast.registry import INDICES, LAWS, Registry
 from holdfast.whole_file import replaced
 from holdfast.written import ArmSpec
 
@@ -39,8 +41,7 @@ arms: {arms}
 
 # The probability that an arm keeps its dexterity when a joint fails, over a region: see 'holdfast assess --help'.
 assess:
-  # relative-manipulability, manipulability, mean-singular-value, geometric-mean-singular-value, minimum-singular-value,
-  # condition-number
+{known_indices}
   indices: {indices}
   tasks: [default]          # pose, pointing, position, planar, planar-pose, or rows as "tool:vx,vy"; default: the arm's
   regions: [default]        # region files, relative to this one; default: around the arm's home
@@ -60,7 +61,8 @@ assess:
 
 _LAWS = """\
 convergence:
-  laws: {laws}        # pseudoinverse, damped:0.05, failure-tolerant:0.3, "weighted:1,2,3"
+{known_laws}
+  laws: {laws}
   motions: {motions}              # random motions of each cell; poses, if not given
   chunk: {motions_chunk}
 """
@@ -107,7 +109,9 @@ def write(
     motions = min(poses, 200)
     block = "# convergence:\n#   laws: [pseudoinverse, failure-tolerant]\n#   motions: 200\n#   chunk: 50\n"
     if laws:
-        block = _LAWS.format(laws=_listed(laws), motions=motions, motions_chunk=min(chunk, 50, motions))
+        block = _LAWS.format(
+            known_laws=_known(LAWS), laws=_listed(laws), motions=motions, motions_chunk=min(chunk, 50, motions)
+        )
     text = _TEXT.format(
         file=path.name,
         name=_one_line(path.stem),
@@ -115,6 +119,7 @@ def write(
         poses=poses,
         chunk=min(chunk, poses),
         arms=_listed(_beside(spec, path) for spec in arm),
+        known_indices=_known(INDICES),
         indices=_listed(indices),
         optimise=str(optimise).lower(),
         convergence=block,
@@ -137,6 +142,12 @@ def _beside(arm: ArmSpec, file: Path) -> str | dict[str, Any]:
     more = {"base": arm.base, "tip": arm.tip, "hold": dict(arm.hold), "name": arm.name}
     chosen = {key: value for key, value in more.items() if value}
     return {"file": place, **chosen} if chosen else place
+
+
+def _known(registry: Registry) -> str:
+    """Comment lines with all that a list may hold."""
+    text = ", ".join(entry.usage for entry in registry.values())
+    return textwrap.fill(text, 120, initial_indent="  # ", subsequent_indent="  # ", break_on_hyphens=False)
 
 
 def _listed(items: Iterable[str | dict[str, Any]]) -> str:

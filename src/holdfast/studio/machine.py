@@ -14,13 +14,13 @@ from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control import Law
-from holdfast.errors import ArmError, HoldfastError, TaskError
-from holdfast.indices import BY_NAME, Index, Objective, by_name, susceptibility
+from holdfast.errors import ArmError, HoldfastError, InputError, TaskError
+from holdfast.indices import Index, Objective, by_name, susceptibility
 from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, recalled
+from holdfast.registry import INDICES, LAWS
 from holdfast.solve.inverse import solver
 from holdfast.studio.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
-from holdfast.written import read_labelled_law
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6  # m and rad, of a hand that is dragged
@@ -123,7 +123,7 @@ class Machine:
             if name not in self._indices:
                 try:
                     self._indices[name] = by_name(name, self.arm, self.task)
-                except TaskError as error:
+                except (InputError, TaskError) as error:
                     self._indices[name] = str(error)
             return self._indices[name]
 
@@ -141,19 +141,19 @@ class Machine:
         """What the best and the worst configuration are chosen by, or the sentence that says why they cannot be."""
         with self._making:
             if name not in self._objectives:
-                found = self.index(name) if name in BY_NAME else self.susceptibility(name)
+                found = self.index(name) if name.partition(":")[0] in INDICES else self.susceptibility(name)
                 self._objectives[name] = found if isinstance(found, str) else (found, found.reversed())
             return self._objectives[name]
 
     def law(self, text: str) -> Law:
-        """A control law as its label says, ``slug`` or ``slug:setting``; compiled once.
+        """A control law as its label says, ``name`` or ``name:value``; compiled once.
 
         Raises:
             InputError: It is not known, or its setting is none, or it takes none.
         """
         with self._making:
             if text not in self._laws:
-                self._laws[text] = read_labelled_law(text, self.arm, self.task, "law")
+                self._laws[text] = LAWS.make(text, self.arm, option="law", task=self.task)
             return self._laws[text]
 
     def read(self, q: Array, failed: Sequence[int], index: str, weight: str) -> Reading:

@@ -11,9 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.control.laws import BY_NAME as LAWS
-from holdfast.indices import BY_NAME as INDICES
-from holdfast.indices.susceptibility import BY_NAME as SUSCEPTIBILITIES
+from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, Registry
 from holdfast.studio.bars import bars_html, losses_html
 from holdfast.studio.machine import Machine, Reading
 from holdfast.studio.state import State
@@ -21,8 +19,7 @@ from holdfast.studio.state import State
 Array = NDArray[np.float64]
 Handler = Callable[[Any], None]
 BUTTONS = ("healthy", "lock", "free")
-PLAIN_LAWS = tuple(slug for slug, law in LAWS.items() if law.slug not in ("weighted", "damped"))
-MORE_LAWS = ("damped:0.1", "failure-tolerant:0.1", "failure-tolerant:0.9")
+MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 
 class Panel:
@@ -89,15 +86,16 @@ class Panel:
             "From the physics, all other joints held (needs holdfast[physics]). Scrub it in the tab Motion.",
         )
         self.susceptibility = self.gui.add_dropdown(
-            "susceptibility", tuple(SUSCEPTIBILITIES), initial_value=state.susceptibility
+            "susceptibility", self._menu(state.susceptibility, SUSCEPTIBILITIES), initial_value=state.susceptibility
         )
         self._on(self.susceptibility.on_update, "susceptibility", lambda h: h.value)
         self.weights = self.gui.add_html("")
 
     def _choose_tab(self, state: State) -> None:
-        self.index = self.gui.add_dropdown("bars show", tuple(INDICES), initial_value=state.index)
+        self.index = self.gui.add_dropdown("bars show", self._menu(state.index, INDICES), initial_value=state.index)
         self._on(self.index.on_update, "index", lambda h: h.value)
-        self.objective = self.gui.add_dropdown("choose by", (*INDICES, *SUSCEPTIBILITIES), initial_value=state.objective)
+        objectives = self._menu(state.objective, INDICES, SUSCEPTIBILITIES)
+        self.objective = self.gui.add_dropdown("choose by", objectives, initial_value=state.objective)
         self._on(self.objective.on_update, "objective", lambda h: h.value)
         self._button("Best and worst of this pose", "best-worst", "Ghost arms: green the best, orange the worst.")
         self._button("Take the green one", "take0", "The arm goes where the green ghost is.")
@@ -105,9 +103,8 @@ class Panel:
         self._button("Clear", "clear", "Take the ghosts away.")
 
     def _motion_tab(self, state: State) -> None:
-        options = tuple(dict.fromkeys((*PLAIN_LAWS, *MORE_LAWS, *state.laws)))
         self.laws = [
-            self.gui.add_dropdown(f"{c} law", options, initial_value=law)
+            self.gui.add_dropdown(f"{c} law", self._menu(law, LAWS, more=MORE_LAWS), initial_value=law)
             for c, law in zip(("green", "orange"), state.laws, strict=True)
         ]
         for handle in self.laws:
@@ -183,6 +180,11 @@ class Panel:
             self.time.min, self.time.max, self.time.step = 0.0, end, end / 1000
             self.time.value = min(now, end)
             self.time.label = label
+
+    def _menu(self, now: str, *kinds: Registry, more: Sequence[str] = ()) -> tuple[str, ...]:
+        """What can be chosen, and what is chosen now."""
+        known = [label for kind in kinds for label in kind.labels(self.machine.arm, self.machine.task)]
+        return tuple(dict.fromkeys([*known, *more, now]))
 
     # ---- what a person does ----------------------------------------------------------------------------------------
 

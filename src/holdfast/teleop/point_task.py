@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.control import laws
-from holdfast.control.law import Law
+from holdfast.control.law import Law, by_name
 
 Array = NDArray[np.float64]
 
@@ -44,7 +43,7 @@ class Scenario:
         Raises:
             InputError: Unknown law, or an option that it does not have.
         """
-        return laws.by_name(self.law, arm, task=task, **self.options)
+        return by_name(self.law, arm, task=task, **self.options)
 
 
 SCENARIOS = (

@@ -9,7 +9,7 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
-from holdfast.control.laws import BY_NAME
+from holdfast.registry import LAWS
 from holdfast.teleop.printed_arm import arm_module, law_of
 from holdfast.teleop.protocol import read_protocol
 from holdfast.teleop.serve import texts
@@ -95,5 +95,5 @@ def test_the_page_is_blind(built):
     laws = law_of(whole)
     plan = [PlannedTrial(task=t, law=laws[s], q0=[0.0], target=[0.0], joint=-1).model_dump() for t, s in order.tolist()]
     words = json.dumps(study(whole, texts.read()) | {"texts": ""}) + arm_module(whole) + json.dumps(plan)
-    for name in (*BY_NAME, "pseudo", "tolerant", "inverse", "scenario", "law_of", whole.name):
+    for name in (*LAWS, "pseudo", "tolerant", "inverse", "scenario", "law_of", whole.name):
         assert name not in words.lower()

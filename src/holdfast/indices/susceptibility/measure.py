@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
@@ -13,13 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
+from holdfast.checked import checked
 from holdfast.errors import InputError
 from holdfast.indices.objective import Objective, Part
-from holdfast.indices.susceptibility.formulas import TORQUE, Formula
+from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
 from holdfast.kept import cached_property
 from holdfast.kernels import SX, Kernel, recalled
 from holdfast.linalg import HouseholderQR
+from holdfast.registry import SUSCEPTIBILITIES, Labelled, Parameter, constructor
 from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
@@ -73,7 +76,7 @@ class Evaluation:
         return self
 
 
-class Susceptibility(Objective):
+class Susceptibility(Labelled, Objective):
     r"""How much the failure of each joint would do, :math:`f`, combined as :math:`F = f^\top W f`; smaller is better.
 
     The arm is at rest, its links are rigid, and no joint holds by friction. Joints are signed: the torque that holds the
@@ -102,6 +105,12 @@ class Susceptibility(Objective):
     def slug(self) -> str:
         """The name as used on the command line and in files."""
         return self.formula.name.replace(" ", "-")
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The weights as given: None for the identity, a word, n numbers, or a matrix."""
+        given = {"identity": None, "diagonal": np.diag(self.weights), "full": self.weights}
+        return {"weights": given.get(self._weighting, self._weighting)}
 
     @property
     def source(self) -> str:
@@ -205,7 +214,7 @@ class Susceptibility(Objective):
     def __call__(self, q: ArrayLike) -> Array:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
         rows, single = configurations(self.arm, q)
-        value = self._values.rows(rows)[:, 0].copy()
+        value = self._values.rows(rows, first=1)[:, 0]
         return value[0] if single else value
 
     def by_joint(self, q: ArrayLike) -> Array:
@@ -271,3 +280,66 @@ class Together:
         values = np.ascontiguousarray(out[:, :k])
         gradients = np.ascontiguousarray(out[:, k:]).reshape(-1, k, self.arm.n)
         return (values[0], gradients[0]) if single else (values, gradients)
+
+
+def _one_to_n(arm: Arm, task: object) -> Array:
+    del task
+    return np.arange(1.0, arm.n + 1)
+
+
+Weights = Annotated[WeightSpec, Parameter("1", "one number of 0 or more for each joint", example="_one_to_n")]
+
+
+@constructor(needs=("inertia",))
+def torque(
+    arm: Arm,
+    weights: Annotated[
+        WeightSpec, Parameter("1", "effort, worst-case, or one number of 0 or more for each joint", example="_one_to_n")
+    ] = None,
+) -> Susceptibility:
+    """The torque or force that holds each joint against gravity; English and Maciejewski 1998, eq. (7), (8), (12).
+
+    Raises:
+        ArmError: A link of which nothing is known.
+        InputError: Weights that are not positive semidefinite or do not fit the arm.
+    """
+    return Susceptibility(TORQUE, arm, weights)
+
+
+@constructor(needs=("inertia",))
+def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
+    """How fast each joint would accelerate as it fails, the others held; English and Maciejewski 1998, eq. (22).
+
+    Armature counts as inertia. Where all the mass that a turning joint carries lies on its axis it is NaN.
+
+    Raises:
+        ArmError: A link of which nothing is known or whose inertia no body has, or a joint that carries no mass.
+        InputError: Weights that are not positive semidefinite or do not fit the arm; weights named after torques.
+    """
+    return Susceptibility(ACCELERATION, arm, weights)
+
+
+@constructor(needs=("inertia",))
+def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
+    """How far each turning joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
+
+    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a sliding joint, for a balanced one and
+    where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.
+
+    Raises:
+        ArmError: A link of which nothing is known.
+        InputError: Weights that are not positive semidefinite or do not fit the arm; weights named after torques.
+    """
+    return Susceptibility(SWING_ANGLE, arm, weights)
+
+
+@checked
+def by_name(name: str, arm: Arm, weights: WeightSpec = None) -> Susceptibility:
+    """A susceptibility by its label: ``torque``, or ``torque:effort``; weights may be given beside the name.
+
+    Raises:
+        InputError: There is no such measure; the message has the nearest, and all.
+    """
+    options: dict[str, Any] = {} if weights is None else {"weights": weights}
+    made: Susceptibility = SUSCEPTIBILITIES.make(name, arm, **options)
+    return made

@@ -1,0 +1,102 @@
+"""Labels: how a thing with settings is written in one word, on the command line and in files.
+
+``name``, ``name:value`` or ``name:key=value,key=value``, where a value is a number, a word or a list of numbers:
+``pseudoinverse``, ``damped:0.1``, ``directional-velocity:0,0,1``, ``torque:effort``. A value holds no ``+``, which adds labels.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from holdfast.errors import InputError
+
+_WORD = re.compile(r"[A-Za-z_][\w.-]*")
+
+
+def is_number(text: str) -> bool:
+    """It can be read as a number."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def split(label: str) -> tuple[str, str | None, dict[str, str]]:
+    """The parts of a label: its name, the value that has no key, if there is one, and the values by key, as text.
+
+    A hyphen in a key is an underscore.
+
+    Raises:
+        InputError: A value with a ``+``, a value without a key among those with one, or a key given twice.
+    """
+    name, colon, rest = (part.strip() for part in label.partition(":"))
+    if "+" in rest:
+        raise InputError(f"'{label}': a value holds no '+'; write 1e3 for 1e+3")
+    if "=" not in rest:
+        return name, rest if colon else None, {}
+    found: dict[str, list[str]] = {}
+    key = ""
+    for part in rest.split(","):
+        before, equals, value = (x.strip() for x in part.rpartition("="))
+        before = before.replace("-", "_")
+        if equals and before in found:
+            raise InputError(f"'{label}' gives {before} twice; give it once")
+        key = before if equals else key
+        if not _WORD.fullmatch(key):
+            raise InputError(f"'{label}': '{part.strip()}' has no name; write {name}:key=value,key=value")
+        found.setdefault(key, []).append(value)
+    return name, None, {key: ",".join(values) for key, values in found.items()}
+
+
+def value(text: str) -> float | tuple[float, ...] | str:
+    """What a text says: a number, several separated by commas or spaces, or a word."""
+    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
+    if not parts or not all(map(is_number, parts)):
+        return text.strip()
+    numbers = tuple(float(x) for x in parts)
+    return numbers if len(numbers) > 1 else numbers[0]
+
+
+def written(value: Any) -> str:
+    """The text that :func:`value` reads as this value, with all its digits.
+
+    Raises:
+        InputError: It has none: a matrix, an infinite number, a function, a text that would be read as something else.
+    """
+    if isinstance(value, str):
+        if _WORD.fullmatch(value) and not is_number(value):
+            return value
+    elif isinstance(value, (bool, np.bool_)) or callable(value):
+        pass
+    elif np.ndim(value) == 0:
+        number = float(value)
+        if math.isfinite(number):
+            return repr(number).removesuffix(".0").replace("e+", "e")
+    elif np.ndim(value) == 1 and len(value):
+        return ",".join(map(written, value))
+    what = f"an array of shape {np.shape(value)}" if np.ndim(value) else f"'{value}'"
+    raise InputError(f"{what} cannot be written in a label, which holds numbers, a list of numbers, or a word")
+
+
+def label(name: str, settings: Mapping[str, Any]) -> str:
+    """The label of a thing: the name alone, with one value, or with several by key.
+
+    Args:
+        name: Of the thing.
+        settings: Its values in the order of the constructor; None stands for the usual one and is left out.
+
+    Raises:
+        InputError: A value that has no text; see :func:`written`.
+    """
+    given = {key: written(value) for key, value in settings.items() if value is not None}
+    if not given:
+        return name
+    first = next(iter(settings))
+    values = [given[first]] if list(given) == [first] else [f"{key.replace('_', '-')}={text}" for key, text in given.items()]
+    return f"{name}:{','.join(values)}"

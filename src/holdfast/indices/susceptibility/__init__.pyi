@@ -1,0 +1,10 @@
+from holdfast.indices.susceptibility.formulas import Formula as Formula
+from holdfast.indices.susceptibility.measure import Evaluation as Evaluation
+from holdfast.indices.susceptibility.measure import JointStatus as JointStatus
+from holdfast.indices.susceptibility.measure import Susceptibility as Susceptibility
+from holdfast.indices.susceptibility.measure import Together as Together
+from holdfast.indices.susceptibility.measure import acceleration as acceleration
+from holdfast.indices.susceptibility.measure import by_name as by_name
+from holdfast.indices.susceptibility.measure import swing_angle as swing_angle
+from holdfast.indices.susceptibility.measure import torque as torque
+from holdfast.indices.susceptibility.weights import largest_static_torque as largest_static_torque

@@ -1,0 +1,324 @@
+"""What can be named: the indices, control laws and susceptibilities, with their parameters. One registry for each kind.
+
+Registered is what the stub of a package exports and :func:`constructor` marks; nothing else lists it. An entry is read from
+the text of its constructor, so that help, menus and error messages can be written without importing what computes.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar
+
+from holdfast import grammar
+from holdfast.checked import checked
+from holdfast.errors import HoldfastError, InputError, TaskError
+from holdfast.kept import cached_property
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What a constructor takes besides arm and task, as ``Annotated[float, Parameter("m/s", "largest joint rate", low=0)]``.
+
+    Attributes:
+        unit: Of its numbers; ``1`` if they have none.
+        help: One phrase.
+        low, high: Its numbers lie between these, neither included; None: no bound.
+        example: A value, or the name of a function of the constructor's module that makes one for ``(arm, task)``.
+        name, kind, default: As the signature has them; ``...`` where there is no default. Not to be given.
+    """
+
+    unit: str
+    help: str
+    low: float | None = None
+    high: float | None = None
+    example: Any = None
+    name: str = ""
+    kind: str = ""
+    default: Any = ...
+
+    def describe(self) -> str:
+        """The phrase with its unit, bounds and default."""
+        bounds = [f"{word} {x:g}" for word, x in (("above", self.low), ("below", self.high)) if x is not None]
+        default = "" if self.default in (..., None) else f"default {self.default}"
+        unit = "" if self.unit == "1" else self.unit
+        return ", ".join(filter(None, [self.help, unit, " and ".join(bounds), default]))
+
+    def read(self, text: str, what: str) -> Any:
+        """The value that a label says.
+
+        Raises:
+            InputError: It is not of the parameter's kind; ``what`` is what the error calls it.
+        """
+        found = grammar.value(text)
+        if self.kind in ("float", "int"):
+            if isinstance(found, tuple):
+                raise InputError(f"{what} has {len(found)} numbers for {self.name}; give one")
+            if isinstance(found, str):
+                raise InputError(f"{what}: '{text}' is not a number; give one: {self.describe()}")
+            return int(found) if self.kind == "int" and found.is_integer() else found
+        if isinstance(found, str) and "," in text:
+            wrong = next(x for x in text.split(",") if not grammar.is_number(x))
+            raise InputError(f"{what}: '{wrong.strip()}' is not a number; give {self.describe()}")
+        return found if isinstance(found, str) else list(found) if isinstance(found, tuple) else [found]
+
+
+def constructor(
+    *, formula: str = "", needs: tuple[str, ...] = (), properties: tuple[str, ...] = ()
+) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Mark the public way to make an index, a law or a susceptibility; arguments of another kind are refused.
+
+    Its first argument is the arm, its name with hyphens is the one in labels, and the first line of its docstring is the help.
+    Arguments annotated with a :class:`Parameter` are its settings.
+
+    Args:
+        formula: The equation as HTML, for reports and documentation.
+        needs: What an arm must have: ``"inertia"``, ``"redundancy"``.
+        properties: What tests may rely on: ``"Abdi 2012"``, ``"base-free"`` (the base joint does not matter).
+    """
+    return checked
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One thing that has a name.
+
+    Attributes:
+        kind: ``"index"``, ``"control law"`` or ``"susceptibility"``.
+        name: In labels.
+        module, function: Where its constructor is.
+        help: One sentence.
+        parameters: Besides arm, task and what all of the kind take.
+        formula, needs, properties: See :func:`constructor`.
+    """
+
+    kind: str
+    name: str
+    module: str
+    function: str
+    help: str
+    parameters: tuple[Parameter, ...]
+    formula: str = ""
+    needs: tuple[str, ...] = ()
+    properties: tuple[str, ...] = ()
+
+    @property
+    def make(self) -> Callable[..., Any]:
+        """The constructor."""
+        found: Callable[..., Any] = getattr(import_module(self.module), self.function)
+        return found
+
+    @property
+    def usage(self) -> str:
+        """Its label with the names of its parameters, those that may be left out in brackets: ``damped:DAMPING``."""
+        names = [p.name.replace("_", "-") for p in self.parameters]
+        text = ",".join(f"{name}={name.upper()}" if len(names) > 1 else name.upper() for name in names)
+        needed = any(p.default is ... for p in self.parameters)
+        return self.name + (f":{text}" if needed else f"[:{text}]" if names else "")
+
+    def example(self, arm: Any, task: Any = "pose") -> dict[str, Any]:
+        """Values of the parameters that fit an arm and a task, for menus, templates and tests."""
+        found = {}
+        for p in self.parameters:
+            made = getattr(import_module(self.module), p.example, p.example) if isinstance(p.example, str) else p.example
+            found[p.name] = made(arm, task) if callable(made) else made
+        return found
+
+    def read(self, value: str | None, by_key: Mapping[str, str], what: str) -> dict[str, Any]:
+        """The settings that a label gives: values by the names of the constructor."""
+        if value is not None:
+            if not self.parameters:
+                raise InputError(f"{what}: {self.kind} '{self.name}' takes no setting; write {self.name} alone")
+            by_key = {self.parameters[0].name: value}
+        known = {p.name: p for p in self.parameters}
+        for key in by_key:
+            if key not in known:
+                raise InputError(f"{what}: {self.kind} '{self.name}' has no setting '{key}'; write {self.usage}")
+        return {key: known[key].read(text, what) for key, text in by_key.items()}
+
+
+class Labelled:
+    """What can be written as a label: it has a name and settings."""
+
+    @property
+    def slug(self) -> str:
+        """The name on the command line and in files."""
+        raise NotImplementedError
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What the constructor was given besides arm and task, by name; None for what is as usual."""
+        return {}
+
+    @property
+    def label(self) -> str:
+        """The name with the settings, as the command line takes it; the name alone where they cannot be written."""
+        try:
+            return grammar.label(self.slug, self.settings)
+        except InputError:
+            return self.slug
+
+
+class Registry(Mapping[str, Entry]):
+    """Everything of one kind that has a name.
+
+    Args:
+        kind: What one is called.
+        package: Where it is exported, below ``holdfast``.
+        error: Raised for a name that is not known.
+    """
+
+    def __init__(self, kind: str, package: str, error: type[HoldfastError]) -> None:
+        self.kind, self.package, self._error = kind, f"holdfast.{package}", error
+
+    @cached_property
+    def _entries(self) -> dict[str, Entry]:
+        offered: dict[str, set[str]] = {}
+        for node in ast.parse(_text(f"{self.package.partition('.')[2].replace('.', '/')}/__init__.pyi")).body:
+            if isinstance(node, ast.ImportFrom) and node.module:
+                offered.setdefault(node.module, set()).update(a.name for a in node.names)
+        known = (entry for module, names in offered.items() for entry in _constructors(self.kind, module, names))
+        return {entry.name: entry for entry in known}
+
+    def __getitem__(self, name: str) -> Entry:
+        return self._entries[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._entries)
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def read(self, label: str, option: str = "") -> tuple[Entry, dict[str, Any]]:
+        """The entry that a label names, and the settings that it gives.
+
+        Args:
+            label: See :mod:`holdfast.grammar`.
+            option: What an error calls it.
+
+        Raises:
+            HoldfastError: The name is not known; the message has the nearest, and all.
+            InputError: A setting that it does not have, or of another kind.
+        """
+        name, value, by_key = grammar.split(label)
+        what = f"{option} '{label}'".strip()
+        if name not in self:
+            raise self._error((f"{option}: " if option else "") + unknown(self.kind, name, self))
+        return self[name], self[name].read(value, by_key, what)
+
+    def make(self, label: str, arm: Any, *, option: str = "", **options: Any) -> Any:
+        """The thing of an arm that a label stands for.
+
+        Args:
+            label: Name and settings.
+            arm: The arm.
+            option: What an error calls the label.
+            options: What the constructor takes besides; a setting may be here in place of the label.
+
+        Raises:
+            HoldfastError: As :meth:`read`, an option that it does not have, or a setting that is missing.
+        """
+        entry, settings = self.read(label, option)
+        known = list(inspect.signature(entry.make).parameters)[1:]
+        for name in options:
+            if name not in known:
+                raise InputError(f"{self.kind} '{entry.name}' has no option '{name}'; it takes {', '.join(known)}")
+            if name in settings:
+                raise InputError(f"'{label}' and an option both give {name}; give it once")
+        given = settings | options
+        for p in entry.parameters:
+            if p.default is ... and p.name not in given:
+                before = f"{option} '{label}': " if option else ""
+                raise InputError(f"{before}{self.kind} '{entry.name}' needs {p.name}, {p.describe()}; write {entry.usage}")
+        return entry.make(arm, **given)
+
+    def storable(self, thing: Labelled) -> bool:
+        """Whether its label gives the thing back."""
+        try:
+            self.label(thing)
+        except InputError:
+            return False
+        return True
+
+    def label(self, thing: Labelled) -> str:
+        """The label that gives the thing back, for what is kept in files.
+
+        Raises:
+            InputError: There is none: it is of a class of one's own, or has a setting that no label can hold.
+        """
+        made = inspect.signature(self[thing.slug].make, eval_str=True).return_annotation if thing.slug in self else None
+        if type(thing) is not made:
+            raise InputError(f"{thing!r} is of your own making, which a file cannot hold; keep the script")
+        return grammar.label(thing.slug, thing.settings)
+
+    def labels(self, arm: Any, task: Any = "pose") -> list[str]:
+        """A label of every entry for an arm and a task, with settings only where it cannot do without."""
+        found = []
+        for name, entry in self.items():
+            needed = {p.name for p in entry.parameters if p.default is ...}
+            example = entry.example(arm, task) if needed else {}
+            found.append(grammar.label(name, {key: value if key in needed else None for key, value in example.items()}))
+        return found
+
+    @property
+    def usage(self) -> str:
+        """All names, with their settings and what these are, for help."""
+        told = [(e.usage, "; ".join(p.describe() for p in e.parameters)) for e in self.values()]
+        return "; ".join(usage + (f" ({about})" if about else "") for usage, about in told)
+
+
+def unknown(kind: str, name: str, *known: Iterable[str]) -> str:
+    """The sentence about a name that is not known: the nearest, and all."""
+    import difflib
+
+    names = [x for several in known for x in several]
+    close = difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.6)
+    guess = f"did you mean {close[0]}? Or " if close else ""
+    return f"{kind} '{name}' is not known; {guess}use one of {', '.join(names)}"
+
+
+def _text(path: str) -> str:
+    file = Path(__file__).parent / path
+    return file.read_text(encoding="utf-8") if file.is_file() else ""
+
+
+def _constructors(kind: str, module: str, offered: set[str]) -> Iterator[Entry]:
+    text = _text(module.removeprefix("holdfast.").replace(".", "/") + ".py")
+    if "\n@constructor(" not in text:
+        return
+    body = ast.parse(text).body
+    aliases = {ast.unparse(node.targets[0]): node.value for node in body if isinstance(node, ast.Assign)}
+    for node in body:
+        match node:
+            case ast.FunctionDef(name, decorator_list=[ast.Call(ast.Name("constructor")) as mark]) if name in offered:
+                facts = {k.arg: ast.literal_eval(k.value) for k in mark.keywords if k.arg}
+                about = (ast.get_docstring(node) or "").partition("\n")[0]
+                parameters = tuple(_parameters(node.args, aliases))
+                yield Entry(kind, name.replace("_", "-"), module, name, about, parameters, **facts)
+
+
+def _parameters(arguments: ast.arguments, aliases: Mapping[str, ast.expr]) -> Iterator[Parameter]:
+    missing = len(arguments.args) - len(arguments.defaults)
+    defaults = [*([None] * missing), *arguments.defaults, *arguments.kw_defaults]
+    for argument, default in zip([*arguments.args, *arguments.kwonlyargs], defaults, strict=True):
+        annotation = argument.annotation
+        match aliases.get(annotation.id, annotation) if isinstance(annotation, ast.Name) else annotation:
+            case ast.Subscript(
+                value=ast.Name("Annotated"), slice=ast.Tuple(elts=[kind, ast.Call(func=ast.Name("Parameter")) as call])
+            ):
+                given = {k.arg: ast.literal_eval(k.value) for k in call.keywords if k.arg}
+                made = Parameter(*(ast.literal_eval(x) for x in call.args), **given)
+                usual = ... if default is None else ast.literal_eval(default)
+                yield replace(made, name=argument.arg, kind=ast.unparse(kind), default=usual)
+
+
+INDICES = Registry("index", "indices", TaskError)
+LAWS = Registry("control law", "control", InputError)
+SUSCEPTIBILITIES = Registry("susceptibility", "indices.susceptibility", InputError)

@@ -1,0 +1,91 @@
+"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows the new name."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+TABLE = re.compile(r"tests/oracles.py, in ORACLES\[\"(.+)\"\]")
+INDEX = ["index", "planar-3r", "--task", "planar", "--q", "0.3 0.5 0.7", "--index"]
+LAW = ["simulate", "planar-3r", "--start", "0.3 0.5 0.7", "--target", "1.5,1.5", "--lock", "2", "--json", "--law"]
+WALKS = {
+    "an index": ("add-an-index", "row-speed", [*INDEX, "row-speed:2"], "speed of row 2", "index"),
+    "a control law": (
+        "add-a-control-law",
+        "plain-transpose",
+        [*LAW, "plain-transpose:0.5"],
+        "plain-transpose",
+        "control law",
+    ),
+}
+
+
+def steps(anchor):
+    """What the page says to write, by where, in its order."""
+    section = PAGE.split(f"({anchor})=")[1].split("\n(")[0].split("\n## Kernels")[0]
+    blocks = re.findall(r"^```python\n# ([^\n]+)\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)
+    assert len(blocks) == 3, "two files and a line"
+    return blocks
+
+
+def write(folder, where, text):
+    """A new file, an entry of a table, or a line at the end of a stub."""
+    if found := TABLE.match(where):
+        file, head = folder / "tests/oracles.py", f'    "{found[1]}": {{'
+        whole = file.read_text(encoding="utf-8")
+        assert head in whole
+        first, rest = whole.split(head, 1)
+        comment, _, others = rest.partition("\n")
+        file.write_text(f"{first}{head}{comment}\n{text}{others}", encoding="utf-8")
+    else:
+        file = folder / where
+        assert file.exists() == where.endswith(".pyi")
+        with file.open("a", encoding="utf-8") as out:
+            out.write(text)
+
+
+@pytest.mark.parametrize("walk", WALKS)
+def test_the_walk(walk, tmp_path):
+    anchor, name, command, said, kind = WALKS[walk]
+    for part in ("src", "tests"):
+        shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    python = f"{tmp_path / 'src'}{os.pathsep}{tmp_path / 'tests'}"
+    environment = {**os.environ, "PYTHONPATH": python, "HOLDFAST_BACKEND": "casadi", "NO_COLOR": "1", "COLUMNS": "200"}
+
+    def run(*words):
+        done = subprocess.run(
+            [sys.executable, "-m", *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+        )
+        return done.returncode, done.stdout + done.stderr
+
+    def tests(*chosen):
+        return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "tests/test_registry.py", "-k", " or ".join(chosen))
+
+    file, oracle, line = steps(anchor)
+    write(tmp_path, *file)
+    write(tmp_path, *line)
+    code, told = tests("has_an_oracle")
+    assert code == 1
+    assert f"{kind} '{name}' has no oracle: add its value by another route to ORACLES['{kind}'] in tests/oracles.py" in told
+    write(tmp_path, *oracle)
+    code, told = tests(name, "oracles_are_of", "what_is_registered")
+    assert code == 0, told
+    code, told = run("holdfast", *command)
+    assert code == 0, told
+    assert said in told
+    code, told = run("holdfast", command[0], "--help")
+    assert name in told
+    values = {"index": ["tests/indices/test_index_values.py", "tests/indices/test_index_gradients.py"]}
+    chosen = values.get(kind, ["tests/control/test_laws.py"])
+    picked = ["-k", f"{name} or against_singular_values and (planar or rows)"] if kind == "index" else ["-k", "rates"]
+    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen, *picked)
+    assert code == 0, told
