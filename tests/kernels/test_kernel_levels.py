@@ -117,6 +117,36 @@ def test_vast_programs_stay_as_they_are(fresh, monkeypatch, rng):
     assert kernel._compiled.level == 0
 
 
+def test_a_thread_of_the_pool_makes_better_code_itself(fresh, threads, monkeypatch, rng):
+    """Every processor is busy there; in the background all rows of the meantime would be computed by the quick code."""
+    monkeypatch.setattr(compiled, "WORTH", 1000)
+    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    threads(2)
+    x, y = long_function(60)
+    kernel = Kernel("long", [x], [y])
+    rows = rng.normal(size=(1024, 9))
+    monkeypatch.setattr(compiled, "_in_background", lambda job: pytest.fail("left to the background"))
+    first = pool().submit(kernel.rows, rows).result()
+    assert kernel._compiled.level == 1
+    np.testing.assert_array_equal(kernel.rows(rows), first)
+
+
+def test_a_thread_of_the_pool_does_not_wait_for_other_code(fresh, threads, monkeypatch, rng):
+    """What is being compiled may need what that thread makes."""
+    monkeypatch.setattr(compiled, "WORTH", 1000)
+    monkeypatch.setattr(compiled, "AT_ONCE", 500)
+    threads(2)
+    x, y = long_function(60)
+    kernel = Kernel("long", [x], [y])
+    rows = rng.normal(size=(1024, 9))
+    with compiled._busy:
+        first = pool().submit(kernel.rows, rows).result(timeout=120)
+        assert kernel._compiled.level == 0
+    settle()
+    assert kernel._compiled.level == 1
+    np.testing.assert_array_equal(kernel.rows(rows), first)
+
+
 def test_a_short_program_is_compiled_well_at_once(fresh):
     x = ca.SX.sym("x")
     assert Kernel("short", [x], [ca.sin(x)])._compiled.level == 1

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from holdfast.kernels import Kernel
 from holdfast.teleop.drive import Computer, Operator, Recorded, Rules, drive
 from holdfast.teleop.measures import cpm, measures
 from holdfast.teleop.plant import Plant
@@ -89,6 +90,19 @@ def test_one_cycle_is_ten_euler_steps_of_the_law(arm, rng):
     alone = [plant.cycle(*row) for row in zip(q, v, healthy, strict=True)]
     np.testing.assert_array_equal([a for a, _ in alone], after)
     np.testing.assert_array_equal([a for _, a in alone], actual)
+
+
+def test_code_for_single_cycles_is_made_when_one_is_asked_for(arm, monkeypatch):
+    """Batches do without it: simulated operators, and what is read from records."""
+    made = []
+    single = Kernel.single
+    monkeypatch.setattr(Kernel, "single", lambda kernel: made.append(kernel) or single(kernel))
+    plant = Plant(hf.control.pseudoinverse(arm, "planar"))
+    plant.cycles(np.full((2, 3), 0.3), np.zeros((2, 2)), np.ones((2, 3)))
+    assert made == []
+    for _ in range(2):
+        plant.cycle(np.full(3, 0.3), np.zeros(2), np.ones(3))
+    assert len(made) == 1
 
 
 def test_singular_arm_stands(plants):

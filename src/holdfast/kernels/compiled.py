@@ -22,16 +22,18 @@ from holdfast.kept import cached_property
 from holdfast.kernels import cache, llvm_backend
 from holdfast.kernels.llvm_ir import Machine
 from holdfast.kernels.program import Program
+from holdfast.kernels.threads import in_pool
 
 Array = NDArray[np.float64]
 
-AT_ONCE = 1500  # operations that level 1 compiles in less than a tenth of a second
+AT_ONCE = 100  # operations that level 1 compiles in some 15 ms, hardly longer than level 0
 WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
 LONG = 40_000  # operations: nobody waits for level 1 of more
 VAST = 100_000  # operations: level 1 of more takes minutes (measured: 6 s of 74,000, not done after 250 s of 582,000)
-# Rows after which level 1 is compiled, whatever the size of the program. It repays that after some 1,000,000 (measured); at a
-# quarter of them a long batch takes little longer than if it had been compiled beforehand, and a short one wastes little.
-WORTH = 250_000
+# Rows after which level 1 is compiled, whatever the size of the program. It repays that after 1,200,000 to 5,000,000
+# (measured: steps of an ascent, of a closed loop, of a control cycle); well below, a long batch takes little longer than if it
+# had been compiled beforehand, and a short one wastes nothing.
+WORTH = 750_000
 
 
 class Compiled:
@@ -80,7 +82,14 @@ class Compiled:
         self._rows += rows
         if self._rows >= WORTH and self._program.size <= VAST:
             self._rows = -(1 << 62)  # asked once
-            _in_background(self._improve)
+            if in_pool() and _busy.acquire(blocking=False):
+                # Every processor is busy: beside one thread more, the others would only be longer on level 0.
+                try:
+                    self._improve()
+                finally:
+                    _busy.release()
+            else:
+                _in_background(self._improve)
 
     def _improve(self) -> None:
         self._code, self.level = self._stored(1) or self._make(1, aside=True), 1
@@ -107,7 +116,7 @@ class Compiled:
 
 _jobs: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
 _worker: threading.Thread | None = None
-_busy = threading.RLock()  # held while a job runs, during a fork, and from the end of the program on, when it may still fork
+_busy = threading.RLock()  # held while code improves, in a fork, and from the end of the program on, when it may still fork
 _fork = contextlib.ExitStack()  # what the fork under way holds of LLVM
 
 

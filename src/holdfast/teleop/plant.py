@@ -12,7 +12,8 @@ from holdfast.arm import kinematics
 from holdfast.arm.task import Task
 from holdfast.control.law import Law
 from holdfast.errors import InputError, TaskError
-from holdfast.kernels import Kernel, recalled, recalled_data
+from holdfast.kept import cached_property
+from holdfast.kernels import Kernel, Single, recalled, recalled_data
 
 Array = NDArray[np.float64]
 
@@ -53,11 +54,16 @@ class Plant:
         self.n, self.m = law.arm.n, law.task.m
         self._calls = _calls(law, substeps)
         self._kernel = _part_of_a_cycle(law, substeps, substeps // self._calls)
-        self._single = self._kernel.single()
         self._buffer = np.zeros(2 * self.n + self.m)
+
+    @cached_property
+    def _single(self) -> Single:
+        return self._kernel.single()
 
     def cycle(self, q: Array, velocity: Array, healthy: Array) -> tuple[Array, Array]:
         """One cycle of one arm, without checks: for a control loop, and not for several threads at once.
+
+        The first call compiles, which takes up to a second the first time and milliseconds later.
 
         Args:
             q: (n,) configuration, rad and m.
