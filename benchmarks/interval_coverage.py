@@ -12,9 +12,9 @@ from itertools import groupby
 
 import numpy as np
 
-from holdfast.assess import Distribution
-from holdfast.design.search import _checked as guaranteed
-from holdfast.interval import Difference, Interval
+from holdfast.designs.search import _checked as guaranteed
+from holdfast.probability import Distribution
+from holdfast.probability.intervals import Difference, Interval
 
 NOMINAL = 0.95
 STUDIES = 2000

@@ -24,7 +24,7 @@ def pinocchio():
     """The Pinocchio model of the URDF file that holdfast reads too, its data, and the id of the tool frame."""
     import pinocchio as pin
 
-    from holdfast.arm.builtin import DATA
+    from holdfast.arms.builtin import DATA
 
     full = pin.buildModelFromUrdf(str(DATA.joinpath("panda.urdf")))
     fingers = [full.getJointId(name) for name in full.names if "finger" in name]

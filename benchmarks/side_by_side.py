@@ -106,8 +106,8 @@ WORK = {
         10_000,
     ),
     "W11 numbers of the studio's page, Panda (no browser)": (
-        "from holdfast.arm.task import as_task\nfrom holdfast.studio.bars import bars_html, losses_html\n"
-        "from holdfast.studio.machine import Machine\n"
+        "from holdfast.arm.task import as_task\nfrom holdfast.studio.scene.bars import bars_html, losses_html\n"
+        "from holdfast.studio.scene.machine import Machine\n"
         "arm = hf.arms.load('panda'); m = Machine(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
         "def page(x):\n"
         "    m.frames(x); found = m.read(x, (), 'relative-manipulability', 'torque')\n"

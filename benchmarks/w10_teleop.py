@@ -104,7 +104,8 @@ def eleven(q: np.ndarray, x: np.ndarray, v: np.ndarray, a: np.ndarray, target: n
 
 def bank(chosen: argparse.Namespace) -> str:
     from holdfast import arms
-    from holdfast.teleop import SCENARIOS, TaskBank, random_tasks, run
+    from holdfast.teleop.bank import TaskBank, random_tasks, run
+    from holdfast.teleop.trials import SCENARIOS
 
     each, few = (20, 2) if chosen.quick else (400, 10)
     arm = arms.load("planar-3r")
@@ -161,7 +162,9 @@ def bank(chosen: argparse.Namespace) -> str:
 
 
 def experiment(chosen: argparse.Namespace) -> str:
-    from holdfast.teleop import Kind, read_protocol, replay, simulate_experiment
+    from holdfast.teleop import simulate_experiment
+    from holdfast.teleop.protocol import read_protocol
+    from holdfast.teleop.records import Kind, replay
 
     protocol = read_protocol()
     people = 2 if chosen.quick else 24
@@ -188,7 +191,7 @@ def experiment(chosen: argparse.Namespace) -> str:
 
 
 def one_cycle(chosen: argparse.Namespace) -> str:
-    from holdfast.teleop import read_protocol
+    from holdfast.teleop.protocol import read_protocol
 
     calls = 100 if chosen.quick else chosen.calls
     protocol = read_protocol()

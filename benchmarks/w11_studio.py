@@ -66,7 +66,7 @@ def first_pictures(arm: str, browser, drawn: bool) -> list[float]:
 
 def live(machine, q, seconds: float) -> float:
     """Updates per second of the numbers alone: frames, both bars, ellipsoids, losses."""
-    from holdfast.studio.bars import bars_html, losses_html
+    from holdfast.studio.scene.bars import bars_html, losses_html
 
     names, healthy, count, end = machine.arm.joint_names, ("healthy",) * machine.arm.n, 0, time.perf_counter() + seconds
     while time.perf_counter() < end:

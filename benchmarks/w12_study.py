@@ -46,7 +46,7 @@ def study(folder: Path, chunks: int, chunk: int):
 
 def timed(folder: Path, asked, runner, stop=None, part=(1, 1)) -> np.ndarray:
     """Seconds by the clock, of the processor for this thread, and taken by others on the machine."""
-    from holdfast.study import Study
+    from holdfast.engine import Study
 
     s = Study.create(folder, asked.name, asked.seed, asked.cells, asked.text)
     begin = now()
@@ -72,8 +72,8 @@ def warm(folder: Path, asked, runner) -> None:
 
 
 def threads(count: int):
+    from holdfast.engine import Threads
     from holdfast.kernels import pool, set_threads
-    from holdfast.study import Threads
 
     set_threads(count)
     return Threads(count, pool())
@@ -135,8 +135,8 @@ def together(programs: int, chunk: int, seconds: float) -> float:
 
 def status(folder: Path, chunks: int) -> float:
     """Seconds of the question how far a study with so many chunks is."""
-    from holdfast.study import Study
-    from holdfast.study.journal import Entry, line
+    from holdfast.engine import Study
+    from holdfast.engine.journal import Entry, line
 
     asked = study(folder, chunks, 1)
     s = Study.create(folder / "many", asked.name, asked.seed, asked.cells, asked.text)
@@ -159,7 +159,7 @@ def say(what: str, value: str) -> None:
 
 def dask(folder: Path, asked, rounds: int) -> None:
     """What one worker process costs, and what two gain. Apart from the rest: its client keeps a thread of this program busy."""
-    from holdfast.study import Cluster
+    from holdfast.engine import Cluster
 
     threads(1)
     with Cluster("local:1") as one, Cluster("local:2") as two:

@@ -21,16 +21,16 @@ Result = tuple[np.ndarray, np.ndarray]  # values (D, P) and gradients (D, P, k)
 
 def designs(count: int) -> np.ndarray:
     """Designs (D, k) spread over the bounds."""
-    from holdfast.design import design_space
+    from holdfast.designs import design_space
 
     return design_space(pa10.ours(), VARY).draw(count, 3)
 
 
 def holdfast(poses: np.ndarray) -> Callable[[np.ndarray], Result]:
-    from holdfast.design import design_space
-    from holdfast.design.evaluate import Evaluator
-    from holdfast.design.family import Family
-    from holdfast.design.gradient import sensitivity
+    from holdfast.designs import design_space
+    from holdfast.designs.evaluation import Evaluator
+    from holdfast.designs.family import Family
+    from holdfast.designs.gradient import sensitivity
 
     evaluate = Evaluator(Family(design_space(pa10.ours(), VARY)), poses)
 

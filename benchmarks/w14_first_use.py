@@ -122,7 +122,7 @@ def name_of(command: str) -> str:
 
 def prepare(command: str, folder: Path, candidate: Candidate, cache: Path) -> None:
     """The files that the command reads."""
-    robot = (HERE / "src/holdfast/arm/data/panda.urdf").read_text()
+    robot = (HERE / "src/holdfast/arms/data/panda.urdf").read_text()
     for old, new in (("panda_link0", "base_link"), ("panda_hand_tcp", "tool0")):
         robot = robot.replace(f'"{old}"', f'"{new}"')
     name = name_of(command)

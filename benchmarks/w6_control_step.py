@@ -41,7 +41,7 @@ class Peer:
 
 def law(**options):
     from holdfast import susceptibility
-    from holdfast.control import GradientProjection
+    from holdfast.motion import GradientProjection
 
     arm = panda.ours()
     return GradientProjection(arm, susceptibility.torque(arm, weights="effort"), gain=GAIN, **options)

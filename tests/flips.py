@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.teleop.entries import Kind
-from holdfast.teleop.protocol import Training, read_protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.session import Session
-from holdfast.teleop.trials import End
-from holdfast.teleop.verify import verify
+from holdfast.teleop.protocol.protocol import Training, read_protocol
+from holdfast.teleop.records.entries import Kind
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.session import Session
+from holdfast.teleop.records.verification import verify
+from holdfast.teleop.trials.recordings import End
 
 
 @dataclass

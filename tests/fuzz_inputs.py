@@ -404,20 +404,21 @@ MOTION = b"time_s,joint1_rad,joint2_rad,joint3_rad\n0,0.1,0.2,0.3\n0.5,0.2,0.3,0
 def kinds(root: Path) -> dict[str, Kind]:
     """Everything that is read, set up in a folder."""
     import holdfast as hf
-    from holdfast import arms, study, teleop
-    from holdfast.arm.serial import to_dict
-    from holdfast.assess.assess import load
-    from holdfast.assess.poses import PoseList
+    from holdfast import arms, teleop
+    from holdfast import engine as study
+    from holdfast.arms.serial import to_dict
+    from holdfast.assessment.assessment import load
     from holdfast.clearance import Capsules
     from holdfast.cli.options import read_weights
-    from holdfast.converge.recover_waypoints import read_waypoints
-    from holdfast.design.memory import Memory
+    from holdfast.designs.memory import Memory
+    from holdfast.engine import Threads
     from holdfast.paths.path_file import pose_table
     from holdfast.paths.path_file import read as read_path
+    from holdfast.recovery.waypoints import read_waypoints
+    from holdfast.regions.pose_list import PoseList
     from holdfast.studies import read as read_study
     from holdfast.studies.results import assessed
     from holdfast.studio.motions import read_motion
-    from holdfast.study import Threads
     from holdfast.teleop.serve import texts
 
     def arm_of(path: Path) -> object:

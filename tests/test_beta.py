@@ -7,8 +7,8 @@ import pytest
 from scipy.special import betaincinv
 from scipy.stats import beta
 
-from holdfast.beta import quantile
-from holdfast.interval import Interval
+from holdfast.probability.beta import quantile
+from holdfast.probability.intervals import Interval
 
 
 @pytest.mark.parametrize("largest", [10, 1e3, 1e6, 1e8])

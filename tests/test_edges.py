@@ -11,7 +11,7 @@ from holdfast.failures import failure_sets
 from holdfast.indices import CustomIndex, by_name
 from holdfast.kernels import Kernel, Loop
 from holdfast.registry import INDICES
-from holdfast.solve import solve_ik, solver
+from holdfast.solvers import solve_ik, solver
 
 
 @pytest.fixture(scope="module")

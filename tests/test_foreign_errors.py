@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.arm.builtin import DATA
+from holdfast.arms.builtin import DATA
 
 NAN, INF = float("nan"), float("inf")
 SPOILT: list[Any] = [
@@ -211,12 +211,12 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "control.weighted": (hf.control.weighted, {**at_planar, "weights": [1, 1, 1], "gain": 1.0}),
         "control.failure_tolerant": (hf.control.failure_tolerant, {**at_planar, "pre_failure_error": 0.5}),
         "control.GradientProjection": (
-            hf.control.GradientProjection,
+            hf.motion.GradientProjection,
             {**at_planar, "objective": index, "gain": 1.0, "rate_cap": 1.0} | {"period": 0.01},
         ),
         "control.trade_off": (hf.control.trade_off, {**at_planar, "samples": 5, "allowed": [0.0, 0.5], "seed": 0}),
         "control.slow_enough": (
-            hf.control.slow_enough,
+            hf.motion.slow_enough,
             {"arm": arm, "q": [q] * 3, "qd": [q] * 3, "qdd": [q] * 3, "bound": 100.0},
         ),
         "law.velocity": (law.velocity, {"q": q, "v": [0.1, 0]}),

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from holdfast.interval import Difference, Interval
+from holdfast.probability.intervals import Difference, Interval
 
 
 def pairs(both, lost, won, neither):

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from holdfast.assess import Distribution
-from holdfast.interval import ORDERS, Difference, Interval, _Gambler
+from holdfast.probability import Distribution
+from holdfast.probability.intervals import ORDERS, Difference, Interval, _Gambler
 
 LEAST = 0.94  # of a nominal 0.95
 

@@ -69,6 +69,6 @@ def test_what_there_is_not():
 
 
 def test_modules_of_the_package_are_there_without_an_import():
-    code = "import holdfast as hf; print(hf.converge.orbit.__name__, hf.errors.ArmError is hf.ArmError, 'assess' in dir(hf))"
+    code = "import holdfast as hf; print(hf.equilibria.orbit.__name__, hf.errors.ArmError is hf.ArmError, 'assess' in dir(hf))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "orbit True True\n"

@@ -9,7 +9,7 @@ from papers.stuck_panda import study
 from papers.tolerant_workspace import __main__ as tolerant
 
 import holdfast as hf
-from holdfast.converge import Kind, orbit
+from holdfast.equilibria import Kind, orbit
 
 
 def family(degrees, folded, sign, x):

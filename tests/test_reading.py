@@ -9,15 +9,16 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast import arms, reading
-from holdfast.arm.joint_table import read_joint_table
-from holdfast.assess.poses import PoseList
+from holdfast import arms
 from holdfast.clearance import Capsules
 from holdfast.cli.options import read_weights
+from holdfast.engine import Store, Study
+from holdfast.files import reading
 from holdfast.paths import path_file
+from holdfast.paths.joint_table import read_joint_table
+from holdfast.regions.pose_list import PoseList
 from holdfast.studies import study_file
-from holdfast.study import Store, Study
-from holdfast.teleop import protocol
+from holdfast.teleop.protocol import protocol
 from holdfast.teleop.serve import texts
 
 FLAT = arms.load("planar-2r")

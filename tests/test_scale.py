@@ -12,13 +12,13 @@ import oracles
 from holdfast.arm.scale import length_unit
 from holdfast.arm.task import as_task
 from holdfast.control import Damped, Pseudoinverse
-from holdfast.converge.recover_bounds import out_of_reach
-from holdfast.design import design_space
-from holdfast.design.evaluate import Evaluator
-from holdfast.design.family import Family
-from holdfast.simulate import Outcome, simulate
-from holdfast.simulate.healthy_cost import healthy_cost
-from holdfast.solve import solve_ik
+from holdfast.convergence.detours import healthy_cost
+from holdfast.designs import design_space
+from holdfast.designs.evaluation import Evaluator
+from holdfast.designs.family import Family
+from holdfast.recovery.bounds import out_of_reach
+from holdfast.simulation import Outcome, simulate
+from holdfast.solvers import solve_ik
 
 # A power of two rounds nothing: such a copy does the same to the last bit. The others are 1 mm and 1 km exactly.
 EXACT, ROUNDED = [2.0**-10, 2.0**10], [1e-3, 1e3]

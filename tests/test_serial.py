@@ -10,7 +10,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.arm.serial import from_dict, to_dict
+from holdfast.arms.serial import from_dict, to_dict
 from holdfast.errors import ArmError
 
 

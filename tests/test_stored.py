@@ -15,11 +15,12 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms, control
-from holdfast.converge import read_waypoints
+from holdfast.engine import Study, Threads
+from holdfast.recovery import read_waypoints
 from holdfast.studies import read
 from holdfast.studies.results import assessed, driven
-from holdfast.study import Study, Threads
-from holdfast.teleop import End, Records
+from holdfast.teleop.records import Records
+from holdfast.teleop.trials import End
 
 STORED = Path(__file__).with_name("stored")
 _spec = importlib.util.spec_from_file_location("make_stored", STORED / "make.py")

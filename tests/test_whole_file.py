@@ -10,12 +10,12 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.converge.recover_waypoints import write_waypoints
+from holdfast.files.output import replaced, writing
+from holdfast.recovery.waypoints import write_waypoints
 from holdfast.report.figures import save_png
 from holdfast.studies import template
-from holdfast.teleop import protocol
+from holdfast.teleop.protocol import protocol
 from holdfast.teleop.serve import texts
-from holdfast.whole_file import replaced, writing
 from holdfast.written import ArmSpec
 
 

@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from holdfast import InputError
-from holdfast.yaml_file import parse
+from holdfast.files.yaml import parse
 
 TRIPS = {
     "a day that is none": "a: 2026-02-30",

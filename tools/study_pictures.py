@@ -24,8 +24,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 import chromium  # noqa: E402
 from browser.conftest import Served, command_line  # noqa: E402
 from browser.station import OPERATOR, Station  # noqa: E402
-from holdfast.teleop.experiment import simulate_experiment  # noqa: E402
-from holdfast.teleop.protocol import Training, read_protocol  # noqa: E402
+from holdfast.teleop.protocol.protocol import Training, read_protocol  # noqa: E402
+from holdfast.teleop.rehearsal import simulate_experiment  # noqa: E402
 
 
 def keep(page: Page, name: str) -> None:

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import holdfast as hf
-from holdfast.assess import explain, structure, structures
+from holdfast.assessment import explain, structure, structures
 
 for name in ("pa10-7dof", "panda"):
     arm = hf.arms.load(name)

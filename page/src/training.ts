@@ -1,4 +1,4 @@
-/** When a subject has practised enough: `holdfast.teleop.Training`. */
+/** When a subject has practised enough: `holdfast.teleop.protocol.Training`. */
 
 export interface Criterion {
   at_least: number;

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from scipy import stats
 
 import holdfast as hf
-from holdfast.assess import structure
-from holdfast.assess.facts import joint_positions
-from holdfast.assess.region import builtin_region
+from holdfast.assessment import structure
+from holdfast.present.assessment.facts import joint_positions
+from holdfast.regions.region import builtin_region
 from holdfast.report import Scale, Scene, View, view_figure
 from holdfast.report.figures import style
 from papers.claims import Claim, Verdict, table

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.assess.region import builtin_region
+from holdfast.regions.region import builtin_region
 from holdfast.report import figures
 from holdfast.report.figures import Curve
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.report.figures import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, finished, save_png, style
-from holdfast.solve import self_motion
+from holdfast.solvers import self_motion
 from papers.english1998.hardware import DURATION as HARDWARE_DURATION
 from papers.english1998.hardware import SCALES, Hardware
 from papers.english1998.planar import DURATION, Extremes, Global, Planar, pose

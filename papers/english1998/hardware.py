@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.kept import cached_property
+from holdfast.caching import cached_property
 from holdfast.paths import TimedPath, Trapezoid, line
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.indices.susceptibility import Susceptibility
-from holdfast.solve import fibres
+from holdfast.solvers import fibres
 
 Array = NDArray[np.float64]
 

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.arm.configurations import without_limits
 from holdfast.arm.task import as_task
-from holdfast.control.events import Curvature
+from holdfast.caching import cached_property
 from holdfast.indices.susceptibility import Susceptibility
-from holdfast.kept import cached_property
+from holdfast.motion.events import Curvature
 from holdfast.paths import Constant, TimedPath, line
-from holdfast.solve import fibres, self_motion
-from holdfast.solve.fibre_path import best_path_over
+from holdfast.solvers import fibres, self_motion
+from holdfast.solvers.fibre_paths import best_path_over
 
 Array = NDArray[np.float64]
 

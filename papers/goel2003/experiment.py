@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.teleop.analysis import Analysis, analyse
-from holdfast.teleop.entries import Kind
-from holdfast.teleop.experiment import simulate_experiment
-from holdfast.teleop.protocol import Protocol, read_protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.replay import replay
-from holdfast.teleop.selection import Binning, binning
-from holdfast.teleop.tables import computer_table, hand_paths, trial_table
-from holdfast.teleop.tasks import TaskBank, task_bank
+from holdfast.teleop.bank.selection import Binning, binning
+from holdfast.teleop.bank.tasks import TaskBank, task_bank
+from holdfast.teleop.protocol.protocol import Protocol, read_protocol
+from holdfast.teleop.records.check import replay
+from holdfast.teleop.records.entries import Kind
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.tables import computer_table, hand_paths, trial_table
+from holdfast.teleop.rehearsal import simulate_experiment
 from papers.claims import Claim, Verdict
 from papers.part import Part
 
@@ -185,7 +185,7 @@ def study() -> Study:
 
 def shown(a: Analysis) -> dict[str, int]:
     """The middle task, by number, of each group: those that Figs 5 to 7 show."""
-    from holdfast.teleop.analysis.report import middle_tasks
+    from holdfast.present.teleop.page import middle_tasks
 
     return dict(zip(a.groups.names, middle_tasks(a), strict=True))
 

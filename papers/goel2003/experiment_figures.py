@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
+from holdfast.present.teleop import figures
+from holdfast.present.teleop.bank import bank_figure
+from holdfast.present.teleop.motions import Motion, motions_figure, ring
 from holdfast.report.figures import SOFT, save_png, style
-from holdfast.teleop.analysis import Analysis, figures
-from holdfast.teleop.analysis.motions import Motion, motions_figure, ring
-from holdfast.teleop.analysis.observed import NAMES
+from holdfast.teleop.analysis import Analysis
+from holdfast.teleop.analysis.observations import NAMES
 from holdfast.teleop.analysis.tables import median_operator
-from holdfast.teleop.bank_figure import bank_figure
-from holdfast.teleop.selection import Binning
-from holdfast.teleop.tasks import TaskBank
+from holdfast.teleop.bank.selection import Binning
+from holdfast.teleop.bank.tasks import TaskBank
 
 if TYPE_CHECKING:
     from papers.goel2003.experiment import Study

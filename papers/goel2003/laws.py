@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 import holdfast as hf
 from holdfast.arm.task import as_task
 from holdfast.control import FailureTolerant, trade_off
-from holdfast.interval import Interval
+from holdfast.probability.intervals import Interval
 from papers.claims import Claim, Verdict
 from papers.goel2003.peak_error import PeakError
 from papers.numbers import beside

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.report.figures import save_png, style
+from holdfast.report.palette import BLUE, INK, ORANGE, SOFT
 
 Array = NDArray[np.float64]
 

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.design import DesignJoints, LawOfDesigns, PlanarRest, design_space
-from holdfast.design.convergence import planar_measures
+from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_space
+from holdfast.designs.convergence import planar_measures
 from papers.goel2005.three_links import law
 
 Array = NDArray[np.float64]
@@ -238,7 +238,7 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "limit cycles, of which one is known for the paper's arm, in windows of a few tenths of a degree.",
         "",
     ]
-    from holdfast.whole_file import replaced
+    from holdfast.files.output import replaced
 
     replaced(folder / "DESIGNS.md", "\n".join(lines))
     say(f"{time.process_time() - begin:.0f} s of processor time")

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.converge.figures import self_motion_picture
+from holdfast.present.reach.figures import self_motion_picture
 from holdfast.report.figures import save_png
-from holdfast.solve.self_motion import SelfMotion
+from holdfast.solvers.self_motions import SelfMotion
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import TARGET, law
 from papers.numbers import beside

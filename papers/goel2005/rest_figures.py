@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from holdfast.converge import Curve, Curves
+from holdfast.equilibria import Curve, Curves
+from holdfast.report.curves import KINDS
 from holdfast.report.figures import INK, WIDTH, finished, save_png, style
-from holdfast.report.rest_figures import KINDS
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 

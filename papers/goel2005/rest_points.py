@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.converge import Basins, Curves, Kind
-from holdfast.converge.pictures import basins_figure
+from holdfast.equilibria import Basins, Curves, Kind
+from holdfast.present.equilibria.figures import basins_figure
 from holdfast.report.figures import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import TARGET, away, law, wrapped

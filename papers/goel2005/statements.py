@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.converge import Kind, RestPoints, orbit
+from holdfast.equilibria import Kind, RestPoints, orbit
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import law
 from papers.numbers import beside

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
 from holdfast.arm.configurations import without_limits
-from holdfast.converge.starts import configurations_at, read_places
+from holdfast.convergence.places import configurations_at, read_places
 from papers.claims import Claim, Verdict
 from papers.numbers import beside
 from papers.part import Part

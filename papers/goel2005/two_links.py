@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.simulate import Path
+from holdfast.simulation import Path
 from papers.claims import Claim, Verdict
 from papers.numbers import beside
 from papers.part import Part

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.interval import Interval
+from holdfast.probability.intervals import Interval
 from holdfast.report.figures import Curve, Mark, compare_cdf_figure, save_png
 from papers.physics_check.motions import ARRIVED, LIMIT, MOTIONS, RATE, SEED, SPREAD, Row, Setting, runs
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import holdfast as hf
-from holdfast.simulate import PhysicalRun
+from holdfast.physics import PhysicalRun
 
 SEED = 1
 MOTIONS = 4  # for each arm, task and locked joint

@@ -11,7 +11,7 @@ import numpy as np
 
 from holdfast.report.figures import save_png
 from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
-from holdfast.report.words import percent
+from holdfast.words import percent
 from papers.seven_dof.study import ARMS, COSTS, DAMPING, PRE_FAILURE, SEED, TASKS, TIME_LIMIT, part
 
 HERE = Path(__file__).parent

@@ -12,10 +12,10 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 import holdfast as hf
+from holdfast.report.curves import KINDS
 from holdfast.report.figures import INK, WIDTH, finished, save_png, style
 from holdfast.report.outcomes import Stack, stack_figure
-from holdfast.report.place_maps import binned, place_maps
-from holdfast.report.rest_figures import KINDS
+from holdfast.report.places import binned, place_maps
 from papers.stuck_panda.study import ELBOW, SHOWN, Elbow, arm
 
 Array = NDArray[np.float64]

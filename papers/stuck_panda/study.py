@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 import holdfast as hf
 from holdfast.arm.configurations import without_limits
 from holdfast.control import Law
-from holdfast.converge import Kind, RestPoints
-from holdfast.converge.rest_system import idle_joints
-from holdfast.simulate import Outcome, Reason
-from holdfast.solve import joint_space
+from holdfast.equilibria import Kind, RestPoints
+from holdfast.equilibria.system import idle_joints
+from holdfast.simulation import Outcome, Reason
+from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
 

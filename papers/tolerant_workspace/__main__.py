@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.converge import TolerantWorkspace, tolerant_planar
-from holdfast.converge.figures import region_picture
-from holdfast.converge.tolerant_planar import ThreeLinks
+from holdfast.present.reach.figures import region_picture
+from holdfast.reach import TolerantWorkspace
+from holdfast.reach import closed_form as tolerant_planar
+from holdfast.reach.closed_form import ThreeLinks
 from holdfast.report.figures import save_png
 
 HERE = Path(__file__).parent
@@ -105,7 +106,7 @@ def results(found: Sequence[Best], region: TolerantWorkspace) -> list[str]:
         "",
         "Both use the same closed form of the area; that one is checked against sampled inverse kinematics and a scan of "
         "angles in "
-        "`tests/converge/test_tolerant_workspace.py`.",
+        "`tests/convergence/test_tolerant_workspace.py`.",
         "",
         "![The region](region.png)",
         "",

@@ -7,7 +7,6 @@ import sys
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 _OFFERED = re.compile(r"^from ([\w.]+) import (\w+) as \2$", re.MULTILINE)
@@ -17,8 +16,8 @@ def offer(package: str) -> None:
     """Let a package offer its modules and the names that its stub ``__init__.pyi`` re-exports.
 
     The stub, a line ``from MODULE import NAME as NAME`` for each, is the only list of what a package offers: type checkers
-    and editors read it too. A function keeps its name when the module that is called like it (``assess``) is imported:
-    Python would put the module in its place.
+    and editors read it too. No module has the name of something that its package offers, because Python would put the module
+    in its place (``make house`` counts them).
 
     Args:
         package: Its ``__name__``.
@@ -26,28 +25,17 @@ def offer(package: str) -> None:
     module = sys.modules[package]
     stub = Path(str(module.__file__)).with_suffix(".pyi").read_text(encoding="utf-8")
     homes = {name: home for home, name in _OFFERED.findall(stub)}
-    module.__dict__.update(_homes=homes, __all__=sorted(homes))
-    module.__class__ = _Lazy
 
-
-class _Lazy(ModuleType):
-    _homes: dict[str, str]
-
-    def __getattr__(self, name: str) -> Any:
-        home = self._homes.get(name, self.__name__)
-        if home != self.__name__:
+    def get(name: str) -> Any:
+        home = homes.get(name, package)
+        if home != package:
             value = getattr(import_module(home), name)
         elif not name.startswith("_") and find_spec(f"{home}.{name}") is not None:
             value = import_module(f"{home}.{name}")
         else:
-            raise AttributeError(f"module '{home}' has no attribute '{name}'")
-        setattr(self, name, value)
+            raise AttributeError(f"module '{package}' has no attribute '{name}'")
+        setattr(module, name, value)
         return value
 
-    def __setattr__(self, name: str, value: object) -> None:
-        taken = name in self._homes and isinstance(value, ModuleType) and value.__name__ == f"{self.__name__}.{name}"
-        if not taken or self._homes[name] == self.__name__:
-            super().__setattr__(name, value)
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self.__all__})
+    names = {*homes, *vars(module)}
+    vars(module).update(__all__=sorted(homes), __getattr__=get, __dir__=lambda: sorted({*vars(module), *names}))

@@ -11,7 +11,7 @@ from itertools import combinations
 
 import casadi as ca
 
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 
 Vector = list[SX]
 

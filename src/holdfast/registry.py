@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from holdfast import grammar
-from holdfast.checked import checked
+from holdfast.arguments import checked
+from holdfast.caching import cached_property
 from holdfast.errors import HoldfastError, InputError, TaskError
-from holdfast.kept import cached_property
 
 P = ParamSpec("P")
 T = TypeVar("T")

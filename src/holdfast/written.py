@@ -14,7 +14,7 @@ from holdfast.errors import InputError
 from holdfast.grammar import is_number
 
 if TYPE_CHECKING:
-    from holdfast.arm import Arm
+    from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.failures import FailureSpec
 

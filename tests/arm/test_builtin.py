@@ -14,8 +14,8 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from holdfast import arms
-from holdfast.arm.builtin import DATA
 from holdfast.arm.task import as_task
+from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError
 
 PROVENANCE = yaml.safe_load(DATA.joinpath("provenance.yaml").read_text())

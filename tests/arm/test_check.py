@@ -10,8 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from holdfast import arms
-from holdfast.arm.check import check, require_inertia
 from holdfast.arm.model import Arm, Joint, Link
+from holdfast.arm.soundness import check, require_inertia
 from holdfast.errors import ArmError
 
 JOINT = Joint("elbow", "revolute", np.eye(4), np.array([0, 0, 1.0]), -1, 1, velocity=2, effort=3)

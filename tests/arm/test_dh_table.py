@@ -15,9 +15,9 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.arm.builtin import DATA
-from holdfast.arm.dh_table import dh_table
-from holdfast.arm.table import text
+from holdfast.arms.builtin import DATA
+from holdfast.arms.dh_file import text
+from holdfast.arms.dh_rows import dh_table
 
 
 def same(arm: hf.Arm, rng: np.random.Generator, tolerance: float = 1e-12) -> None:

@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.arm.builtin import DATA
 from holdfast.arm.dh import DH
 from holdfast.arm.model import Arm, Joint, Link, joint_list
+from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError, InputError
 
 

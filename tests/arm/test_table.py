@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from holdfast.arm import table
 from holdfast.arm.dh import DH
 from holdfast.arm.model import Arm, Link
+from holdfast.arms import dh_file as table
 from holdfast.errors import ArmError
 
 

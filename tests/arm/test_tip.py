@@ -11,7 +11,7 @@ import yourdfpy
 from test_urdf import joint, link
 
 import holdfast as hf
-from holdfast.arm.builtin import DATA
+from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError
 
 SLIDE = "<axis xyz='0 1 0'/><limit lower='0' upper='0.02' velocity='1' effort='10'/>"

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from holdfast.arm import urdf
-from holdfast.arm.builtin import DATA
 from holdfast.arm.model import Arm
+from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError
 
 # name, base, tip; the tips are not those of the built-in arms only

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.teleop.entries import Entry
-from holdfast.teleop.records import Records
-from holdfast.teleop.replay import replay
+from holdfast.teleop.records.check import replay
+from holdfast.teleop.records.entries import Entry
+from holdfast.teleop.records.records import Records
 
 ENDS = {"arrived": "ARRIVED", "aborted": "ABORTED", "time": "TIME", "broken-off": "BROKEN_OFF"}
 

@@ -16,9 +16,9 @@ import pytest
 import chromium
 from browser.line import Line
 from browser.station import OPERATOR
-from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.protocol import Protocol, Training, read_protocol
-from holdfast.teleop.stick import Stick
+from holdfast.teleop.protocol.protocol import Protocol, Training, read_protocol
+from holdfast.teleop.trials.scenarios import Scenario
+from holdfast.teleop.trials.stick import Stick
 
 
 # Not for the whole session: Playwright keeps an event loop running, and other tests begin their own.

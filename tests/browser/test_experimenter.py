@@ -7,11 +7,11 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 
-from holdfast.teleop.entries import State
-from holdfast.teleop.experiment import simulate_experiment
-from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.protocol import Training, read_protocol
-from holdfast.teleop.records import Records
+from holdfast.teleop.protocol.protocol import Training, read_protocol
+from holdfast.teleop.records.entries import State
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.rehearsal import simulate_experiment
+from holdfast.teleop.trials.scenarios import Scenario
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,8 @@ import pytest
 
 from browser.compare import compare
 from browser.station import Station
-from holdfast.teleop.entries import State, Who
-from holdfast.teleop.records import Records
+from holdfast.teleop.records.entries import State, Who
+from holdfast.teleop.records.records import Records
 
 OUTAGE = float(os.environ.get("HOLDFAST_OUTAGE", "2"))  # s; make soak has 30
 

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from holdfast.cli.app import main
+from holdfast.cli.program import main
 from holdfast.kernels import set_threads
 
 

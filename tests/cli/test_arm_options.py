@@ -10,7 +10,7 @@ import pytest
 import yourdfpy
 
 import holdfast as hf
-from holdfast.arm.builtin import DATA
+from holdfast.arms.builtin import DATA
 from holdfast.written import ArmSpec, each_arm
 
 IIWA, PANDA = str(DATA.joinpath("iiwa14.urdf")), str(DATA.joinpath("panda.urdf"))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.cli.law_options import read_law
+from holdfast.cli.laws import read_law
 
 CALL = ["compare", "planar-3r", "--law", "pseudoinverse", "--law", "damped:0.3", "--time-limit", "100"]
 

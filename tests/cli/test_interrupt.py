@@ -69,7 +69,7 @@ def ended(before, command=COMMAND):
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize("module", ["holdfast.cli.app", "typer", "numpy", "holdfast.cli.options", "casadi", "rich.table"])
+@pytest.mark.parametrize("module", ["holdfast.cli.program", "typer", "numpy", "holdfast.cli.options", "casadi", "rich.table"])
 def test_while_modules_are_imported(module):
     assert ended(IMPORT.format(module=module)) == (130, "holdfast: stopped\n")
 

@@ -14,7 +14,7 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms, load
-from holdfast.study import Store
+from holdfast.engine import Store
 
 PROGRAM = [sys.executable, "-m", "holdfast"]
 POSES = 1_500_000  # 12 chunks, about a second

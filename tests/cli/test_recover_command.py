@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.converge import read_waypoints
+from holdfast.recovery import read_waypoints
 
 CALL = ["recover", "planar-3r", "--lock", "2", "--at", "20 40 60", "--degrees"]
 

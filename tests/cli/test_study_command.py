@@ -16,12 +16,12 @@ import pytest
 import yaml
 
 import holdfast as hf
-from holdfast.assess.region import Region, default_region
+from holdfast.engine import Study, Threads
 from holdfast.errors import InputError
 from holdfast.kernels import pool, set_threads
+from holdfast.regions.region import Region, default_region
 from holdfast.studies import read
 from holdfast.studies.results import assessed
-from holdfast.study import Study, Threads
 
 TEXT = """
 name: small
@@ -87,7 +87,7 @@ def test_a_new_file_runs_and_says_what_it_would_do(cli, ask, refused, tmp_path, 
 def test_new_with_laws_and_an_arm_file_elsewhere(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("arms").mkdir()
-    table = Path(__file__).parents[2] / "src/holdfast/arm/data/panda.urdf"
+    table = Path(__file__).parents[2] / "src/holdfast/arms/data/panda.urdf"
     Path("arms/p.urdf").write_bytes(table.read_bytes())
     Path("studies").mkdir()
     options = [

@@ -11,15 +11,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from holdfast.teleop.allocation import write_allocation
+from holdfast.present.teleop.allocation import write_allocation
+from holdfast.present.teleop.bank import bank_figure
 from holdfast.teleop.analysis import Analysis
-from holdfast.teleop.bank_figure import bank_figure
-from holdfast.teleop.protocol import Training, read_protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.records_file import alone
-from holdfast.teleop.selection import binning
-from holdfast.teleop.tables import bank_table, computer_table, hand_paths
-from holdfast.teleop.tasks import task_bank
+from holdfast.teleop.bank.selection import binning
+from holdfast.teleop.bank.tasks import task_bank
+from holdfast.teleop.protocol.protocol import Training, read_protocol
+from holdfast.teleop.records.file import alone
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.tables import bank_table, computer_table, hand_paths
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def tiny(tmp_path_factory):
 @pytest.fixture(scope="module")
 def study(tiny, tmp_path_factory):
     """An experiment, made once; tests that change it take a copy."""
-    from holdfast.teleop.experiment import simulate_experiment
+    from holdfast.teleop.rehearsal import simulate_experiment
 
     folder = tmp_path_factory.mktemp("made") / "study"
     simulate_experiment(folder, read_protocol(tiny), 3, seed=2).close()

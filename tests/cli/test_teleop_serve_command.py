@@ -5,8 +5,8 @@ import socket
 
 import pytest
 
-from holdfast.teleop.protocol import read_protocol
-from holdfast.teleop.records import Records
+from holdfast.teleop.protocol.protocol import read_protocol
+from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import app, texts
 
 

@@ -8,8 +8,8 @@ from contextlib import closing
 import pytest
 
 import flips
-from holdfast.teleop.records import Records
-from holdfast.teleop.verify import verify
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.verification import verify
 
 BITS = int(os.environ.get("HOLDFAST_FLIPS", "400"))
 
@@ -74,7 +74,7 @@ def test_a_backup_of_a_damaged_folder_is_refused(refused, study, tmp_path):
 
 
 def test_a_backup_while_somebody_writes(study, tmp_path, rng):
-    from holdfast.teleop.backup import backup
+    from holdfast.teleop.records.copies import backup
 
     flips.copied(study, tmp_path / "live")
     with Records.open(tmp_path / "live") as records, records.together():

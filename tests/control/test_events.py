@@ -9,8 +9,8 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.control.events import Course, Curvature, events
 from holdfast.indices import Opposite, susceptibility
+from holdfast.motion.events import Course, Curvature, events
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +108,7 @@ def test_a_start_that_is_not_the_best_is_told(planar, torque, across):
 
 def test_curvature_is_the_second_derivative_along_the_self_motion(planar, torque, rng):
     q = rng.uniform(-2, 2, (40, 3))
-    task = hf.control.GradientProjection(planar, torque, task="planar").task
+    task = hf.motion.GradientProjection(planar, torque, task="planar").task
     curvature = Curvature(torque, task)
     slope, matrices = curvature(q)
 

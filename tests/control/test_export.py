@@ -16,7 +16,7 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.builtin import DATA
+from holdfast.arms.builtin import DATA
 from holdfast.errors import InputError, StoreError
 from holdfast.registry import LAWS
 

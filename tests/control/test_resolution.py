@@ -10,8 +10,8 @@ from scipy.optimize import linprog
 
 import holdfast as hf
 import oracles
-from holdfast.control import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.indices import Opposite, RelativeManipulability, susceptibility
+from holdfast.motion import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.status import Status
 
 GAIN = 0.07

@@ -10,8 +10,8 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast import arms
-from holdfast.control import slow_enough
-from holdfast.control.slow_motion import _largest_root
+from holdfast.motion import slow_enough
+from holdfast.motion.slowness import _largest_root
 
 GRID = np.geomspace(1e-3, 1e3, 60_001)
 

@@ -7,8 +7,8 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.control import GradientProjection
 from holdfast.kernels import llvm_backend
+from holdfast.motion import GradientProjection
 
 
 @pytest.mark.parametrize("measure", ["torque", "swing_angle"])

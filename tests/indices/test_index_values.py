@@ -14,7 +14,7 @@ import oracles
 from holdfast import indices
 from holdfast.arm.task import Task, rows_task
 from holdfast.failures import failure_sets
-from holdfast.indices.relative import _bound_note
+from holdfast.indices.determinants import _bound_note
 from holdfast.registry import INDICES
 
 INVARIANT = ("relative-manipulability", "manipulability")

@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from holdfast.indices import secular
+from holdfast.indices import secular_equation as secular
 from holdfast.kernels import Kernel
 
 

@@ -13,10 +13,10 @@ import pytest
 import javascript as browser
 from holdfast.errors import KernelError
 from holdfast.kernels import Kernel, Program
-from holdfast.kernels.javascript import javascript
+from holdfast.kernels.javascript_backend import javascript
 from holdfast.kernels.program import OP_NAMES
 
-printer = import_module("holdfast.kernels.javascript")
+printer = import_module("holdfast.kernels.javascript_backend")
 
 # Exact in every language: an expression of these alone has one right result, bit for bit.
 EXACT = {

@@ -12,8 +12,8 @@ import pytest
 
 import holdfast as hf
 import oracles
+from holdfast.caching import cached_property
 from holdfast.indices import CustomIndex
-from holdfast.kept import cached_property
 from holdfast.kernels import Kernel, Loop, recalled, recalled_data, recipe
 from holdfast.kernels.recipe import digest_of
 

@@ -13,7 +13,7 @@ from wellformed import check
 
 import chromium
 from holdfast.report import page
-from holdfast.report.animation import Motion, Projection, animation, shown_seconds
+from holdfast.report.animations import Motion, Projection, animation, shown_seconds
 
 X, Y, Z = np.eye(3)
 SIDE = Projection(X, Z, ("x, m", "z, m"), "Side view")

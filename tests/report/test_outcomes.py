@@ -6,8 +6,8 @@ import numpy as np
 from wellformed import check
 
 from holdfast.report import svg
-from holdfast.report.animation import Motion, Projection
-from holdfast.report.motion import Panel, drawn_motion
+from holdfast.report.animations import Motion, Projection
+from holdfast.report.motions import Panel, drawn_motion
 from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 
 

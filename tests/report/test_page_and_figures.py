@@ -36,7 +36,7 @@ from holdfast.report import (
     write,
 )
 from holdfast.report.figures import plain
-from holdfast.report.words import article, as_given, counted, either, fixed, number, percent, share
+from holdfast.words import article, as_given, counted, either, fixed, number, percent, share
 
 NASTY = '<script>alert("x")</script> & $\\frac$'
 

@@ -19,11 +19,13 @@ import numpy as np
 
 import holdfast as hf
 from holdfast import arms, control
-from holdfast.converge import write_waypoints
+from holdfast.engine import Study, Threads
+from holdfast.recovery import write_waypoints
 from holdfast.studies import read
 from holdfast.studies.results import assessed, driven
-from holdfast.study import Study, Threads
-from holdfast.teleop import End, Training, read_protocol, simulate_experiment
+from holdfast.teleop import simulate_experiment
+from holdfast.teleop.protocol import Training, read_protocol
+from holdfast.teleop.trials import End
 
 ASSESSED = {"poses": 12, "seed": 3, "restarts": 10, "task": "planar", "optimise": True, "after_lock": True}
 WORKSPACE = {"target": [1.5, 1.5], "starts": "grid:5", "configurations": 3, "points": 1, "method": "brute"}

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import pytest
 
+from holdfast.engine import Cell, Column
 from holdfast.studies import estimate
-from holdfast.study import Cell, Column
 
 
 @dataclass(eq=False)

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.converge.starts import read_places
-from holdfast.converge.workspace_job import NAMES
+from holdfast.convergence.analysis import NAMES
+from holdfast.convergence.places import read_places
+from holdfast.engine import Chunk, Study, Threads
 from holdfast.errors import InputError
+from holdfast.present.studies.page import write
 from holdfast.studies import read
-from holdfast.studies.report import write
-from holdfast.study import Chunk, Study, Threads
-from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.tasks import task_bank
+from holdfast.teleop.bank.tasks import task_bank
+from holdfast.teleop.trials.scenarios import Scenario
 
 SEED = 7
 FILE = """
@@ -101,7 +101,7 @@ def test_two_threads_and_a_stop_change_no_bit(tmp_path, straight):
 @pytest.mark.filterwarnings("default")
 def test_a_dask_worker_changes_no_bit(tmp_path, straight):
     pytest.importorskip("distributed")
-    from holdfast.study import Cluster
+    from holdfast.engine import Cluster
 
     file = asked(tmp_path)
     study = begun(tmp_path / "s", file)

@@ -7,11 +7,11 @@ from collections import OrderedDict
 
 import pytest
 
-from holdfast.studies import process
-from holdfast.studies.assess_job import AssessJob
-from holdfast.studies.bank_job import BankJob
-from holdfast.studies.convergence_job import ConvergenceJob
-from holdfast.studies.workspace_job import WorkspaceJob
+from holdfast.studies.jobs import process
+from holdfast.studies.jobs.assessments import AssessJob
+from holdfast.studies.jobs.banks import BankJob
+from holdfast.studies.jobs.convergence import ConvergenceJob
+from holdfast.studies.jobs.workspaces import WorkspaceJob
 
 _PLAN = {"fingerprint": "one arm", "law": "pseudoinverse", "rows": [1, 2]}
 _JOBS = [

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from holdfast import arms
-from holdfast.assess.distribution import Distribution
 from holdfast.indices import by_name
-from holdfast.interval import Interval
+from holdfast.present.studies.answer import headline
+from holdfast.present.studies.page import _standings, _structure, _structures
+from holdfast.probability.distribution import Distribution
+from holdfast.probability.intervals import Interval
 from holdfast.report.page import Page, Section, render
-from holdfast.studies.headline import headline
-from holdfast.studies.report import _standings, _structure, _structures
+from holdfast.studies.ranking import standings
 from holdfast.studies.results import Assessed, Driven
-from holdfast.studies.standings import standings
 
 
 def assessed(arm: str, values, better: str = "larger", unit: str = "1", best=None) -> Assessed:

@@ -10,7 +10,7 @@ import holdfast as hf
 from holdfast.arm.poses import pose_numbers
 from holdfast.arm.task import as_task
 from holdfast.studio.aside import Aside
-from holdfast.studio.cloud import Cloud, read_cloud
+from holdfast.studio.scene.cloud import Cloud, read_cloud
 from holdfast.studio.state import State
 from holdfast.studio.work import Cancelled
 

@@ -10,9 +10,9 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
-from holdfast.studio.body import ball, block, box, stick_parts, tube
-from holdfast.studio.machine import Machine
-from holdfast.studio.visuals import find_mesh, urdf_parts
+from holdfast.studio.scene.body import ball, block, box, stick_parts, tube
+from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.visuals import find_mesh, urdf_parts
 
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast import solve
+from holdfast import solvers as solve
 from holdfast.arm.poses import pose_numbers
 from holdfast.arm.task import as_task
 from holdfast.studio import State
 from holdfast.studio.compute import best_worst
-from holdfast.studio.machine import Machine
 from holdfast.studio.motions import law_motions
+from holdfast.studio.scene.machine import Machine
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.studio.machine import Machine
+from holdfast.studio.scene.machine import Machine
 
 
 @pytest.fixture(scope="module")
@@ -17,7 +17,7 @@ def machine(mixed7):
 
 def test_frames_are_those_of_pinocchio():
     pin = pytest.importorskip("pinocchio")
-    from holdfast.arm.builtin import DATA
+    from holdfast.arms.builtin import DATA
 
     model = pin.buildModelFromXML(DATA.joinpath("iiwa14.urdf").read_text())
     arm = hf.arms.load("iiwa14")

@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 import holdfast as hf
-from holdfast.cli.app import program
+from holdfast.cli.program import program
 from holdfast.studio import State, serve, server
 from holdfast.studio.motions import read_motion
 
@@ -166,7 +166,7 @@ def test_impossible_states_are_refused(change, sentence):
 
 
 def test_motions_that_the_library_writes_are_read(tmp_path):
-    from holdfast.converge.recover_waypoints import write_waypoints
+    from holdfast.recovery.waypoints import write_waypoints
 
     arm = hf.arms.load("planar-3r")
     q = np.array([[0.1, 0.2, 0.3], [0.2, 0.1, 0.5], [0.2, 0.0, 0.6]])

@@ -4,10 +4,10 @@ import sys
 
 import numpy as np
 
-from holdfast.teleop.entries import Kind
-from holdfast.teleop.records import Records
-from holdfast.teleop.session import Session
-from holdfast.teleop.trials import End
+from holdfast.teleop.records.entries import Kind
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.session import Session
+from holdfast.teleop.trials.recordings import End
 
 
 def main(folder: str, code: str, trials: int) -> None:

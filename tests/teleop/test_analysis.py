@@ -10,11 +10,11 @@ import pytest
 
 import holdfast as hf
 from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.present.teleop.motions import ring
 from holdfast.teleop.analysis import analyse
 from holdfast.teleop.analysis.groups import in_groups
-from holdfast.teleop.analysis.motions import ring
-from holdfast.teleop.measures import cpm
-from holdfast.teleop.protocol import read_protocol
+from holdfast.teleop.protocol.protocol import read_protocol
+from holdfast.teleop.trials.performance import cpm
 
 NAMES = [f"M{k}" for k in range(1, 13)]
 SCENARIOS = (

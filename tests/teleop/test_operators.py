@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop.drive import Rules, drive
-from holdfast.teleop.operators import Person, SimulatedPeople, population, rate
-from holdfast.teleop.plant import Plant
-from holdfast.teleop.point_task import SCENARIOS
-from holdfast.teleop.stick import Stick
-from holdfast.teleop.trials import End
+from holdfast.teleop.trials.driving import Rules, drive
+from holdfast.teleop.trials.operators import Person, SimulatedPeople, population, rate
+from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.recordings import End
+from holdfast.teleop.trials.scenarios import SCENARIOS
+from holdfast.teleop.trials.stick import Stick
 
 PERFECT = Person(delay=0, lag=0, noise=0, bias=0, slowing=0, gives_up=1e6)
 RULES = Rules(at_rest=True, cycle_limit=5000, patience=10_000)

@@ -13,11 +13,11 @@ import oracles
 from holdfast.arm.task import as_task
 from holdfast.errors import TaskError
 from holdfast.registry import LAWS
-from holdfast.teleop import protocol
-from holdfast.teleop.plant import Plant
-from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.printed_arm import arm_module, law_of
-from holdfast.teleop.tables import computer_trials
+from holdfast.teleop.protocol import protocol
+from holdfast.teleop.protocol.printed_arm import arm_module, law_of
+from holdfast.teleop.records.tables import computer_trials
+from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.scenarios import Scenario
 
 CYCLES = """\
 import {cycle,joints as n,axes as m} from "./arm.mjs";

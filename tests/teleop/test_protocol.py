@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop import protocol
-from holdfast.teleop.order import next_row, scenario_orders, williams
-from holdfast.teleop.protocol import Training, read_protocol, training_limit
+from holdfast.teleop.protocol import protocol
+from holdfast.teleop.protocol.order import next_row, scenario_orders, williams
+from holdfast.teleop.protocol.protocol import Training, read_protocol, training_limit
 
 
 @pytest.mark.parametrize("n", [*range(1, 12), *range(12, 50, 2), 23, 47])

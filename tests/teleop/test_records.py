@@ -15,18 +15,18 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop.entries import Kind, State
-from holdfast.teleop.experiment import simulate_experiment
-from holdfast.teleop.measures import measures
-from holdfast.teleop.plant import Plant
-from holdfast.teleop.point_task import PointTasks
-from holdfast.teleop.protocol import Training, read_protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.replay import replay
-from holdfast.teleop.session import Session, training_tasks
-from holdfast.teleop.tables import computer_table, cycle_table, dictionary, export, trial_table
-from holdfast.teleop.trials import End
-from holdfast.teleop.verify import verify
+from holdfast.teleop.protocol.protocol import Training, read_protocol
+from holdfast.teleop.records.check import replay
+from holdfast.teleop.records.entries import Kind, State
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.session import Session, training_tasks
+from holdfast.teleop.records.tables import computer_table, cycle_table, dictionary, export, trial_table
+from holdfast.teleop.records.verification import verify
+from holdfast.teleop.rehearsal import simulate_experiment
+from holdfast.teleop.trials.performance import measures
+from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.recordings import End
+from holdfast.teleop.trials.scenarios import PointTasks
 
 PROGRAM = Path(__file__).with_name("crashing.py")
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop.drive import Computer, Rules, drive
-from holdfast.teleop.plant import Plant
-from holdfast.teleop.point_task import SCENARIOS, PointTasks
-from holdfast.teleop.selection import binning, can_be_steered, most_disorienting, select, trapped
-from holdfast.teleop.stick import Stick
-from holdfast.teleop.tasks import random_tasks, task_bank
-from holdfast.teleop.trials import End
+from holdfast.teleop.bank.selection import binning, can_be_steered, most_disorienting, select, trapped
+from holdfast.teleop.bank.tasks import random_tasks, task_bank
+from holdfast.teleop.trials.driving import Computer, Rules, drive
+from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.recordings import End
+from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks
+from holdfast.teleop.trials.stick import Stick
 
 
 @pytest.fixture(scope="module")

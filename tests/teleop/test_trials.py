@@ -5,12 +5,12 @@ import pytest
 
 import holdfast as hf
 from holdfast.kernels import Kernel
-from holdfast.teleop.drive import Computer, Operator, Recorded, Rules, drive
-from holdfast.teleop.measures import cpm, measures
-from holdfast.teleop.plant import Plant
-from holdfast.teleop.point_task import SCENARIOS, PointTasks
-from holdfast.teleop.stick import Stick
-from holdfast.teleop.trials import End, Trials
+from holdfast.teleop.trials.driving import Computer, Operator, Recorded, Rules, drive
+from holdfast.teleop.trials.performance import cpm, measures
+from holdfast.teleop.trials.plant import Plant
+from holdfast.teleop.trials.recordings import End, Trials
+from holdfast.teleop.trials.scenarios import SCENARIOS, PointTasks
+from holdfast.teleop.trials.stick import Stick
 
 
 @pytest.fixture(scope="module")

@@ -12,11 +12,11 @@ import pytest
 
 import flips
 import holdfast as hf
-from holdfast.teleop.entries import Kind
-from holdfast.teleop.protocol import read_protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.trials import End
-from holdfast.teleop.verify import verify
+from holdfast.teleop.protocol.protocol import read_protocol
+from holdfast.teleop.records.entries import Kind
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.verification import verify
+from holdfast.teleop.trials.recordings import End
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ import numpy as np
 import holdfast as hf
 from holdfast import arms, control, teleop
 from holdfast.arm.task import as_task
-from holdfast.assess import structures
+from holdfast.assessment import structures
 from holdfast.registry import INDICES
 from holdfast.teleop.analysis import analyse
 

@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked_class
 from holdfast.arm.model import Arm, Joint, JointType, Link, snapped, transform
-from holdfast.checked import checked_class
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]

@@ -14,11 +14,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import statics
-from holdfast.arm.check import require_possible_inertia
 from holdfast.arm.kinematics import Frame, constant, joint_steps, joint_symbols, split
 from holdfast.arm.model import Arm
+from holdfast.arm.soundness import require_possible_inertia
 from holdfast.errors import InputError
-from holdfast.kernels import SX, Kernel, recalled
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
 
 Array = NDArray[np.float64]
 

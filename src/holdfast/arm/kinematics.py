@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
 Frame = tuple[SX, SX]

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked
 from holdfast.arm import mjcf_limits
 from holdfast.arm.model import Arm, Link, snapped
 from holdfast.arm.tip import listed
 from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
-from holdfast.checked import checked
 from holdfast.errors import ArmError, HoldfastError
 
 Array = NDArray[np.float64]

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
-from holdfast import reading
 from holdfast.errors import ArmError
+from holdfast.files import reading
 
 _LARGEST = 64 << 20  # bytes of a model
 _LARGEST_FILE = 256 << 20  # of a mesh or picture

@@ -12,14 +12,16 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.checked import checked, checked_class, real_numbers
+from holdfast.arguments import checked, checked_class, real_numbers
+from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
-from holdfast.kept import cached_property
-from holdfast.kernels import SX, Kernel, recalled
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
 
 if TYPE_CHECKING:
     from holdfast.arm.dh import DH
-    from holdfast.kernels import SX
+    from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]

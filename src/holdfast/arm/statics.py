@@ -18,10 +18,10 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.check import require_masses, require_possible_inertia
 from holdfast.arm.kinematics import constant, eye, frames, joint_steps, split
 from holdfast.arm.model import Arm, Link
-from holdfast.kernels import SX
+from holdfast.arm.soundness import require_masses, require_possible_inertia
+from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
 

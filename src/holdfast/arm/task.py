@@ -10,11 +10,11 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arguments import checked_class
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.checked import checked_class
 from holdfast.errors import TaskError
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
 ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")

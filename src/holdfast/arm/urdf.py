@@ -16,11 +16,11 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast import reading
+from holdfast.arguments import checked
 from holdfast.arm.model import GRAVITY, Arm, Link
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
-from holdfast.checked import checked
 from holdfast.errors import ArmError
+from holdfast.files import reading
 
 Array = NDArray[np.float64]
 _LARGEST = 64 << 20  # bytes

@@ -10,7 +10,7 @@ from pydantic import Field, ValidationError
 from holdfast.arm.model import Arm
 from holdfast.clearance.capsules import BASE, Capsule, Capsules, along_link, as_point
 from holdfast.errors import ArmError, InputError
-from holdfast.yaml_file import Number, Strict, Three, content, sentence
+from holdfast.files.yaml import Number, Strict, Three, content, sentence
 
 Positive = Annotated[Number, Field(gt=0)]
 

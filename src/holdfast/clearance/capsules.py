@@ -27,8 +27,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.checked import checked
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]

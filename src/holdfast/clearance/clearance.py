@@ -10,18 +10,20 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations, finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
-from holdfast.checked import checked
+from holdfast.caching import cached_property
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
-from holdfast.kept import cached_property
-from holdfast.kernels import SX, Kernel, recalled
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
 from holdfast.linalg import Vector, dot, smallest
-from holdfast.sobol import sobol
+from holdfast.sobol_sequence import sobol
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]

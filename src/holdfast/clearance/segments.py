@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 
 _PARALLEL = 1e-15  # of sin^2 of the angle: the rounding of the determinant; below it any first foot serves
 _TOUCHING = 1e-24  # m^2: keeps the root of the squared distance differentiable where the axes cross

@@ -14,7 +14,7 @@ def main() -> None:
     """Run the program; Ctrl-C ends it within a second, with exit code 130 and one line on stderr."""
     interrupt = Interrupt()
     try:
-        from holdfast.cli.app import main as run
+        from holdfast.cli.program import main as run
 
         run()
     except SystemExit as end:

@@ -14,8 +14,8 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
-from holdfast import reading
 from holdfast.errors import InputError
+from holdfast.files import reading
 from holdfast.grammar import is_number
 from holdfast.written import check_unit_of_joints as check_unit_of_joints
 from holdfast.written import check_unit_of_places as check_unit_of_places
@@ -30,9 +30,9 @@ from holdfast.written import read_task as read_task
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from holdfast.arm import Arm
+    from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
-    from holdfast.indices import Objective
+    from holdfast.indices.objective import Objective
 
 ArmArgument = Annotated[
     str, typer.Argument(metavar="ARM", help="Built-in name, URDF or MJCF file, or DH table (YAML).", show_default=False)
@@ -152,7 +152,7 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
 
 def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
     """The arm where --mount, --gravity and --payload put it."""
-    from holdfast.arm import Link
+    from holdfast.arm.model import Link
 
     if mount not in MOUNTS:
         raise InputError(f"--mount '{mount}' is not known; use one of {', '.join(MOUNTS)}")
@@ -195,7 +195,7 @@ def read_objective(arm: Arm, option: str, text: str, task: str | Task) -> Object
 
     A summand is the label of an index or a susceptibility; of this, after the colon may also be the one joint that counts.
     """
-    from holdfast.indices import Opposite, WeightedSum
+    from holdfast.indices.objective import Opposite, WeightedSum
 
     summands: list[tuple[float, Objective]] = []
     at = 0

@@ -20,7 +20,7 @@ from itertools import pairwise
 
 import casadi as ca
 
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 from holdfast.linalg import Vector, dot, gram, singular_rows, smallest, solve_spd
 
 SINGULAR = 1e-12  # of the largest singular value: at most this counts as 0

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

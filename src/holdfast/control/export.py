@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.errors import InputError, StoreError
-from holdfast.kernels import recalled_data
+from holdfast.files.output import replaced
+from holdfast.kernels.recall import recalled_data
 from holdfast.notice import says
-from holdfast.versions import versions
-from holdfast.whole_file import replaced
+from holdfast.provenance import versions
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law

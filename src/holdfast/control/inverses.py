@@ -9,12 +9,12 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked_class
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.checked import checked_class
 from holdfast.control.law import Law
 from holdfast.errors import InputError
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 from holdfast.linalg import damped_least_norm
 from holdfast.registry import Parameter, constructor
 

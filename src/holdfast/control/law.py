@@ -18,16 +18,18 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked, real_numbers
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.checked import checked, real_numbers
+from holdfast.caching import cached_property
 from holdfast.control import deviation, export
 from holdfast.control.deviation import Deviations
-from holdfast.control.step import Steps
 from holdfast.errors import InputError, TaskError
-from holdfast.kept import cached_property
-from holdfast.kernels import SX, Kernel, recalled
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
+from holdfast.kernels.step import Steps
 from holdfast.registry import LAWS, Labelled
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ import casadi as ca
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.control.law import Law
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 from holdfast.registry import constructor
 
 TaskSpec = str | Task | Sequence[str]

@@ -10,16 +10,18 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.checked import checked
+from holdfast.caching import cached_property
 from holdfast.errors import TaskError
 from holdfast.failures import FailureSpec, failure_names, failure_sets, require_redundant
 from holdfast.indices.objective import Better, Objective, Part
-from holdfast.kept import cached_property
-from holdfast.kernels import SX, Kernel, recalled
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.registry import INDICES, Labelled
 from holdfast.status import Status

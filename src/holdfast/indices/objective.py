@@ -11,12 +11,12 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked_class
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.checked import checked_class
+from holdfast.caching import cached_property
 from holdfast.errors import InputError, TaskError
-from holdfast.kept import cached_property
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 from holdfast.linalg import HouseholderQR, lowest
 from holdfast.status import Status
 
@@ -58,7 +58,7 @@ class Objective(ABC):
 
     @cached_property
     def _ascents(self) -> dict[object, Any]:
-        """Compiled ascents of this objective, for :func:`holdfast.solve.optimise.objective_ascent`."""
+        """Compiled ascents of this objective, for :func:`holdfast.solvers.optimise.objective_ascent`."""
         return {}
 
     @abstractmethod

@@ -9,13 +9,13 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked_class, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.checked import checked_class, real_numbers
 from holdfast.errors import InputError, TaskError
 from holdfast.failures import FailureSpec
-from holdfast.indices.custom import FormulaIndex
-from holdfast.kernels import SX
+from holdfast.indices.formula import FormulaIndex
+from holdfast.kernels.program import SX
 from holdfast.linalg import Vector, dot
 from holdfast.registry import Parameter, constructor
 

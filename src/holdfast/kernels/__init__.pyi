@@ -7,8 +7,9 @@ from holdfast.kernels.loop import Loop as Loop
 from holdfast.kernels.loop import LoopResult as LoopResult
 from holdfast.kernels.program import SX as SX
 from holdfast.kernels.program import Program as Program
-from holdfast.kernels.recalled import recalled as recalled
-from holdfast.kernels.recalled import recalled_data as recalled_data
+from holdfast.kernels.recall import recalled as recalled
+from holdfast.kernels.recall import recalled_data as recalled_data
+from holdfast.kernels.step import Step as Step
 from holdfast.kernels.threads import in_pool as in_pool
 from holdfast.kernels.threads import pool as pool
 from holdfast.kernels.threads import set_threads as set_threads

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import notice
-from holdfast.kept import cached_property
+from holdfast.caching import cached_property
 from holdfast.kernels import cache, llvm_backend
 from holdfast.kernels.llvm_ir import Machine
 from holdfast.kernels.program import Program

@@ -19,8 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.kept import cached_property
-from holdfast.versions import versions
+from holdfast.caching import cached_property
+from holdfast.provenance import versions
 
 _PACKAGE = Path(__file__).parents[1]
 

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked, real_numbers
 from holdfast.arm import rotations
 from holdfast.arm.poses import check_poses
-from holdfast.checked import checked, real_numbers
+from holdfast.caching import cached_property
 from holdfast.errors import InputError
-from holdfast.kept import cached_property
 
 Array = NDArray[np.float64]
 

@@ -33,13 +33,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
-from holdfast import reading
 from holdfast.arm import rotations
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
+from holdfast.files import reading
+from holdfast.files.yaml import Four, Number, Strict, Three, content, sentence
 from holdfast.paths.path import Path, arc, line, sequence
 from holdfast.paths.timing import Trapezoid
-from holdfast.yaml_file import Four, Number, Strict, Three, content, sentence
 
 Array = NDArray[np.float64]
 

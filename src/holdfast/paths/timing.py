@@ -10,9 +10,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.checked import checked, checked_class, real_numbers
+from holdfast.arguments import checked, checked_class, real_numbers
+from holdfast.caching import cached_property
 from holdfast.errors import InputError
-from holdfast.kept import cached_property
 from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]

@@ -28,19 +28,19 @@ from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
-from holdfast.palette import AMBER as AMBER
-from holdfast.palette import BLUE as BLUE
-from holdfast.palette import FAINT as FAINT
-from holdfast.palette import GREEN as GREEN
-from holdfast.palette import INK as INK
-from holdfast.palette import LIGHT_BLUE as LIGHT_BLUE
-from holdfast.palette import ORANGE as ORANGE
-from holdfast.palette import PALE as PALE
-from holdfast.palette import PURPLE as PURPLE
-from holdfast.palette import SKY as SKY
-from holdfast.palette import SOFT as SOFT
-from holdfast.report.words import on_one_line, percent
-from holdfast.whole_file import replaced
+from holdfast.files.output import replaced
+from holdfast.report.palette import AMBER as AMBER
+from holdfast.report.palette import BLUE as BLUE
+from holdfast.report.palette import FAINT as FAINT
+from holdfast.report.palette import GREEN as GREEN
+from holdfast.report.palette import INK as INK
+from holdfast.report.palette import LIGHT_BLUE as LIGHT_BLUE
+from holdfast.report.palette import ORANGE as ORANGE
+from holdfast.report.palette import PALE as PALE
+from holdfast.report.palette import PURPLE as PURPLE
+from holdfast.report.palette import SKY as SKY
+from holdfast.report.palette import SOFT as SOFT
+from holdfast.words import on_one_line, percent
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.errors import StoreError
-from holdfast.whole_file import replaced
+from holdfast.files.output import replaced
 
 Cell = str | Markup
 _LONG = 15  # letters of a cell that is broken where need be

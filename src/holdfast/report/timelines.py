@@ -10,10 +10,10 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from holdfast.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.report.page import environment
+from holdfast.report.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.report.scales import AxisScale, Kind
-from holdfast.report.words import on_one_line
+from holdfast.words import on_one_line
 
 Array = NDArray[np.float64]
 Look = Literal["first", "second", "third", "compared", "level"]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from holdfast.study import Cell
+from holdfast.engine.job import Cell
 
 ROWS = 64  # tried of a cell, at most
 

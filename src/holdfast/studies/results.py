@@ -9,18 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assess.assess import ZERO
-from holdfast.assess.binned import Counts
-from holdfast.assess.distribution import Distribution
-from holdfast.assess.plan import Plan
-from holdfast.assess.run import Tally
-from holdfast.converge.convergence_map import NONE, shared
-from holdfast.converge.workspace import mean_intervals, mean_over
+from holdfast.assessment.assessment import ZERO
+from holdfast.assessment.bins import Counts
+from holdfast.assessment.plan import Plan
+from holdfast.assessment.rows import Tally
+from holdfast.convergence.maps import NONE, shared
+from holdfast.convergence.origins import mean_intervals, mean_over
+from holdfast.engine.store import Store
+from holdfast.engine.study import Study
 from holdfast.errors import StoreError
-from holdfast.interval import Difference, Interval
-from holdfast.simulate import Outcome
-from holdfast.study import Store, Study
-from holdfast.teleop.trials import End
+from holdfast.probability.distribution import Distribution
+from holdfast.probability.intervals import Difference, Interval
+from holdfast.simulation.runs import Outcome
+from holdfast.teleop.trials.recordings import End
 
 Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]

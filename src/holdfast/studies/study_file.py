@@ -25,19 +25,19 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
-from holdfast import reading
+from holdfast.engine.folder import MOST_CHUNKS, MOST_ROWS, too_many
+from holdfast.engine.job import Cell
 from holdfast.errors import HoldfastError, InputError
+from holdfast.files import reading
+from holdfast.files.yaml import Number, Strict, content, parse, sentence
 from holdfast.registry import INDICES, LAWS
-from holdfast.study import Cell
-from holdfast.study.folder import MOST_CHUNKS, MOST_ROWS, too_many
 from holdfast.written import ArmSpec
-from holdfast.yaml_file import Number, Strict, content, parse, sentence
 
 if TYPE_CHECKING:
-    from holdfast.arm import Arm
+    from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.failures import FailureSpec
-    from holdfast.indices import Index
+    from holdfast.indices.index import Index
 
 _MOST_CELLS = 100_000
 _EXAMPLE = "'holdfast study new'"
@@ -240,9 +240,9 @@ def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
 
 
 def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str, folder: Path) -> Iterator[Cell]:
-    from holdfast.assess.plan import make_plan
-    from holdfast.assess.region import Region, default_region
-    from holdfast.studies.assess_job import AssessJob
+    from holdfast.assessment.plan import make_plan
+    from holdfast.regions.region import Region, default_region
+    from holdfast.studies.jobs.assessments import AssessJob
     from holdfast.written import read_failures, read_task
 
     for name in block.thresholds:
@@ -286,11 +286,11 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
 
 
 def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]:
-    from holdfast.arm.serial import to_dict
-    from holdfast.assess.region import Region, default_region
-    from holdfast.design import DesignSpace, parse_vary
-    from holdfast.design.search import region_poses
-    from holdfast.studies.design_job import DesignJob
+    from holdfast.arms.serial import to_dict
+    from holdfast.designs.search import region_poses
+    from holdfast.designs.space import DesignSpace, parse_vary
+    from holdfast.regions.region import Region, default_region
+    from holdfast.studies.jobs.designs import DesignJob
     from holdfast.written import read_failures, read_task
 
     block = model.assess
@@ -344,11 +344,11 @@ def _said(task: str, region: str, failures: str) -> list[str]:
 
 
 def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: str) -> Iterator[Cell]:
-    from holdfast.arm.serial import to_dict
     from holdfast.arm.task import as_task
-    from holdfast.studies.bank_job import BankJob
-    from holdfast.studies.convergence_job import ConvergenceJob
-    from holdfast.studies.workspace_job import WorkspaceJob
+    from holdfast.arms.serial import to_dict
+    from holdfast.studies.jobs.banks import BankJob
+    from holdfast.studies.jobs.convergence import ConvergenceJob
+    from holdfast.studies.jobs.workspaces import WorkspaceJob
     from holdfast.written import read_task
 
     chunk = block.chunk or model.chunk
@@ -371,8 +371,8 @@ def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: 
         if kind == "convergence":
             yield Cell(name, ConvergenceJob(plan), plan, block.motions or model.poses, chunk, labels=labels)
         elif kind == "bank":
-            from holdfast.teleop.plant import check_rows
-            from holdfast.teleop.tasks import DISTANCE
+            from holdfast.teleop.bank.tasks import DISTANCE
+            from holdfast.teleop.trials.plant import check_rows
 
             check_rows(t)
             plan["distance"] = DISTANCE if block.distance is None else block.distance

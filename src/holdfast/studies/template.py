@@ -10,10 +10,11 @@ from typing import Any
 
 import yaml
 
-from holdfast import arms, reading
+from holdfast import arms
 from holdfast.errors import InputError, StoreError
+from holdfast.files import reading
+from holdfast.files.output import replaced
 from holdfast.registry import INDICES, LAWS, Registry
-from holdfast.whole_file import replaced
 from holdfast.written import ArmSpec
 
 _TEXT = """\

@@ -145,7 +145,7 @@ def main() -> None:
     arm, task = pickle.load(requests)
 
     from holdfast.studio.compute import JOBS
-    from holdfast.studio.machine import Machine, sentence
+    from holdfast.studio.scene.machine import Machine, sentence
 
     machine, waiting = Machine(arm, task), queue.SimpleQueue[Any]()
     given_up = [0]  # the newest request that is of no interest any more

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.studio.cloud import Cloud, around, read_cloud
-from holdfast.studio.machine import Machine
 from holdfast.studio.motions import Motion, law_motions, swing_motion
+from holdfast.studio.scene.cloud import Cloud, around, read_cloud
+from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
@@ -38,7 +38,7 @@ def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
     Raises:
         InputError: The arm has no such objective, or no configuration of the pose was found.
     """
-    from holdfast.solve import optimise
+    from holdfast.solvers.optimum import optimise
 
     both = machine.objectives(state.objective)
     if isinstance(both, str):

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.joint_table import joint_columns, read_joint_table
 from holdfast.arm.model import Arm
 from holdfast.errors import InputError
-from holdfast.studio.machine import Machine
+from holdfast.paths.joint_table import joint_columns, read_joint_table
+from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]
@@ -81,8 +81,8 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         InputError: A law that is not known, or no target.
     """
     from holdfast.arm.poses import pose_of
-    from holdfast.simulate import simulate
-    from holdfast.simulate.runs import ENDS
+    from holdfast.simulation.closed_loop import simulate
+    from holdfast.simulation.runs import ENDS
 
     if state.target is None:
         raise InputError("there is no target; choose one first")
@@ -109,7 +109,7 @@ def swing_motion(arm: Arm, state: State) -> Motion:
         InputError: No joint is free.
         HoldfastError: MuJoCo is not installed, or the arm's bodies are not known.
     """
-    from holdfast.simulate import free_swing
+    from holdfast.physics.swing import free_swing
 
     if not state.free:
         raise InputError("no joint is free; set one free first")

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, Registry
-from holdfast.studio.bars import bars_html, losses_html
-from holdfast.studio.machine import Machine, Reading
+from holdfast.studio.scene.bars import bars_html, losses_html
+from holdfast.studio.scene.machine import Machine, Reading
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from holdfast.control.stick_figure import projections
+from holdfast.present.stick_figure import projections
 from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, plain, style, svg
-from holdfast.studio.machine import Machine
+from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
 Array = NDArray[np.float64]

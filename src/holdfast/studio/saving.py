@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.studio.machine import Machine
-from holdfast.studio.stage import Stage
+from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.stage import Stage
 from holdfast.studio.state import State
 from holdfast.studio.work import Worker
 

@@ -15,11 +15,11 @@ import numpy as np
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.arms import URDF_ENDINGS
+from holdfast.arms.catalogue import URDF_ENDINGS
 from holdfast.errors import HoldfastError, InputError
 from holdfast.studio.aside import Aside
-from holdfast.studio.body import Part, stick_parts
-from holdfast.studio.machine import Machine
+from holdfast.studio.scene.body import Part, stick_parts
+from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
 if TYPE_CHECKING:
@@ -182,7 +182,7 @@ def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> t
     sticks = stick_parts(arm, machine.size)
     if file is None or not Path(file).is_file():
         return sticks, ""
-    from holdfast.studio.visuals import urdf_parts
+    from holdfast.studio.scene.visuals import urdf_parts
 
     shapes, missing = urdf_parts(file, arm, base)
     if not shapes:

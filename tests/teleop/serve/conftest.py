@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from holdfast.teleop.point_task import Scenario
-from holdfast.teleop.protocol import Training, read_protocol
-from holdfast.teleop.records import Records
+from holdfast.teleop.protocol.protocol import Training, read_protocol
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.trials.scenarios import Scenario
 
 PROGRAM = Path(__file__).with_name("serve_program.py")
 

@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 from websockets.asyncio.client import connect
 
-from holdfast.teleop.protocol import Protocol, Training, read_protocol
-from holdfast.teleop.records import Records
+from holdfast.teleop.protocol.protocol import Protocol, Training, read_protocol
+from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve.messages import Ack, Welcome, read_reply
 
 PROGRAM = Path(__file__).with_name("serve_program.py")

@@ -7,8 +7,8 @@ import json
 import numpy as np
 from websockets.sync.client import ClientConnection, connect
 
-from holdfast.teleop.printed_arm import law_of
-from holdfast.teleop.protocol import Protocol
+from holdfast.teleop.protocol.printed_arm import law_of
+from holdfast.teleop.protocol.protocol import Protocol
 from holdfast.teleop.serve import messages
 
 

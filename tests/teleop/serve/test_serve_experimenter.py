@@ -23,13 +23,14 @@ from websockets.sync.client import connect
 
 from conftest import PROGRAM, dump
 from holdfast.errors import HoldfastError, InputError
-from holdfast.teleop import tables
-from holdfast.teleop.entries import Kind, State, Who
-from holdfast.teleop.records import Records
-from holdfast.teleop.serve import apart, experimenter
+from holdfast.teleop.records import tables
+from holdfast.teleop.records.entries import Kind, State, Who
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.serve import experimenter
+from holdfast.teleop.serve import process as apart
 from holdfast.teleop.serve.app import STATIC
 from holdfast.teleop.serve.texts import ENGLISH
-from holdfast.teleop.trials import End
+from holdfast.teleop.trials.recordings import End
 
 TOKEN = "token-of-stations"
 GETS = ("", "/subjects.json", "/export.zip", "/report")
@@ -370,7 +371,8 @@ def test_a_report_that_cannot_be_made_is_a_sentence(http, folder, tmp_path, prot
 
 def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkeypatch):
     """And of simulated subjects where there are no others; of those who dropped out it never is."""
-    from holdfast.teleop import analysis, results
+    from holdfast.teleop import analysis
+    from holdfast.teleop.analysis import eligibility as results
 
     @dataclass
     class Result:

@@ -11,12 +11,12 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 import holdfast as hf
-from holdfast.teleop.records import Records
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.verification import verify
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.app import Options, serve
 from holdfast.teleop.serve.messages import Ack, Refused, Unstored, Welcome
 from holdfast.teleop.serve.station import Entered, Station, enter, quota
-from holdfast.teleop.verify import verify
 
 
 def list_of(served):

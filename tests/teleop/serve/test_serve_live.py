@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop.entries import State
-from holdfast.teleop.records import Records
+from holdfast.teleop.records.entries import State
+from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.live import Live
@@ -150,7 +150,7 @@ def test_the_experimenter_watches_and_acts(study):
 
 def test_what_was_not_replayed_before_a_kill_is_replayed_after(study, protocol):
     from holdfast.teleop.serve.station import Station, enter
-    from holdfast.teleop.trials import End
+    from holdfast.teleop.trials.recordings import End
 
     with Records.open(study) as records:
         code = enter(records, hello()).code

@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.teleop.serve import messages
-from holdfast.teleop.serve.typescript import typescript
+from holdfast.teleop.serve.typescript_messages import typescript
 
 GOOD = {
     "hello": {"format": 1, "session": None, "code": "P07", "kind": "person", "fresh": "f" * 24},
@@ -120,6 +120,6 @@ def test_the_largest_message_passes_the_size_limit():
 
 
 def test_the_page_has_the_same_definitions():
-    """``python -m holdfast.teleop.serve.typescript`` writes the file."""
+    """``python -m holdfast.teleop.serve.typescript_messages`` writes the file."""
     page = Path(__file__).parents[3] / "page" / "src" / "messages.ts"
     assert page.read_text(encoding="utf-8") == typescript()

@@ -13,11 +13,11 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from conftest import dump
-from holdfast.teleop.entries import Kind, State
-from holdfast.teleop.records import Records
-from holdfast.teleop.replay import replay
+from holdfast.teleop.records.check import replay
+from holdfast.teleop.records.entries import Kind, State
+from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import messages
-from holdfast.teleop.trials import End
+from holdfast.teleop.trials.recordings import End
 
 
 def recorded(folder, code):

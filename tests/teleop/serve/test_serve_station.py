@@ -10,15 +10,15 @@ from hypothesis import strategies as st
 
 import flips
 import holdfast as hf
-from holdfast.teleop import session
-from holdfast.teleop.entries import Kind, State
-from holdfast.teleop.printed_arm import law_of
-from holdfast.teleop.records import Records
+from holdfast.teleop.protocol.printed_arm import law_of
+from holdfast.teleop.records import session
+from holdfast.teleop.records.entries import Kind, State
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.session import training_tasks
 from holdfast.teleop.serve import messages, station
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused
 from holdfast.teleop.serve.station import Entered, Station, enter
-from holdfast.teleop.session import training_tasks
-from holdfast.teleop.trials import End
+from holdfast.teleop.trials.recordings import End
 
 ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
 LIMIT = 40  # the protocol's cycle limit

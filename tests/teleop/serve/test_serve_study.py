@@ -10,11 +10,11 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
 from holdfast.registry import LAWS
-from holdfast.teleop.printed_arm import arm_module, law_of
-from holdfast.teleop.protocol import read_protocol
+from holdfast.teleop.protocol.printed_arm import arm_module, law_of
+from holdfast.teleop.protocol.protocol import read_protocol
 from holdfast.teleop.serve import texts
+from holdfast.teleop.serve.briefing import study, views, workspace
 from holdfast.teleop.serve.messages import PlannedTrial
-from holdfast.teleop.serve.study import study, views, workspace
 
 
 def test_study_of_the_paper(built):

@@ -13,11 +13,11 @@ import casadi as ca
 import numpy as np
 
 from holdfast.arm import statics
-from holdfast.arm.check import require_masses, require_possible_inertia
 from holdfast.arm.model import Arm
+from holdfast.arm.soundness import require_masses, require_possible_inertia
 from holdfast.arm.statics import Composite
 from holdfast.errors import ArmError
-from holdfast.kernels import SX
+from holdfast.kernels.program import SX
 
 DEGENERATE = 1e-9
 """A joint is balanced, or vertical, if its lever arm, or gravity across its axis, is this small against the arm."""

@@ -11,16 +11,18 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import configurations
 from holdfast.arm.model import Arm
-from holdfast.checked import checked
+from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.indices.objective import Objective, Part
 from holdfast.indices.susceptibility.formulas import ACCELERATION, SWING_ANGLE, TORQUE, Formula
 from holdfast.indices.susceptibility.weights import WeightSpec, weight_matrix
-from holdfast.kept import cached_property
-from holdfast.kernels import SX, Kernel, recalled
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
 from holdfast.linalg import HouseholderQR
 from holdfast.registry import SUSCEPTIBILITIES, Labelled, Parameter, constructor
 from holdfast.status import Status, require_ok

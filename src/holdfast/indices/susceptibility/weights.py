@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import statics
-from holdfast.arm.check import require_masses
 from holdfast.arm.model import Arm
+from holdfast.arm.soundness import require_masses
 from holdfast.errors import InputError
-from holdfast.sobol import sobol
+from holdfast.sobol_sequence import sobol
 
 Array = NDArray[np.float64]
 WeightSpec = ArrayLike | Literal["effort", "worst-case"] | None

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.analysis.observed import Observed
+from holdfast.teleop.analysis.observations import Observed
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.teleop.analysis.anova import freedom, squares
+from holdfast.teleop.analysis.variance import freedom, squares
 
 Array = NDArray[np.float64]
 

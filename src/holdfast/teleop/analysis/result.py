@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.notice import says
-from holdfast.teleop.analysis.anova import Anova
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import Cells, Groups
-from holdfast.teleop.analysis.mixed import Mixed
-from holdfast.teleop.analysis.observed import Condition, Observed
+from holdfast.teleop.analysis.mixed_model import Mixed
+from holdfast.teleop.analysis.observations import Condition, Observed
+from holdfast.teleop.analysis.variance import Anova
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from holdfast.teleop.protocol import Protocol
+    from holdfast.teleop.protocol.protocol import Protocol
 
 Array = NDArray[np.float64]
 Paths = Callable[[str | None, int, int], Array | None]
@@ -158,8 +158,8 @@ class Analysis:
             StoreError: The folder or a file cannot be written.
             InputError: A task to show that there is not.
         """
-        from holdfast.teleop.analysis.export import write_tables
-        from holdfast.teleop.analysis.report import write
+        from holdfast.present.teleop.page import write
+        from holdfast.present.teleop.tables import write_tables
 
         target = Path(folder)
         write_tables(self, target)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from holdfast.teleop.analysis.comparisons import holm, paired
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import Cells, Groups
-from holdfast.teleop.analysis.observed import CAUSES, NAMES, Observed
-from holdfast.teleop.measures import MEASURES, RECORDED
+from holdfast.teleop.analysis.observations import CAUSES, NAMES, Observed
+from holdfast.teleop.trials.performance import MEASURES, RECORDED
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -19,15 +19,15 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from holdfast.errors import InputError, StoreError
-from holdfast.teleop.protocol import Protocol, read_protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.records_file import FILE, alone
+from holdfast.teleop.protocol.protocol import Protocol, read_protocol
+from holdfast.teleop.records.file import FILE, alone
+from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import bounded, experimenter
+from holdfast.teleop.serve.briefing import study
 from holdfast.teleop.serve.connection import session
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import LOOPBACK, Guard, Guarded
 from holdfast.teleop.serve.messages import MOST_BYTES
-from holdfast.teleop.serve.study import study
 from holdfast.teleop.serve.texts import ENGLISH
 from holdfast.teleop.serve.texts import read as read_texts
 
@@ -99,7 +99,7 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
         StoreError: The built page is missing, or the folder holds no experiment.
         InputError: Texts that cannot be used.
     """
-    from holdfast.teleop.printed_arm import arm_module
+    from holdfast.teleop.protocol.printed_arm import arm_module
 
     words = read_texts(options.texts, options.english)
     files = _files(options.static)

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.errors import InputError
-from holdfast.teleop.entries import Entry, Kind, State
-from holdfast.teleop.records import Records
-from holdfast.teleop.replay import SAME, replay
+from holdfast.teleop.records.check import SAME, replay
+from holdfast.teleop.records.entries import Entry, Kind, State
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.session import training_tasks
 from holdfast.teleop.serve.live import Live
 from holdfast.teleop.serve.messages import Bye, Cycles, Hello, Refused, Sequenced, Welcome
 from holdfast.teleop.serve.station import Entered, Station, Taken, enter
 from holdfast.teleop.serve.writer import Keeper
-from holdfast.teleop.session import training_tasks
-from holdfast.teleop.trials import End
+from holdfast.teleop.trials.recordings import End
 
 if TYPE_CHECKING:
     from holdfast.teleop.serve.connection import Connection

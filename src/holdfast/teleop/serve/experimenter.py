@@ -19,13 +19,13 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from holdfast.errors import HoldfastError, InputError
-from holdfast.teleop.entries import Who
-from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.serve.apart import apart
+from holdfast.teleop.protocol.protocol import Protocol
+from holdfast.teleop.records.entries import Who
+from holdfast.teleop.records.session import training_tasks
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import Guard
 from holdfast.teleop.serve.messages import Code, Message, sentence
-from holdfast.teleop.session import training_tasks
+from holdfast.teleop.serve.process import apart
 
 _MISSING = ("refuse", "complete", "mixed")  # see holdfast.teleop.analysis.analyse
 _MOST_BYTES = 64 * 1024  # of what is posted: the longest note fits

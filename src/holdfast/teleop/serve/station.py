@@ -12,14 +12,14 @@ from functools import singledispatchmethod
 import numpy as np
 
 from holdfast.errors import InputError
-from holdfast.teleop.entries import Entry, Kind, State, Who
-from holdfast.teleop.protocol import Protocol
-from holdfast.teleop.records import Records
-from holdfast.teleop.records_file import now
+from holdfast.teleop.protocol.protocol import Protocol
+from holdfast.teleop.records.entries import Entry, Kind, State, Who
+from holdfast.teleop.records.file import now
+from holdfast.teleop.records.records import Records
+from holdfast.teleop.records.session import Session, done, training_scenario, training_tasks
 from holdfast.teleop.serve import messages
 from holdfast.teleop.serve.messages import Ack, Bye, Hello, Refused, Sequenced, Welcome
-from holdfast.teleop.session import Session, done, training_scenario, training_tasks
-from holdfast.teleop.trials import End
+from holdfast.teleop.trials.recordings import End
 
 _ENDS = {"arrived": End.ARRIVED, "aborted": End.ABORTED, "time": End.TIME, "broken-off": End.BROKEN_OFF}
 _ROUNDING = 1e-9  # of the stick's limit
@@ -250,7 +250,7 @@ def quota(protocol: Protocol) -> int:
 
 
 def _plan(records: Records, row: int, number: int) -> messages.Plan:
-    from holdfast.teleop.printed_arm import law_of  # it knows how /arm.js counts them
+    from holdfast.teleop.protocol.printed_arm import law_of  # it knows how /arm.js counts them
 
     protocol = records.protocol
     training = training_tasks(protocol, number)

@@ -25,11 +25,11 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
-from holdfast import reading
 from holdfast.errors import InputError, StoreError
+from holdfast.files import reading
+from holdfast.files.output import replaced
+from holdfast.files.yaml import Number, Strict, content, sentence
 from holdfast.teleop.serve.messages import Name
-from holdfast.whole_file import replaced
-from holdfast.yaml_file import Number, Strict, content, sentence
 
 ENGLISH = Path(__file__).with_name("texts") / "en.yaml"
 _EXAMPLE = "'holdfast teleop texts --write FILE'"

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from holdfast.errors import HoldfastError, StoreError
-from holdfast.teleop.records import Records
+from holdfast.teleop.records.records import Records
 
 _GATHER = 0.008  # s that the first change of a transaction waits for others
 _MOST = 512  # changes in one transaction
@@ -67,7 +67,8 @@ class Keeper:
     def put(self, job: Callable[[Records], Any], answer: Callable[[Any], None]) -> None:
         """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception.
 
-        A job that fails must leave nothing half done: jobs of several changes use :meth:`holdfast.teleop.Records.together`.
+        A job that fails must leave nothing half done: jobs of several changes use
+        :meth:`holdfast.teleop.records.Records.together`.
         """
         self._jobs.put((job, answer))
 

@@ -1,0 +1,10 @@
+from holdfast.assessment.assessment import Assessment as Assessment
+from holdfast.assessment.assessment import assess as assess
+from holdfast.assessment.assessment import load as load
+from holdfast.assessment.comparison import Comparison as Comparison
+from holdfast.assessment.comparison import compare as compare
+from holdfast.assessment.single_points import Structure as Structure
+from holdfast.assessment.single_points import explain as explain
+from holdfast.assessment.single_points import structure as structure
+from holdfast.assessment.single_points import structures as structures
+from holdfast.assessment.upgrade import Upgrade as Upgrade

@@ -1,0 +1,473 @@
+"""Draw poses in a region, solve, evaluate: the probability that the arm keeps what it needs when a joint locks."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.assessment.plan import Plan, Rows, make_plan
+from holdfast.assessment.rows import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
+from holdfast.assessment.upgrade import Upgrade, if_never_fails, upgrades
+from holdfast.clearance.clearance import Clearance
+from holdfast.engine.store import Store
+from holdfast.errors import InputError, StoreError
+from holdfast.indices.index import Index, by_name
+from holdfast.notice import says
+from holdfast.probability.distribution import Distribution, Interval
+from holdfast.probability.intervals import check_confidence
+from holdfast.regions.region import Region, Sampling
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
+_KEEP = 2_000_000  # rows held in memory unless asked otherwise
+_CHUNK_BLOCKS = 8
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """What :func:`assess` found.
+
+    Attributes:
+        plan: What was asked for.
+        distribution: Of the index over the region, at the configurations that inverse kinematics found.
+        worst_counts: (F,) how often each failure is the worst, over reached and non-singular poses; if poses have weights,
+            the sum of theirs.
+        optimised: The distribution at the best configurations, or None if they were not asked for.
+        optimised_worst_counts: As ``worst_counts``, at the best configurations.
+        survivors: (n,) poses that can still be reached once the joint has locked, or their weights; 0 for joints that were
+            not asked for, None if none was.
+        collisions: Configurations that run the arm through itself, or None if its clearance was not looked at.
+        store: The results folder, if one was written.
+        seconds: Time it took, or None if that is not known.
+        complete: False if the run was stopped before all poses were done.
+    """
+
+    plan: Plan
+    distribution: Distribution
+    worst_counts: NDArray[Any]
+    optimised: Distribution | None
+    optimised_worst_counts: NDArray[Any] | None
+    survivors: NDArray[Any] | None
+    collisions: SelfCollisions | None
+    store: Store | None
+    seconds: float | None
+    complete: bool
+    _rows: Rows | None = None
+
+    @property
+    def arm(self) -> Arm:
+        """The arm."""
+        return self.plan.arm
+
+    @property
+    def region(self) -> Region:
+        """The region."""
+        return self.plan.region
+
+    @property
+    def index(self) -> Index:
+        """The index."""
+        return self.plan.index
+
+    @property
+    def poses(self) -> int:
+        """Poses asked for."""
+        return self.plan.poses
+
+    @property
+    def seed(self) -> int:
+        """Seed of the run."""
+        return self.plan.seed
+
+    @property
+    def sampling(self) -> Sampling:
+        """How poses were drawn."""
+        return self.plan.sampling
+
+    @property
+    def restarts(self) -> int:
+        """Random starts per pose before it counted as not found."""
+        return self.plan.restarts
+
+    def of(self, optimised: bool) -> Distribution:
+        """The distribution at the best configurations, or at those that inverse kinematics found.
+
+        Raises:
+            InputError: The run was not optimised.
+        """
+        if not optimised:
+            return self.distribution
+        if self.optimised is None:
+            raise InputError("this run was not optimised; assess again with optimise=True")
+        return self.optimised
+
+    @checked
+    def cdf(self, h: ArrayLike, optimised: bool = False, reachable_only: bool = False) -> Array:
+        """``F(h)``: share of poses whose index is below h; one without a configuration counts as 0 unless asked otherwise."""
+        return self.of(optimised).cdf(h, reachable_only)
+
+    @checked
+    def probability(
+        self,
+        at_least: float | None = None,
+        at_most: float | None = None,
+        optimised: bool = False,
+        reachable_only: bool = False,
+    ) -> float:
+        """Probability that the index meets a threshold: ``1 - F(h)``."""
+        return self.of(optimised).probability(at_least, at_most, reachable_only)
+
+    @checked
+    def interval(
+        self,
+        at_least: float | None = None,
+        at_most: float | None = None,
+        optimised: bool = False,
+        reachable_only: bool = False,
+        confidence: float = 0.95,
+    ) -> Interval:
+        """That probability with its exact (Clopper-Pearson) interval."""
+        return self.of(optimised).interval(at_least, at_most, reachable_only, confidence)
+
+    @checked
+    def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
+        """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
+
+        The joint stands at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
+        says which. A pose that the healthy arm does not reach counts as
+        lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
+
+        Args:
+            joint: Name or index from 0; every joint that the run asked for if not given.
+            confidence: Of the interval.
+
+        Raises:
+            InputError: The run did not ask; assess again with ``after_lock=True``.
+        """
+        check_confidence(confidence)
+        if self.survivors is None:
+            raise InputError("this run did not look at what survives a lock; assess again with after_lock=True")
+        chosen = list(self.plan.locks) if joint is None else [self.arm.joint_index(joint)]
+        names = self.arm.joint_names
+        for k in chosen:
+            if k not in self.plan.locks:
+                raise InputError(
+                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with its lock_at"
+                )
+        d = self.distribution
+        if d.weighted:
+            total, n = d.total_weight(), d.effective()
+            return {names[k]: Interval.of_share(min(float(self.survivors[k]) / total, 1.0), n, confidence) for k in chosen}
+        return {names[k]: Interval.of(int(self.survivors[k]), d.samples, confidence) for k in chosen}
+
+    @property
+    def locks(self) -> dict[str, float | None]:
+        """Where each joint of :meth:`survival` locks: an angle (rad or m), or None for where it was at another pose."""
+        return {self.arm.joint_names[k]: angle for k, angle in self.plan.locks.items()}
+
+    @checked
+    def expected_survival(self, rates: Mapping[str | int, float]) -> float:
+        """Share of the region that is left after a failure, weighted by how often each joint fails.
+
+        Args:
+            rates: Relative failure rates by joint name or index from 0; joints that are not named do not fail.
+
+        Raises:
+            InputError: A negative rate, or none above 0, or the run did not ask (for a joint with a rate above 0).
+        """
+        weights = check_rates(self.arm, rates)
+        some = np.flatnonzero(weights)
+        shares = np.array([self.survival(int(k))[self.arm.joint_names[k]].value for k in some])
+        return float(shares @ weights[some] / weights.sum())
+
+    # ---- what it means ---------------------------------------------------------------------------------------------
+
+    def default_threshold(self) -> float:
+        """The value that reports ask for unless they are given one: half of the bound, else about the median; two digits."""
+        if self.index.bound is not None:
+            return float(f"{self.index.bound / 2:.2g}")
+        d = self.distribution
+        for v in [*(d.quantile([0.5, 0.25]).tolist() if d.reached else []), d.highest]:
+            if np.isfinite(v) and abs(v) > ZERO:
+                return float(f"{v:.2g}")
+        return 1.0
+
+    def gap(self, optimised: bool = False) -> float | None:
+        """What the median over the reached poses lacks to the bound that no configuration can exceed, or None if unknown.
+
+        For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
+        the bound for several failures at a time, ``index.bound_note`` says.
+        """
+        d = self.of(optimised)
+        if self.index.bound is None or not d.reached:
+            return None
+        return self.index.bound - float(d.quantile(0.5))
+
+    @checked
+    def if_never_fails(self, joint: str | int, optimised: bool = False) -> Distribution:
+        """The distribution that the arm would have if no failure of one joint could happen, at the same configurations.
+
+        It is the worst case over the remaining failures. Configurations are not chosen again: of the optimised sample it is
+        what those chosen for all failures keep, a lower bound.
+
+        Args:
+            joint: Name or index from 0.
+            optimised: At the best configurations instead of those that inverse kinematics found.
+
+        Raises:
+            InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
+        """
+        return if_never_fails(self, joint, optimised)
+
+    @checked
+    def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
+        """Which joint deserves a redundant motor or brake: what each would gain if it could never fail, the largest first.
+
+        Args:
+            threshold: Value of the index that the task needs; :meth:`default_threshold` if not given.
+            optimised: At the best configurations instead of those that inverse kinematics found.
+            confidence: Of the intervals.
+
+        Raises:
+            InputError: The threshold is not finite, the rows were not kept, or the run was not optimised.
+        """
+        check_confidence(confidence)
+        return upgrades(self, self.default_threshold() if threshold is None else threshold, optimised, confidence)
+
+    # ---- rows, files -----------------------------------------------------------------------------------------------
+
+    @property
+    def kept(self) -> bool:
+        """True if the rows are at hand, in memory or in a folder, and not only counted in bins."""
+        return self._rows is not None or self.store is not None
+
+    @property
+    def columns(self) -> Mapping[str, Any]:
+        """The rows by column, (N, ...) each, read when it is sliced: :attr:`dataset` without names and units.
+
+        Raises:
+            InputError: The rows were not kept; give ``store`` or ``keep=True``.
+        """
+        if self._rows is not None:
+            return self._rows
+        if self.store is not None:
+            return self.store.arrays()
+        raise InputError("the poses of this run were not kept (keep=False); assess again with store=PATH or keep=True")
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Every pose with its configuration and index values, as an xarray dataset with units and provenance.
+
+        Raises:
+            InputError: The rows were not kept; give ``store`` or ``keep=True``.
+        """
+        import xarray as xr
+
+        if self._rows is None and self.store is not None:
+            return self.store.dataset()
+        columns = {c.name: c for c in self.plan.columns()}
+        data = {
+            name: xr.DataArray(
+                values,
+                dims=("row", *[d for d, _ in columns[name].dims]),
+                attrs={"units": columns[name].units, "long_name": columns[name].about},
+            )
+            for name, values in self.columns.items()
+        }
+        return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
+
+    @checked
+    @says("writing the results")
+    def save(self, path: str | Path) -> Path:
+        """Write the run as a results folder that :func:`load` and ``holdfast report`` read.
+
+        Raises:
+            StoreError: The folder exists with something else in it, or cannot be written.
+            InputError: The rows were not kept.
+        """
+        target = Path(path)
+        if self._rows is None:
+            if self.store is not None and self.store.path.resolve() == target.resolve():
+                return target
+            raise InputError("the poses of this run were not kept, or are in another folder already; assess with store=PATH")
+        store = _open_store(target, self.plan)
+        with store.writing():
+            for k in store.missing:
+                start, stop = store.chunks[k]
+                store.write(k, {name: values[start:stop] for name, values in self._rows.items()})
+            store.note(**provenance(self.seconds))
+        return target
+
+    @checked
+    @says("drawing the report")
+    def report(self, path: str | Path, threshold: float | None = None) -> Path:
+        """Write a self-contained HTML report.
+
+        Args:
+            path: The file, replaced in one step.
+            threshold: Value of the index that the task needs; half of the bound, or the median, if not given.
+
+        Raises:
+            StoreError: The file cannot be written.
+        """
+        from holdfast.present.assessment.page import write
+
+        return write(self, Path(path), threshold)
+
+
+@checked
+@says("assessing poses")
+def assess(
+    arm: Arm,
+    region: Region,
+    index: Index | str = "relative-manipulability",
+    poses: int | None = None,
+    seed: int = 0,
+    sampling: Sampling = "random",
+    restarts: int = 100,
+    store: str | Path | None = None,
+    keep: bool | None = None,
+    progress: Progress | None = None,
+    task: str | Task = "pose",
+    optimise: bool = False,
+    after_lock: bool = False,
+    lock_at: Mapping[str | int, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    margin: float = 0.0,
+) -> Assessment:
+    """The distribution of an index over a region.
+
+    Each pose is solved by inverse kinematics from random starts; the configuration found is evaluated as it is (the
+    paper's non-optimised sample) and, if asked for, the best configuration of the pose as well (the optimised sample).
+    A region of joints is evaluated directly.
+
+    Args:
+        arm: The arm.
+        region: Which poses, or configurations.
+        index: An index of that arm, or its name.
+        poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
+        seed: The same seed gives the same result, whatever the number of threads or chunks.
+        sampling: ``random``, or ``sobol`` (scrambled; a power of two of poses is best).
+        restarts: Random starts per pose before it counts as not reached.
+        store: Folder for the results, written chunk by chunk; an existing folder of the same run is continued.
+        keep: Hold every row in memory. Default: if there are no more than two million and there is no store.
+        progress: Called with (poses done, poses in all).
+        task: Of the index, if that is given by name.
+        optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
+        after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
+        lock_at: Angles, rad or m, by joint name or index from 0, at which these joints lock. The others lock where they were
+            at another pose if ``after_lock``, and are left out if not.
+        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
+            of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may run through itself.
+            Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
+        margin: Smallest clearance of the best configurations, m.
+
+    Raises:
+        InputError: Options out of range, or an index or clearance of another arm.
+        TaskError: The arm is not redundant for the task, or the index cannot be optimised.
+        StoreError: The folder cannot be used; nothing committed is lost.
+        KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call goes on.
+
+    Source: Abdi et al. 2012, sections IV and V.
+    """
+    if isinstance(index, str):
+        index = by_name(index, arm, task)
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, lock_at, clearance, margin)
+    begin = time.monotonic()
+    keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
+    folder = None if store is None else _open_store(Path(store), plan)
+    plan.compile()
+    tally = Tally(plan)
+    kept: list[Rows] = []
+
+    def take(rows: Rows) -> None:
+        tally.add(rows)
+        if keep:
+            kept.append(rows)
+
+    if folder is None:
+        for start, rows in blocks(plan, 0, plan.poses):
+            take(rows)
+            if progress is not None:
+                progress(start + len(rows["status"]), plan.poses)
+    else:
+        with folder.writing():
+            was_complete = folder.complete
+            fill(folder, plan, progress)
+            if not was_complete:
+                spent = folder.notes.get("seconds") or 0.0
+                folder.note(**provenance(spent + time.monotonic() - begin))
+        for rows in stored(folder, plan):
+            take(rows)
+    merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
+    return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
+
+
+def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
+    """Failure rates (n,) of all joints; see :meth:`Assessment.expected_survival`."""
+    weights = np.zeros(arm.n)
+    for joint, rate in rates.items():
+        weights[arm.joint_index(joint)] = rate
+    if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
+        raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
+    return weights
+
+
+@checked
+def load(path: str | Path) -> Assessment:
+    """The assessment in a results folder; of a run that was stopped, what is there.
+
+    Raises:
+        StoreError: Not a results folder of an assessment, or damaged.
+    """
+    store = Store.open(path)
+    if store.plan.get("kind") != "assess":
+        raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
+    plan = Plan.stored(store, store.rows)
+    tally = Tally(plan)
+    for rows in stored(store, plan):
+        tally.add(rows)
+    return _finished(plan, tally, store, store.notes.get("seconds"), store.complete, None)
+
+
+def _finished(
+    plan: Plan, tally: Tally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
+) -> Assessment:
+    best = tally.optimised
+    return Assessment(
+        plan,
+        tally.found.finish(),
+        tally.found.worst,
+        None if best is None else best.finish(),
+        None if best is None else best.worst,
+        tally.survivors,
+        tally.collisions,
+        store,
+        seconds,
+        complete,
+        rows,
+    )
+
+
+def _open_store(path: Path, plan: Plan) -> Store:
+    if not plan.region.storable:
+        raise InputError(
+            f"region '{plan.region.name}' has a function of your own, which a folder cannot hold; assess without a store"
+        )
+    if not plan.storable:
+        raise InputError(f"index '{plan.index.name}' is your own function, which a folder cannot hold; assess without a store")
+    return Store.create(path, plan.to_dict(), plan.columns(), plan.poses, _CHUNK_BLOCKS * plan.region.block)

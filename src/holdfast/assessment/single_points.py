@@ -1,0 +1,86 @@
+"""Single points of failure by structure: joints whose failure ends the task in every configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, as_task, plane_normal
+from holdfast.errors import TaskError
+from holdfast.indices.determinants import RelativeManipulability
+
+_DRAWS = 256
+_ZERO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What locking each joint does to a task whatever the configuration.
+
+    Attributes:
+        task: Name of the task.
+        redundancy: Joints minus rows; 0 or less means that any lock ends the task.
+        fatal: Joints, indices from 0, without which the task is singular in every configuration.
+        never: The healthy arm itself is singular for the task in every configuration.
+    """
+
+    task: str
+    redundancy: int
+    fatal: tuple[int, ...]
+    never: bool
+
+    @property
+    def survives(self) -> bool:
+        """True if no single lock ends the task by structure."""
+        return self.redundancy > 0 and not self.fatal and not self.never
+
+
+def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
+    """Find the joints whose lock makes a task singular everywhere.
+
+    A joint is one if its relative manipulability vanishes at each of 256 random configurations (seeded): a function that
+    is analytic in q and zero there is zero everywhere, up to events of probability zero.
+    """
+    t = as_task(arm, task)
+    redundancy = arm.n - t.m
+    if redundancy <= 0:
+        return Structure(t.name, redundancy, tuple(range(arm.n)), False)
+    generator = np.random.default_rng(20120514)
+    # Not the joint limits: a narrow range could hide what another part of it shows.
+    q = generator.uniform(-np.pi, np.pi, (_DRAWS, arm.n))
+    result = RelativeManipulability(arm, t).evaluate(q)
+    fatal = tuple(np.flatnonzero(result.by_failure.max(axis=0) < _ZERO).tolist())
+    never = bool((result.value == 0).all() and (result.by_failure == 0).all())
+    return Structure(t.name, redundancy, fatal, never)
+
+
+def structures(arm: Arm) -> list[Structure]:
+    """The structure of every task that the arm's kind of motion has, the most demanding first."""
+    names = ["planar-pose", "planar"] if plane_normal(arm) is not None else ["pose", "pointing", "position"]
+    found = []
+    for name in names:
+        try:
+            found.append(structure(arm, name))
+        except TaskError:
+            continue
+    return found
+
+
+def explain(arm: Arm, found: Structure, others: list[Structure]) -> str:
+    """One or two sentences for people about one task, with the tasks that do survive."""
+    survivors = [s.task for s in others if s.survives and s.task != found.task]
+    instead = f" A task that every single lock leaves possible: {', '.join(survivors)}." if survivors else ""
+    if found.never:
+        return f"'{arm.name}' can never do task '{found.task}': it is singular in every configuration.{instead}"
+    if found.redundancy <= 0:
+        return f"'{arm.name}' is not redundant for task '{found.task}': any locked joint ends it.{instead}"
+    if not found.fatal:
+        return f"No single joint of '{arm.name}' is a point of failure by structure for task '{found.task}'."
+    names = ", ".join(f"{arm.joint_names[k]} (joint {k + 1})" for k in found.fatal)
+    return (
+        f"Single point of failure by structure: once {names} locks, '{arm.name}' is singular for task '{found.task}' "
+        f"in every configuration, however well it is chosen.{instead}"
+    )

@@ -1,0 +1,141 @@
+"""Which joint deserves the redundant motor or brake: what the arm would keep if one joint could never fail."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.errors import InputError
+from holdfast.indices.index import Index
+from holdfast.probability.distribution import Distribution
+from holdfast.probability.intervals import Interval
+from holdfast.status import Status
+
+if TYPE_CHECKING:
+    from holdfast.assessment.assessment import Assessment
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Upgrade:
+    """What a region would gain if one joint could never fail, at the same poses and configurations.
+
+    Attributes:
+        joint: Name of the joint.
+        before: Probability that the index meets the threshold now.
+        after: The same if no failure of this joint could happen.
+        gain: ``after - before``: share of the poses that fail now and would not then.
+        low, high: Interval of the gain. It is paired, because both samples are of the same poses: a failure less never makes
+            a pose worse, so the gain is one share, with its exact interval.
+        confidence: Of the interval.
+    """
+
+    joint: str
+    before: float
+    after: float
+    gain: float
+    low: float
+    high: float
+    confidence: float
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The computed poses of a run at one choice of configurations.
+
+    Attributes:
+        number: (N,) which row of the dataset.
+        reached: (N,) has a configuration.
+        q: (N, n) configurations, NaN where there is none.
+        value: (N,) the index.
+        by_failure: (N, F) the index after each failure.
+        worst: (N,) position of the worst failure; -1 where there is none.
+        weight: (N,) how much each pose counts, or None if all count alike.
+    """
+
+    number: NDArray[np.int64]
+    reached: NDArray[np.bool_]
+    q: Array
+    value: Array
+    by_failure: Array
+    worst: NDArray[np.int64]
+    weight: Array | None
+
+
+def sample(a: Assessment, optimised: bool) -> Sample:
+    """The rows of a run.
+
+    At the best configurations the values after each failure are not stored but computed again, which costs less than reading.
+
+    Raises:
+        InputError: The rows were not kept, or the run was not optimised.
+    """
+    a.of(optimised)
+    columns = a.columns
+    status = columns["status"][:]
+    keep = np.flatnonzero(status != Status.NOT_COMPUTED)
+    reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
+    if (
+        optimised and "optimised_status" in columns
+    ):  # where every configuration runs the arm through itself there is no best one
+        reached &= columns["optimised_status"][:][keep] != Status.INFEASIBLE
+    weight = columns["weight"][:][keep] if "weight" in columns else None
+    before = "optimised_" if optimised else ""
+    q = columns[f"{before}q"][:][keep]
+    if optimised:
+        by_failure = np.full((len(keep), len(a.index.failures)), np.nan)
+        by_failure[reached] = a.index.by_joint(q[reached])
+    else:
+        by_failure = columns["by_failure"][:][keep]
+    value, worst = columns[f"{before}index"][:][keep], columns[f"{before}worst"][:][keep].astype(np.int64)
+    return Sample(keep, reached, q, value, by_failure, worst, weight)
+
+
+def if_never_fails(a: Assessment, joint: str | int, optimised: bool) -> Distribution:
+    """See :meth:`Assessment.if_never_fails`."""
+    k = a.arm.joint_index(joint)
+    left = _remaining(a.index, k)
+    if not left:
+        raise InputError(
+            f"every failure considered is one of '{a.arm.joint_names[k]}', so nothing could fail; assess with more failures"
+        )
+    s = sample(a, optimised)
+    values = s.by_failure[s.reached][:, left]
+    worst = values.min(axis=1) if a.index.better == "larger" else values.max(axis=1)
+    weights = () if s.weight is None else (s.weight[s.reached], s.weight[~s.reached])
+    lost, singular = int((~s.reached).sum()), int((s.worst[s.reached] < 0).sum())
+    return Distribution.of(worst, a.index.better, lost, singular, *weights)
+
+
+def upgrades(a: Assessment, threshold: float, optimised: bool, confidence: float) -> list[Upgrade]:
+    """See :meth:`Assessment.upgrades`."""
+    if not np.isfinite(threshold):
+        raise InputError(f"threshold is {threshold:g}; it must be a finite number")
+    d, index = a.of(optimised), a.index
+    larger = index.better == "larger"
+    now = d.interval(at_least=threshold) if larger else d.interval(at_most=threshold)
+    s = sample(a, optimised)
+    value = np.where(s.reached[:, None], s.by_failure, 0.0 if larger else np.inf)
+    meets = value >= threshold if larger else value <= threshold
+    fails = ~meets.all(axis=1)
+    found = []
+    for k, name in enumerate(a.arm.joint_names):
+        left = _remaining(index, k)
+        if not left or len(left) == len(index.failures):
+            continue  # nothing would be left to fail, or nothing would change
+        gained = fails & meets[:, left].all(axis=1)
+        if s.weight is None:
+            gain = Interval.of(int(gained.sum()), d.samples, confidence)
+        else:
+            gain = Interval.of_share(min(float(s.weight[gained].sum()) / d.total_weight(), 1.0), d.effective(), confidence)
+        found.append(Upgrade(name, now.value, now.value + gain.value, gain.value, gain.low, gain.high, confidence))
+    return sorted(found, key=lambda u: -u.gain)
+
+
+def _remaining(index: Index, k: int) -> list[int]:
+    """Positions of the failures in which joint k, from 0, has no part."""
+    return [i for i, failed in enumerate(index.failures) if k not in failed]

@@ -1,0 +1,164 @@
+"""``holdfast design``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from holdfast.cli.options import (
+    TASK_HELP,
+    ArmArgument,
+    BaseOption,
+    FailuresOption,
+    HoldOption,
+    JsonOption,
+    LengthOption,
+    SeedOption,
+    TipOption,
+    console,
+    number,
+    print_json,
+    print_written,
+    read_arm,
+    read_failures,
+    read_task,
+)
+from holdfast.cli.progress import progress_bar
+from holdfast.cli.start.assess import read_region
+from holdfast.errors import InputError
+from holdfast.registry import LAWS
+
+if TYPE_CHECKING:
+    from holdfast.designs.designs import Designs
+
+
+def design(
+    arm: ArmArgument,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            "--vary",
+            help="What is open, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
+            "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. Give it again for more.",
+            show_default=False,
+        ),
+    ],
+    maximise: Annotated[
+        str,
+        typer.Option(
+            "--maximise",
+            help="Index of which a quantile over the region is made as great as can be; or convergence: that the arm arrives "
+            "after a lock that its controller does not know of.",
+        ),
+    ] = "relative-manipulability",
+    law: Annotated[
+        str | None,
+        typer.Option(
+            "--law",
+            help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.",
+            show_default=False,
+        ),
+    ] = None,
+    keep_reach: Annotated[
+        bool, typer.Option("--keep-reach", help="With --maximise convergence: link lengths keep their sum.")
+    ] = False,
+    region: Annotated[
+        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
+    ] = None,
+    task: Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)] = None,
+    failures: FailuresOption = "single",
+    length: LengthOption = 1.0,
+    level: Annotated[float, typer.Option("--level", help="Share of the poses for which the index is to be guaranteed.")] = 0.95,
+    poses: Annotated[int, typer.Option("--poses", help="Poses on which designs are compared.")] = 256,
+    designs: Annotated[int, typer.Option("--designs", help="Designs spread over the bounds that are tried first.")] = 512,
+    climbs: Annotated[int, typer.Option("--climbs", help="Climbs with exact gradients from the best of them.")] = 8,
+    fresh: Annotated[int, typer.Option("--fresh", help="Poses of the final check, which no choice was made on.")] = 2000,
+    seed: SeedOption = 0,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="Folder for report, best arm, designs; a stopped search goes on.", show_default=False),
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
+    ] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Which arm to build: search link lengths, twists, offsets, limits or the tool for the most that is left after a failure.
+
+    What a design is worth is guaranteed: the index that, say, 95 % of the poses of the region have at least when the worst
+    joint locks. The report shows what that costs in reach, and holds the best arm as a file for 'holdfast assess'.
+
+    Example: holdfast design pa10-9dof --vary a8=-0.2..0.2 --vary alpha8=45..135deg --vary tool.z=0..0.3 --out tool
+    """
+    from holdfast.designs.search import design as search
+    from holdfast.designs.space import design_space
+    from holdfast.kernels.threads import set_threads
+
+    if threads is not None:
+        set_threads(threads)
+    given = read_arm(arm, base, tip, hold)
+    space = design_space(given, vary)
+    if maximise == "convergence":
+        from holdfast.cli.before.design_convergence import converging
+
+        converging(space, read_task(task, arm, given), law, designs, climbs, keep_reach, seed, out, json_)
+        return
+    if law is not None or keep_reach:
+        raise InputError("--law and --keep-reach belong to --maximise convergence; leave them out")
+    with progress_bar(json_, "designs") as progress:
+        found = search(
+            given,
+            space,
+            maximise,
+            read_region(region, arm, given),
+            read_task(task, arm, given),
+            level=level,
+            failures=read_failures(given, failures),
+            length=length,
+            poses=poses,
+            designs=designs,
+            climbs=climbs,
+            fresh=fresh,
+            seed=seed,
+            store=out,
+            progress=progress,
+        )
+    files = [] if out is None else found.save(out)
+    if json_:
+        print_json({**found.to_dict(), "files": [str(f) for f in files]})
+        return
+    _print(found)
+    print_written(console(), files)
+
+
+def _print(found: Designs) -> None:
+    """The best design and what it gains, for people."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from holdfast.present.designs.page import at_bound, headline
+
+    out = console()
+    out.print(escape(headline(found)), soft_wrap=True)
+    table = Table("parameter", "given arm", "best design", "bounds", box=None, pad_edge=False)
+    values: Any = found.values[found.best].tolist()
+    for p, before, after in zip(found.space.parameters, found.space.start.tolist(), values, strict=True):
+        side = at_bound(p, after)
+        mark = f" (at the {side} bound)" if side else ""
+        table.add_row(p.name, p.text(before), p.text(after) + mark, f"{p.text(p.lower)} to {p.text(p.upper)}")
+    out.print(table)
+    out.print(
+        f"{len(found.values):,} designs tried; {len(found.front)} of them are on the front of reach and guaranteed "
+        f"{escape(found.index.name)}, reach {number(found.reach[found.front[0]])} to {number(found.reach[found.front[-1]])} m",
+        soft_wrap=True,
+    )
+
+
+def add(app: typer.Typer) -> None:
+    """Register the command."""
+    app.command()(design)

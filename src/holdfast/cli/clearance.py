@@ -1,0 +1,116 @@
+"""--capsules, --radius, --margin, --clearance: the shape of an arm, so that it is kept from running through itself."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+    from holdfast.clearance.clearance import Clearance
+
+CapsulesOption = Annotated[
+    Path | None,
+    typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.", show_default=False),
+]
+RadiusOption = Annotated[
+    float | None,
+    typer.Option(
+        "--radius",
+        help="Radius, m, of capsules along the links. Default: 1/20 of the sum of the link lengths, an assumption.",
+        show_default=False,
+    ),
+]
+MarginOption = Annotated[
+    float | None,
+    typer.Option("--margin", help="Smallest clearance, m, of the best configurations. Default: 0.", show_default=False),
+]
+ClearanceOption = Annotated[
+    bool | None,
+    typer.Option(
+        "--clearance/--no-clearance",
+        help="Keep the arm from running through itself, or let it. Default: keep it when configurations are chosen, but for "
+        "an arm that moves in a plane.",
+        show_default=False,
+    ),
+]
+
+
+def check_clearance(wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None) -> None:
+    """Refuse options that contradict each other, before any work is done.
+
+    Raises:
+        InputError: Which ones, or a radius or margin that is none.
+    """
+    given = [name for name, x in (("--capsules", capsules), ("--radius", radius), ("--margin", margin)) if x is not None]
+    if wanted is False and given:
+        raise InputError(f"{given[0]} says how clear of itself the arm stays and --no-clearance lets it; give one of them")
+    if capsules is not None and radius is not None:
+        raise InputError("give one of --capsules and --radius; a capsule file may hold a radius")
+    if radius is not None and not (math.isfinite(radius) and radius > 0):
+        raise InputError(f"--radius is {radius:g}; it must be a finite number of metres above 0")
+    if margin is not None and not math.isfinite(margin):
+        raise InputError(f"--margin is {margin:g}; it must be a finite number of metres")
+
+
+def read_clearance(
+    arm: Arm, wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, chooses: bool
+) -> Clearance | None:
+    """The clearance of an arm that the options ask for, or None.
+
+    Args:
+        arm: The arm.
+        wanted: ``--clearance`` or ``--no-clearance``.
+        capsules: ``--capsules``.
+        radius: ``--radius``, m.
+        margin: ``--margin``, m.
+        chooses: The command chooses configurations, so that a clearance can be kept.
+
+    Raises:
+        InputError: A margin where nothing keeps it.
+        ArmError: A capsule file or radius that does not fit the arm.
+    """
+    from holdfast.clearance.capsules import Capsules
+    from holdfast.clearance.clearance import Clearance
+
+    if margin is not None and not chooses:
+        raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
+    if capsules is not None:
+        return Clearance(arm, Capsules.load(capsules, arm))
+    if radius is not None:
+        return Clearance(arm, Capsules.along(arm, radius))
+    if wanted:
+        return Clearance(arm)
+    found = Clearance.by_default(arm) if wanted is None and chooses else None
+    if margin is not None and found is None:
+        raise InputError(
+            f"--margin has nothing to keep: the links of '{arm.name}' lie beside each other, so its clearance is not looked "
+            "at unless you say so; add --clearance or --capsules"
+        )
+    return found
+
+
+def shape_summary(clearance: Clearance, margin: float) -> dict[str, Any]:
+    """What the arm is taken to be, for machines."""
+    arm, capsules = clearance.arm, clearance.capsules
+    radius = capsules.radius_along(arm)
+    source = "given" if radius is None else "assumed radius" if capsules.assumed(arm) else "given radius"
+    return {
+        "capsules": source,
+        "radius_m": radius,
+        "description": capsules.describe(arm),
+        "margin_m": margin,
+        "pairs_checked": clearance.pair_names,
+        "pairs_not_checked": {p.name: p.reason for p in clearance.ignored},
+    }
+
+
+def shape_text(clearance: Clearance, margin: float) -> str:
+    """What the arm is taken to be, in brackets after a sentence."""
+    wanted = f"; margin {margin:g} m" if margin else ""
+    return f"capsules: {clearance.capsules.describe(clearance.arm)}{wanted}"

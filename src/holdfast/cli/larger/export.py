@@ -1,0 +1,67 @@
+"""``holdfast export``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from holdfast.cli.laws import LawOption, read_law
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    JsonOption,
+    TaskOption,
+    TipOption,
+    console,
+    print_json,
+    read_arm,
+    read_task,
+)
+from holdfast.errors import InputError
+
+LANGUAGES = ("c",)
+
+
+def export(
+    arm: ArmArgument,
+    out: Annotated[Path, typer.Option("--out", help="Folder for the files; made if it is not there.", show_default=False)],
+    law: LawOption = "failure-tolerant",
+    language: Annotated[str, typer.Option("--language", help="c: C99 that needs only math.h.")] = "c",
+    name: Annotated[
+        str | None,
+        typer.Option("--name", help="Of the function and the files. Default: the law's.", show_default=False),
+    ] = None,
+    task: TaskOption = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Write a control law as code for a robot's own controller.
+
+    Example: holdfast export panda --law failure-tolerant --language c --out controller
+    """
+    if language not in LANGUAGES:
+        raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
+    model = read_arm(arm, base, tip, hold)
+    made = read_law(law, model, read_task(task, arm, model))
+    files = made.export_c(out, name)
+    if json_:
+        written = dict(zip(("source", "header", "example", "test"), map(str, files), strict=True))
+        print_json({**model.entry(), "law": made.slug, "task": made.task.name, **written})
+        return
+    from rich.markup import escape
+
+    console().print(
+        f"{escape(made.phrase())}, arm {escape(model.title)}: wrote {escape(str(files[0]))} and "
+        f"{escape(', '.join(x.name for x in files[1:]))}",
+        soft_wrap=True,
+    )
+
+
+def add(app: typer.Typer) -> None:
+    """Register the command."""
+    app.command()(export)

@@ -1,0 +1,427 @@
+"""``holdfast study``: new, run, status, verify, merge and report."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from holdfast.cli.options import (
+    BasesOption,
+    HoldsOption,
+    JsonOption,
+    NamesOption,
+    TipsOption,
+    console,
+    each_arm,
+    print_json,
+)
+from holdfast.cli.progress import progress_bar
+from holdfast.errors import InputError, StoreError
+from holdfast.notice import working
+
+if TYPE_CHECKING:
+    from holdfast.engine.study import Study
+    from holdfast.studies.study_file import StudyFile
+
+group = typer.Typer(
+    name="study",
+    help="Studies that outgrow one machine, one night or one crash: sweeps of arms, indices, regions and laws.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE.yaml", help="Study file.", show_default=False)]
+FoldersArgument = Annotated[
+    list[Path], typer.Argument(metavar="DIR...", help="Folders that 'holdfast study run --out' wrote.", show_default=False)
+]
+
+
+@group.command()
+def new(
+    file: FileArgument,
+    arm: Annotated[list[str], typer.Option("--arm", help="Built-in name or arm file; may be given again.", show_default=False)],
+    poses: Annotated[int, typer.Option("--poses", help="Samples of each cell.")] = 2000,
+    chunk: Annotated[int, typer.Option("--chunk", help="Samples computed and committed together.")] = 500,
+    seed: Annotated[int, typer.Option("--seed", help="The same seed gives the same bits.")] = 0,
+    index: Annotated[
+        list[str] | None,
+        typer.Option("--index", help="May be given again.", show_default="relative-manipulability"),
+    ] = None,
+    law: Annotated[
+        list[str] | None,
+        typer.Option("--law", help="Also maps of convergence under this control law; may be given again.", show_default=False),
+    ] = None,
+    optimise: Annotated[bool, typer.Option("--optimise", help="Also the best configuration of each pose.")] = False,
+    base: BasesOption = None,
+    tip: TipsOption = None,
+    hold: HoldsOption = None,
+    name: NamesOption = None,
+) -> None:
+    """Write a study file with comments, to edit and run.
+
+    Example: holdfast study new tools.yaml --arm panda --arm iiwa14 --poses 2000 --chunk 500 --seed 1
+    """
+    from holdfast.studies.template import write
+
+    usual = ["relative-manipulability"]
+    indices = usual if index is None else index
+    files = each_arm(arm, base, tip, hold, name)
+    written = write(file, files, poses, chunk, seed, indices, law or [], optimise)
+    typer.echo(f"written: {written}")
+
+
+@group.command()
+def run(
+    file: FileArgument,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for the results; a stopped study goes on there.", show_default=False)
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler",
+            help="Compute on Dask: the address of its scheduler (tcp://HOST:8786), its scheduler file, or local:4 for four "
+            "worker processes of this machine.",
+            show_default="threads of this process",
+        ),
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
+    ] = None,
+    part: Annotated[
+        str,
+        typer.Option("--part", help="1/3: only the first of three shares, for machines that never see each other; see merge."),
+    ] = "1/1",
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Say what would be computed, how long it takes and how large it is.")
+    ] = False,
+    json_: JsonOption = False,
+) -> None:
+    """Compute what is missing of a study. Ctrl-C stops after the chunks in hand; the same command goes on.
+
+    Example: holdfast study run tools.yaml --out tools
+
+    Example: holdfast study run tools.yaml --out tools --scheduler tcp://10.0.0.5:8786
+    """
+    from holdfast.engine.study import Study
+    from holdfast.kernels.threads import set_threads
+    from holdfast.studies.study_file import read
+
+    share = _share(part)
+    if threads is not None:
+        set_threads(threads)
+    asked = read(file)
+    if dry_run:
+        _dry_run(asked, json_)
+        return
+    if out is None:
+        raise InputError("--out is missing; give a folder for the results, or --dry-run")
+    with _runner(scheduler) as runner, _stopping() as stop, _progress(json_) as progress:
+        study = Study.create(out, asked.name, asked.seed, asked.cells, asked.text)
+        problems = study.run(asked.cells, runner, progress, stop, share)
+    if json_:
+        print_json(_status(study))
+    else:
+        _print_status(study)
+    if problems:
+        name, problem = next(iter(problems.items()))
+        more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
+        raise InputError(f"{len(problems)} of {len(asked.cells)} cells were not computed: '{name}': {problem}{more}")
+    if stop():
+        raise KeyboardInterrupt
+
+
+@group.command()
+def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
+    """How far a study is, also while it runs.
+
+    Example: holdfast study status tools
+    """
+    from holdfast.engine.study import Study
+
+    studies = [Study.open(folder) for folder in folders]
+    if json_:
+        print_json(_status(studies[0]) if len(studies) == 1 else [_status(s) for s in studies])
+        return
+    for study in studies:
+        _print_status(study)
+
+
+@group.command()
+def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
+    """Read every chunk and compare its checksum. Damaged chunks are named, and computed again by the next run.
+
+    Example: holdfast study verify tools
+    """
+    from holdfast.engine.study import Study
+
+    found: list[dict[str, Any]] = []
+    for folder in folders:
+        study = Study.open(folder)
+        with progress_bar(json_, "chunks") as progress:
+            damage = study.verify(None if progress is None else lambda done, total, _: progress(done, total))
+        number = {d: None if d.chunk is None else d.chunk + 1 for d in damage}
+        found += [{"folder": str(folder), "cell": d.cell, "chunk": number[d], "what": d.what} for d in damage]
+        if not json_ and not damage:
+            _print_sound(folder, study)
+    if json_:
+        print_json({"damaged": found})
+    if found:
+        for d in found:
+            which = (
+                f"cell '{d['cell']}' is lost" if d["chunk"] is None else f"chunk {d['chunk']} of cell '{d['cell']}' is damaged"
+            )
+            typer.echo(f"{d['folder']}: {which}: {d['what']}", err=True)
+        raise StoreError(
+            f"{len(found)} damaged chunk{'' if len(found) == 1 else 's'}, missing from now on; 'holdfast study run' computes "
+            "them again"
+        )
+
+
+def _print_sound(folder: Path, study: Study) -> None:
+    """What verify found, and what was not there to be looked at."""
+    cells = study.status()
+    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+    typer.echo(
+        f"{folder}: {done} chunks, all sound" + ("" if done == total else f"; {total - done} of {total} are not computed")
+    )
+    empty = [s.name for s in cells if not s.chunks_done]
+    if empty:
+        more = f" and {len(empty) - 3} more" if len(empty) > 3 else ""
+        typer.echo(f"nothing is there of {len(empty)} cell{'s' * (len(empty) > 1)}: {', '.join(empty[:3])}{more}")
+
+
+@group.command()
+def merge(
+    folders: FoldersArgument,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder to merge into.", show_default="the first DIR, new or not")
+    ] = None,
+    json_: JsonOption = False,
+) -> None:
+    """Join folders of one study from machines that never saw each other.
+
+    The first folder takes over what the others have and it lacks; if it does not exist, it is made.
+
+    Example: holdfast study merge whole machine1/tools machine2/tools
+    """
+    from holdfast.engine.study import Study
+    from holdfast.engine.union import merge as join
+
+    target, others = (folders[0], folders[1:]) if out is None else (out, folders)
+    if not others:
+        raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
+    with progress_bar(json_, "chunks") as progress:
+        found = join(target, others, None if progress is None else lambda done, total, _: progress(done, total))
+    study = Study.open(target)
+    makers = study.makers
+    if json_:
+        apart = [{"cell": c, "chunk": k + 1} for c, k in found.apart]
+        print_json(
+            {"added": found.added, "same": found.both, "within_1e-12": found.close, "different": apart, "made_by": makers}
+        )
+        return
+    typer.echo(f"{study.path}: {found.added} chunks added, {found.both} were there with the same bits")
+    if found.close:
+        typer.echo(f"{found.close} chunks were there already, alike to 1e-12")
+    if found.apart:
+        cell, k = found.apart[0]
+        typer.echo(
+            f"{len(found.apart)} chunks were there already with other values (first: chunk {k + 1} of '{cell}'); those of "
+            f"'{study.path}' stay",
+            err=True,
+        )
+    for maker in makers:
+        typer.echo(f"computed on {maker['processor']}: {_versions(maker)}")
+    if len(makers) > 1:
+        typer.echo(
+            "versions or processors differ: the same study computed on one of them alone agrees to 1e-12, not in every bit"
+        )
+    _print_status(study)
+
+
+@group.command()
+def report(
+    folders: FoldersArgument,
+    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    json_: JsonOption = False,
+) -> None:
+    """One HTML page: a table of arms, indices and laws with intervals, distributions side by side, and how it was computed.
+
+    Example: holdfast study report tools
+    """
+    from holdfast.engine.study import Study
+    from holdfast.present.studies.page import write
+
+    if to is not None and len(folders) > 1:
+        raise InputError(f"--to names one file and there are {len(folders)} folders; leave it out")
+    pages = [write(Study.open(folder), to or folder / "report.html") for folder in folders]
+    if json_:
+        print_json({"reports": [str(p) for p in pages]})
+        return
+    for page in pages:
+        typer.echo(f"report: {page}")
+
+
+# ---- running ---------------------------------------------------------------------------------------------------------
+
+
+def _share(text: str) -> tuple[int, int]:
+    """--part: which share, of how many."""
+    which, _, many = text.partition("/")
+    if not (which.isdecimal() and many.isdecimal() and 1 <= int(which) <= int(many)):
+        raise InputError(f"--part '{text}' is no share; write 1/3 for the first of three")
+    return int(which), int(many)
+
+
+@contextmanager
+def _runner(scheduler: str | None) -> Iterator[Any]:
+    from holdfast.engine.cluster import Cluster
+    from holdfast.engine.runner import Threads
+    from holdfast.kernels.threads import pool, thread_count
+
+    if scheduler is None:
+        yield Threads(thread_count(), pool())
+        return
+    with Cluster(scheduler) as cluster:
+        yield cluster
+
+
+@contextmanager
+def _stopping() -> Iterator[Callable[[], bool]]:
+    """Ctrl-C and SIGTERM (as cluster managers send it) stop the study once; the second one stops the program."""
+    asked = False
+
+    def stop(number: int, _: object) -> None:
+        nonlocal asked
+        if asked:
+            raise KeyboardInterrupt
+        asked = True
+        typer.echo("stopping after the chunks in hand; again to stop at once", err=True)
+
+    before = {s: signal.signal(s, stop) for s in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield lambda: asked
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Any]:
+    """A bar while a person looks; it says how much time is left, as does the line on stderr where there is none."""
+    with progress_bar(quiet, "chunks") as bar:
+        yield None if bar is None else lambda done, total, _: bar(done, total)
+
+
+# ---- saying ----------------------------------------------------------------------------------------------------------
+
+
+def _dry_run(asked: StudyFile, json_: bool) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    from holdfast.kernels.threads import thread_count
+    from holdfast.studies.estimate import estimates
+
+    found = []
+    with progress_bar(json_, "cells") as progress, working("trying rows of each cell", progress) as advance:
+        for e in estimates(asked.cells, asked.seed):
+            found.append(e)
+            advance(len(found), len(asked.cells))
+    seconds, size = sum(e.seconds for e in found), sum(e.size for e in found)
+    chunks = sum(e.cell.count for e in found)
+    if json_:
+        cells = [
+            {"name": e.cell.name, "rows": e.cell.rows, "chunks": e.cell.count, "thread_seconds": e.seconds, "bytes": e.size}
+            for e in found
+        ]
+        print_json({"cells": cells, "chunks": chunks, "thread_seconds": seconds, "bytes": size, "threads": thread_count()})
+        return
+    show = console()
+    table = Table("cell", "rows", "chunks", "of one thread", "a chunk", "size, at most", box=None, pad_edge=False)
+    for e in found:
+        told = [f"{e.cell.rows:,}", f"{e.cell.count:,}", _duration(e.seconds), _duration(e.seconds / e.cell.count)]
+        table.add_row(escape(e.cell.name), *told, _bytes(e.size))
+    show.print(table)
+    threads = thread_count()
+    show.print(
+        f"{len(found)} cells, {chunks:,} chunks: about {_duration(seconds)} of one thread, {_duration(seconds / threads)} with "
+        f"the {threads} of this machine; at most {_bytes(size)} on the disk (estimated from up to "
+        f"{max(e.tried for e in found)} rows of each cell)",
+        soft_wrap=True,
+    )
+
+
+def _status(study: Study) -> dict[str, Any]:
+    cells = study.status()
+    return {
+        "folder": str(study.path),
+        "name": study.name,
+        "seed": study.seed,
+        "digest": study.digest,
+        "complete": all(s.complete for s in cells),
+        "chunks": sum(s.chunks for s in cells),
+        "chunks_done": sum(s.chunks_done for s in cells),
+        "thread_seconds": sum(s.seconds for s in cells),
+        "cells": [
+            {"name": s.name, "chunks": s.chunks, "chunks_done": s.chunks_done, "rows": s.rows, "rows_done": s.rows_done}
+            for s in cells
+        ],
+        "made_by": study.makers,
+    }
+
+
+def _print_status(study: Study) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    cells = study.status()
+    show = console()
+    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+    spent = sum(s.seconds for s in cells)
+    word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
+    show.print(
+        escape(f"{study.name} ({study.path}): {done:,} of {total:,} chunks, {word}, {_duration(spent)} of one thread"),
+        soft_wrap=True,
+    )
+    table = Table("cell", "rows", "chunks", "thread time", box=None, pad_edge=False)
+    shown = [s for s in cells if not s.complete] if len(cells) > 40 else cells
+    for s in shown[:40]:
+        counts = f"{s.rows_done:,} of {s.rows:,}", f"{s.chunks_done:,} of {s.chunks:,}"
+        table.add_row(escape(s.name), *counts, _duration(s.seconds))
+    if shown:
+        show.print(table)
+    if len(shown) > 40:
+        show.print(f"and {len(shown) - 40} more cells that are not complete")
+
+
+def _versions(maker: dict[str, Any]) -> str:
+    packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
+    return f"Python {maker['python']}, {packages}"
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 60:
+        return f"{seconds:.2g} s" if seconds < 10 else f"{seconds:.0f} s"
+    if seconds < 5400:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
+
+
+def _bytes(count: float) -> str:
+    for unit in ("B", "kB", "MB", "GB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:.3g} TB"
+
+
+def add(app: typer.Typer) -> None:
+    """Register the commands."""
+    app.add_typer(group)

@@ -1,0 +1,107 @@
+"""The program: its commands, and what it does when something is wrong."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from typing import Annotated
+
+import typer
+from typer.exceptions import TyperException
+
+from holdfast.cli.interrupt import STOPPED
+from holdfast.errors import HoldfastError
+
+COMMANDS = {  # the module of each, in the order of the help
+    "arms": "start.arms",
+    "describe": "start.arms",
+    "index": "before.index",
+    "susceptibility": "before.susceptibility",
+    "configure": "before.optimise",
+    "assess": "start.assess",
+    "report": "start.assess",
+    "design": "before.design",
+    "follow": "before.follow",
+    "swing": "known.free_swing",
+    "simulate": "unnoticed.simulate",
+    "recover": "known.recover",
+    "compare": "unnoticed.compare_laws",
+    "self-motion": "known.self_motion",
+    "tolerant-workspace": "known.self_motion",
+    "workspace": "unnoticed.workspace",
+    "stationary": "unnoticed.stationary_points",
+    "basins": "unnoticed.stationary_points",
+    "trade-off": "before.trade_off",
+    "studio": "start.studio",
+    "study": "larger.study",
+    "teleop": "larger.teleop",
+    "export": "larger.export",
+}
+
+
+def program(command: str | None = None) -> typer.Typer:
+    """The program with all commands, or with those of the module that has ``command``: others would only cost time."""
+    app = typer.Typer(
+        name="holdfast",
+        help="Fault tolerance of redundant robot arms: what happens to the task when a joint fails.\n\n"
+        "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
+        "Joints are given by name, or by number from 1.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(_root)
+    for module in [COMMANDS[command]] if command in COMMANDS else dict.fromkeys(COMMANDS.values()):
+        import_module(f"holdfast.cli.{module}").add(app)
+    return app
+
+
+def _version(value: bool) -> None:
+    if value:
+        from holdfast import __version__
+
+        typer.echo(f"holdfast {__version__}")
+        raise typer.Exit
+
+
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    del version
+
+
+def main() -> None:
+    """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
+    try:
+        code = program(*sys.argv[1:2])(standalone_mode=False)
+    except HoldfastError as error:
+        _fail(str(error))
+    except TyperException as error:  # an unknown command or option, a missing argument
+        context = getattr(error, "ctx", None)
+        hint = f" (see '{context.command_path} --help')" if context is not None else ""
+        message = getattr(error, "format_message", error.__str__)().rstrip(".")
+        if not message:  # no arguments: the help was shown
+            sys.exit(2)
+        _fail(message + hint)
+    except (KeyboardInterrupt, typer.Abort):
+        _stopped()
+    except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
+        sys.exit(0)
+    except OSError as error:
+        _fail(f"cannot write the output: {error.strerror or error}")
+    if code == STOPPED:  # typer's answer to Ctrl-C
+        _stopped()
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _stopped() -> None:
+    typer.echo("holdfast: stopped", err=True)
+    sys.exit(STOPPED)
+
+
+def _fail(message: str) -> None:
+    typer.echo(f"holdfast: {message}", err=True)
+    sys.exit(2)

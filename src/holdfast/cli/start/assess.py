@@ -1,0 +1,313 @@
+"""``holdfast assess`` and ``holdfast report``."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from holdfast.cli.clearance import CapsulesOption, ClearanceOption, MarginOption, RadiusOption, check_clearance, read_clearance
+from holdfast.cli.measure_options import IndexOption
+from holdfast.cli.options import (
+    TASK_HELP,
+    BasesOption,
+    FailuresOption,
+    HoldsOption,
+    JsonOption,
+    LengthOption,
+    NamesOption,
+    TipsOption,
+    each_arm,
+    print_json,
+    read_by_joint,
+    read_failures,
+    read_task,
+)
+from holdfast.cli.progress import progress_bar
+from holdfast.cli.start.candidates import TOOL_HELP, read_candidates
+from holdfast.errors import InputError, StoreError
+from holdfast.files import reading
+from holdfast.files.output import replaced
+from holdfast.present.assessment.console import comparison_summary, print_assessment, print_comparison, summary
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+    from holdfast.assessment.assessment import Assessment
+    from holdfast.assessment.comparison import Comparison
+    from holdfast.regions.region import Region
+
+_CANDIDATES = "comparison.json"
+
+FailureRateOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--failure-rate",
+        help="joint=how often it fails, for the share left after a failure; may be given again.",
+        show_default=False,
+    ),
+]
+
+
+def assess(
+    arm: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="ARM...", help="Built-in name, URDF file, or DH table (YAML); several are compared.", show_default=False
+        ),
+    ],
+    region: Annotated[
+        Path | None, typer.Option("--region", help="Region file (YAML). Default: around the arm's home.", show_default=False)
+    ] = None,
+    index: IndexOption = "relative-manipulability",
+    task: Annotated[
+        list[str] | None,
+        typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False),
+    ] = None,
+    tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP, show_default=False)] = None,
+    failures: FailuresOption = "single",
+    length: LengthOption = 1.0,
+    poses: Annotated[
+        int | None,
+        typer.Option("--poses", help="Number of poses. Default: 2000, or of a list of poses each once.", show_default=False),
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
+    sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
+    restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
+    optimise: Annotated[bool, typer.Option("--optimise", help="Also find the best configuration of each pose.")] = False,
+    after_lock: Annotated[
+        bool, typer.Option("--after-lock", help="Also find which poses can still be reached once each joint has locked.")
+    ] = False,
+    lock_at: Annotated[
+        list[str] | None,
+        typer.Option("--lock-at", help="joint=angle, rad or m, at which it locks; may be given again.", show_default=False),
+    ] = None,
+    failure_rate: FailureRateOption = None,
+    clearance: ClearanceOption = None,
+    capsules: CapsulesOption = None,
+    radius: RadiusOption = None,
+    margin: MarginOption = None,
+    at_least: Annotated[
+        list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for results and report; a stopped run goes on.", show_default=False)
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
+    ] = None,
+    base: BasesOption = None,
+    tip: TipsOption = None,
+    hold: HoldsOption = None,
+    name: NamesOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
+
+    Several arms, tools or tasks are compared: each with each, over one region, in one report. (Control laws of one arm:
+    'holdfast compare'.)
+
+    Example: holdfast assess pa10-9dof --poses 2000 --seed 1 --out results
+
+    Example: holdfast assess panda iiwa14 --task pose --task position --region cell.yaml --out results
+    """
+    from holdfast.assessment.assessment import assess as run
+    from holdfast.assessment.comparison import compare
+    from holdfast.assessment.plan import make_plan
+    from holdfast.assessment.single_points import explain, structure, structures
+    from holdfast.indices.index import by_name
+    from holdfast.kernels.threads import set_threads
+
+    check_thresholds(at_least)
+    check_clearance(clearance, capsules, radius, margin)
+    if threads is not None:
+        set_threads(threads)
+    candidates = read_candidates(each_arm(arm, base, tip, hold, name), tool or [], task or [])
+    several = len(candidates) > 1
+    first = candidates[0]
+    chosen = read_region(region, first.spec, first.arm)
+    if sampling not in ("random", "sobol"):
+        raise InputError(f"sampling '{sampling}' is not known; use 'random' or 'sobol'")
+    if several and failure_rate:
+        raise InputError(
+            "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
+            "leave it out: a comparison counts every joint alike"
+        )
+    if capsules is not None and len(arm) > 1:
+        raise InputError(
+            f"--capsules is the shape of one arm and there are {len(arm)}; assess each alone with its own, or give --radius"
+        )
+    rates = _read_rates(first.arm, failure_rate, after_lock, lock_at)
+    asked = []
+    for c in candidates:
+        measure = by_name(index, c.arm, read_task(c.task, c.spec, c.arm), read_failures(c.arm, failures), length)
+        options: dict[str, Any] = {
+            "poses": poses,
+            "seed": seed,
+            "sampling": sampling,
+            "restarts": restarts,
+            "optimise": optimise,
+            "after_lock": after_lock,
+            "lock_at": read_by_joint(c.arm, lock_at, "--lock-at"),
+            "clearance": read_clearance(c.arm, clearance, capsules, radius, margin, optimise) or False,
+            "margin": margin or 0.0,
+        }
+        if several:  # what cannot run is said before the first candidate takes its time
+            make_plan(c.arm, chosen, measure, **options)
+        asked.append((measure, options))
+    if several and out is not None and reading.exists(out / "run.json"):
+        raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
+    if several and region is None:
+        typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)
+    results = []
+    for c, (measure, options) in zip(candidates, asked, strict=True):
+        if not json_:
+            found = structure(c.arm, measure.task)
+            if not found.survives:
+                typer.echo(explain(c.arm, found, structures(c.arm)), err=True)
+        with progress_bar(json_, c.name if several else "poses") as progress:
+            result = run(
+                c.arm,
+                chosen,
+                measure,
+                store=out / c.name if out is not None and several else out,
+                progress=progress,
+                **options,
+            )
+        results.append(result)
+    threshold = at_least[0] if at_least else None
+    if not several:
+        _finish(results[0], None if out is None else out / "report.html", at_least, rates, json_)
+        return
+    comparison = compare(results, [c.name for c in candidates], threshold)
+    tools = [c.tool for c in candidates]
+    if out is not None:
+        _write_candidates(out, comparison.names, tools)
+    _finish_comparison(comparison, tools, out, None if out is None else out / "report.html", at_least, json_)
+
+
+def report(
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Folder that 'holdfast assess --out' wrote.", show_default=False)
+    ],
+    to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
+    at_least: Annotated[list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.")] = None,
+    failure_rate: FailureRateOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Write the report of a results folder again, also of a run that was stopped, or of a comparison.
+
+    Example: holdfast report results
+    """
+    from holdfast.assessment.assessment import load
+
+    check_thresholds(at_least)
+    if not reading.exists(folder / "run.json") and reading.exists(folder / _CANDIDATES):
+        if failure_rate:
+            raise InputError(f"'{folder}' holds a comparison; give --failure-rate with the folder of one candidate in it")
+        _report_comparison(folder, to, at_least, json_)
+        return
+    result = load(folder)
+    rates = read_by_joint(result.arm, failure_rate, "--failure-rate")
+    if rates and result.distribution.samples:
+        result.expected_survival(rates)  # before anything is written
+    _finish(result, to or folder / "report.html", at_least, rates, json_)
+
+
+def _write_candidates(out: Path, names: Sequence[str], tools: Sequence[str | None]) -> None:
+    """Which folders in ``out`` are compared, and in which order."""
+    listed = [{"name": name, "tool": tool} for name, tool in zip(names, tools, strict=True)]
+    try:
+        replaced(out / _CANDIDATES, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
+    except OSError as error:
+        raise StoreError(f"cannot write to '{out}': {error.strerror or error}; choose another folder") from error
+
+
+def _report_comparison(folder: Path, to: Path | None, at_least: list[float] | None, json_: bool) -> None:
+    """Write the report of a comparison again."""
+    from holdfast.assessment.assessment import load
+    from holdfast.assessment.comparison import compare
+    from holdfast.engine.folder import is_plain
+
+    file = folder / _CANDIDATES
+    try:
+        listed = [(c["name"], c["tool"]) for c in json.loads(reading.text(file))["candidates"]]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        raise StoreError(f"'{file}' is damaged; give the same command to 'holdfast assess' again") from error
+    if not all(is_plain(name) and (tool is None or isinstance(tool, str)) for name, tool in listed):
+        raise StoreError(f"'{file}' is damaged; give the same command to 'holdfast assess' again")
+    names, tools = [name for name, _ in listed], [tool for _, tool in listed]
+    comparison = compare([load(folder / name) for name in names], names, at_least[0] if at_least else None)
+    _finish_comparison(comparison, tools, None, to or folder / "report.html", at_least, json_)
+
+
+def _finish_comparison(
+    comparison: Comparison,
+    tools: Sequence[str | None],
+    out: Path | None,
+    to: Path | None,
+    at_least: list[float] | None,
+    json_: bool,
+) -> None:
+    """Write the report ``to``, and those of the candidates in ``out``, and say what was found."""
+    if out is not None:
+        for name, result in zip(comparison.names, comparison.assessments, strict=True):
+            result.report(out / name / "report.html", comparison.threshold)
+    page = None if to is None else comparison.report(to)
+    if json_:
+        print_json(comparison_summary(comparison, tools, at_least, page))
+        return
+    print_comparison(comparison)
+    if page is not None:
+        typer.echo(f"report: {page}")
+
+
+def _read_rates(
+    arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock_at: list[str] | None
+) -> dict[str | int, float]:
+    """--failure-rate, each of a joint whose lock is asked for."""
+    from holdfast.assessment.assessment import check_rates
+
+    rates = read_by_joint(arm, failure_rate, "--failure-rate")
+    locks = read_by_joint(arm, lock_at, "--lock-at") if rates else {}
+    if rates:
+        check_rates(arm, rates)
+    for name in rates:
+        if not after_lock and name not in locks:
+            raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock-at {name}=ANGLE")
+    return rates
+
+
+def _finish(
+    result: Assessment, to: Path | None, at_least: list[float] | None, rates: dict[str | int, float], json_: bool
+) -> None:
+    """Write the report of one run and say what it found."""
+    page = None if to is None else result.report(to, at_least[0] if at_least else None)
+    if json_:
+        print_json({**summary(result, at_least, rates), "report": None if page is None else str(page)})
+        return
+    print_assessment(result, at_least, rates)
+    if page is not None:
+        typer.echo(f"report: {page}")
+
+
+def check_thresholds(at_least: list[float] | None) -> None:
+    """Refuse --at-least nan before any work is done."""
+    if any(math.isnan(x) for x in at_least or []):
+        raise InputError("--at-least is nan; give a number")
+
+
+def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
+    """--region, or a region about the arm's home; for the paper's arm the paper's."""
+    from holdfast.regions.region import Region, default_region
+
+    return default_region(spec, arm) if path is None else Region.load(path)
+
+
+def add(app: typer.Typer) -> None:
+    """Register the commands."""
+    app.command()(assess)
+    app.command()(report)

@@ -1,0 +1,213 @@
+"""``holdfast studio``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+
+from holdfast.cli.options import (
+    TARGET_HELP,
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    TaskOption,
+    TipOption,
+    default_task,
+    read_arm,
+    read_configuration,
+    read_joint,
+    read_target,
+    read_task,
+)
+from holdfast.errors import InputError
+from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+    from holdfast.studio.state import State
+
+PORT = 8123
+
+
+def studio(
+    arm: ArmArgument,
+    port: Annotated[int, typer.Option("--port", help="Of the page; 0: any that is free.")] = PORT,
+    host: Annotated[
+        str, typer.Option("--host", help="Address to listen on. Others than this machine's own only among people you trust.")
+    ] = "127.0.0.1",
+    q: Annotated[
+        str | None,
+        typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False),
+    ] = None,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    task: TaskOption = None,
+    lock: Annotated[
+        list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.", show_default=False)
+    ] = None,
+    free: Annotated[
+        list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.", show_default=False)
+    ] = None,
+    index: Annotated[str, typer.Option("--index", help="Of the bars.")] = "relative-manipulability",
+    susceptibility: Annotated[str, typer.Option("--susceptibility", help=f"Of the bars: {SUSCEPTIBILITIES.usage}.")] = (
+        "torque"
+    ),
+    objective: Annotated[
+        str, typer.Option("--objective", help="Best and worst by this: an index or a susceptibility.")
+    ] = "relative-manipulability",
+    law: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--law",
+            help=f"Two laws side by side: {LAWS.usage}. Give it twice.",
+            show_default="pseudoinverse and failure-tolerant",
+        ),
+    ] = None,
+    target: Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)] = None,
+    file: Annotated[
+        str | None,
+        typer.Option("--file", help="A motion that follow, simulate or recover wrote: CSV or folder.", show_default=False),
+    ] = None,
+    region: Annotated[
+        str | None, typer.Option("--region", help="A results folder that assess wrote.", show_default=False)
+    ] = None,
+    time: Annotated[float, typer.Option("--time", help="Where the motion is shown, s.")] = 0.0,
+    show: Annotated[
+        str | None,
+        typer.Option(
+            "--show",
+            help="At once: arm, best-worst, laws, swing, region or file.",
+            show_default="file or region if given, else arm",
+        ),
+    ] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+) -> None:
+    """Open a page in which an arm is moved, fails, and shows what that takes (needs the extra 'view').
+
+    Every window has an arm of its own. Stop it with Ctrl-C.
+
+    Example: holdfast studio panda --lock 4
+    """
+    from holdfast.arm.task import as_task
+    from holdfast.studio.server import serve
+
+    model = read_arm(arm, base, tip, hold)
+    state = read_state(
+        model,
+        arm,
+        base=base,
+        tip=tip,
+        q=q,
+        degrees=degrees,
+        task=task,
+        lock=lock or [],
+        free=free or [],
+        index=index,
+        susceptibility=susceptibility,
+        objective=objective,
+        law=law,
+        target=target,
+        file=file,
+        region=region,
+        time=time,
+        show=show,
+    )
+
+    def ready(url: str) -> None:
+        typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
+
+    with serve(model, state, host, port, as_task(model, read_task(state.task, arm, model)), ready) as page:
+        page.wait()
+
+
+def read_state(
+    model: Arm,
+    arm: str,
+    *,
+    base: str | None,
+    tip: str | None,
+    q: str | None,
+    degrees: bool,
+    task: str | None,
+    lock: list[str],
+    free: list[str],
+    index: str,
+    susceptibility: str,
+    objective: str,
+    law: list[str] | None,
+    target: str | None,
+    file: str | None,
+    region: str | None,
+    time: float,
+    show: str | None,
+) -> State:
+    """The state that the options describe."""
+    from pathlib import Path
+
+    from holdfast import arms
+    from holdfast.arm.poses import pose_numbers
+    from holdfast.arm.targets import target_pose
+    from holdfast.arm.task import as_task
+    from holdfast.cli.laws import read_law
+    from holdfast.studio.server import middle
+    from holdfast.studio.state import SHOWS, State
+
+    text = default_task(arm, model) if task is None else task
+    rows = as_task(model, read_task(text, arm, model))
+    INDICES.read(index, "--index")
+    SUSCEPTIBILITIES.read(susceptibility, "--susceptibility")
+    name = objective.partition(":")[0]
+    if name not in INDICES and name not in SUSCEPTIBILITIES:
+        raise InputError(f"--objective: {unknown('objective', name, INDICES, SUSCEPTIBILITIES)}")
+    (INDICES if name in INDICES else SUSCEPTIBILITIES).read(objective, "--objective")
+    if show is not None and show not in SHOWS:
+        raise InputError(f"--show '{show}' is not known; use one of {', '.join(SHOWS)}")
+    if q is not None:
+        start = read_configuration(model, q, degrees)
+    else:
+        start = np.array(arms.about(arm).home) if arm in arms.names() else middle(model)
+    conditions = ["healthy"] * model.n
+    for names, condition in ((lock, "locked"), (free, "free")):
+        for name in names:
+            k = read_joint(model, name)
+            if conditions[k] != "healthy":
+                raise InputError(f"joint '{model.joint_names[k]}' is given twice among --lock and --free; give it once")
+            conditions[k] = condition
+    laws = law or ["pseudoinverse", "failure-tolerant"]
+    if len(laws) != 2:
+        raise InputError(f"--law is given {len(laws)} times; the studio shows two laws side by side, so give it twice")
+    for label in laws:
+        read_law(label, model, rows)
+    for option, path in (("--file", file), ("--region", region)):
+        if path is not None and not Path(path).exists():
+            raise InputError(f"{option}: there is no file or folder '{path}'")
+    goal = None
+    if target is not None:
+        goal = pose_numbers(target_pose(rows, read_target(model, rows, target)))
+    return State(
+        arm=arm,
+        names=model.joint_names,
+        q=tuple(float(x) for x in start),
+        task=text,
+        base=base,
+        tip=tip,
+        hold=() if model.chain is None else model.chain.held,
+        conditions=tuple(conditions),  # type: ignore[arg-type]
+        index=index,
+        susceptibility=susceptibility,
+        objective=objective,
+        laws=(laws[0], laws[1]),
+        target=goal,
+        show=show or ("file" if file else "region" if region else "arm"),
+        file=file,
+        region=region,
+        time=time,
+    )
+
+
+def add(app: typer.Typer) -> None:
+    """Register the command."""
+    app.command()(studio)

@@ -1,0 +1,1 @@
+"""Commands for a failure that nobody has noticed."""

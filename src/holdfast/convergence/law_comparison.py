@@ -1,0 +1,507 @@
+"""Several control laws on the same motions, with each joint locked in turn: which arrives, and what it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked, real_numbers
+from holdfast.arm.configurations import configurations
+from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
+from holdfast.arm.scale import length_unit
+from holdfast.caching import cached_property
+from holdfast.control.law import Law
+from holdfast.convergence.detours import HealthyCost, healthy_cost
+from holdfast.errors import InputError
+from holdfast.notice import says, working
+from holdfast.probability.intervals import Difference, Interval
+from holdfast.simulation.batch import ARRIVES
+from holdfast.simulation.closed_loop import RADIUS, TOLERANCE, simulate
+from holdfast.simulation.runs import Outcome, Reason, Runs
+from holdfast.simulation.system import prescribed_way
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+HEALTHY, ANY = "healthy", "any joint"
+LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """The N motions of one law with one joint locked, or with none.
+
+    Attributes:
+        law: Name of the law.
+        failure: ``healthy``, or the name of the joint.
+        code: (N,) :class:`holdfast.simulation.Outcome`.
+        reason: (N,) :class:`holdfast.simulation.Reason`.
+        reachable: (N,) True where the target can still be reached with the joint standing where it does, as far as was found
+            and joint limits left aside.
+        error: (N,) norm of the task's error at the end, m and rad.
+        excess: (N,) that minus the least error that the failed arm could have, as far as was found.
+        closest: (N,) least error on the way.
+        path_length: (N,) m, of the tool point.
+        path_ratio: (N,) that by the straight way from start to target in the directions that the task prescribes.
+        excursion: (N,) sum over the joints of the range that each went through, rad (and m).
+        past_limits: (N,) True where a joint left its limits, which the motion does not heed.
+        time: (N,) s, or cycles, when the run ended.
+    """
+
+    law: str
+    failure: str
+    code: NDArray[np.uint8]
+    reason: NDArray[np.uint8]
+    reachable: Flags
+    error: Array
+    excess: Array
+    closest: Array
+    path_length: Array
+    path_ratio: Array
+    excursion: Array
+    past_limits: Flags
+    time: Array
+
+    def ended(self, outcome: str) -> Flags:
+        """(N,) True for the runs that are ``converged``, ``stuck``, ``moving`` or ``undecided``.
+
+        Raises:
+            InputError: No such outcome.
+        """
+        if outcome.upper() not in Outcome.__members__:
+            raise InputError(f"outcome '{outcome}' is not known; use converged, stuck, moving or undecided")
+        return np.asarray(self.code == Outcome[outcome.upper()])
+
+    def share(self, outcome: str = "converged", among_reachable: bool = False) -> Interval | None:
+        """Share of the runs that ended so, with its exact 95 % interval; None of no runs.
+
+        Args:
+            outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
+            among_reachable: Of the runs whose target is still within reach only.
+        """
+        hits = self.ended(outcome)
+        if among_reachable:
+            hits = hits[self.reachable]
+        return Interval.of(int(hits.sum()), hits.size) if hits.size else None
+
+
+@dataclass(frozen=True, eq=False)
+class LawComparison:
+    """Laws on the same N motions; see :func:`compare_laws`.
+
+    Attributes:
+        laws: The laws, of which the first is the one that the others are compared with.
+        names: Of the laws.
+        failures: ``healthy`` and the names of the joints that were locked, each alone.
+        runs: Of each law, (F N) runs: all motions healthy, then all with the first joint locked, and so on.
+        least_error: (F, N) least error that was found for the failed arm, the same for all laws.
+        way: (N,) straight way from start to target in the directions that the task prescribes, m.
+        healthy: Of each law, what it costs the arm before a failure.
+    """
+
+    laws: tuple[Law, ...]
+    names: tuple[str, ...]
+    failures: tuple[str, ...]
+    runs: tuple[Runs, ...]
+    least_error: Array
+    way: Array
+    healthy: tuple[HealthyCost, ...]
+
+    def __len__(self) -> int:
+        return len(self.way)
+
+    @property
+    def arm(self) -> Arm:
+        """The arm."""
+        return self.laws[0].arm
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints that were locked."""
+        return self.failures[1:]
+
+    @property
+    def arrives(self) -> float:
+        """Error at which a target counts as reached, m and rad."""
+        first = self.runs[0]
+        return first._setting.accuracy if first.cycles else _at_rest(first.law)
+
+    def _law(self, name: str) -> int:
+        if name not in self.names:
+            raise InputError(f"there is no law '{name}' here; there are {', '.join(self.names)}")
+        return self.names.index(name)
+
+    def _failure(self, failure: str | int) -> int:
+        name = self.arm.joint_names[self.arm.joint_index(failure)] if isinstance(failure, int) else failure
+        if name not in self.failures:
+            raise InputError(f"'{name}' was not locked here; there are {', '.join(self.failures)}")
+        return self.failures.index(name)
+
+    def case(self, law: str, failure: str | int = HEALTHY) -> Case:
+        """The runs of one law with one joint locked.
+
+        Args:
+            law: Its name.
+            failure: ``healthy``, or a joint by name or index from 0.
+
+        Raises:
+            InputError: It was not part of the comparison.
+        """
+        r, f = self.runs[self._law(law)], self._failure(failure)
+        rows = slice(f * len(self), (f + 1) * len(self))
+        least = self.least_error[f]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.where(self.way > 1e-9, r.path_length[rows] / self.way, np.nan)
+        return Case(
+            law=law,
+            failure=self.failures[f],
+            code=r.code[rows],
+            reason=r.reason[rows],
+            reachable=least <= self.arrives,
+            error=r.error[rows],
+            excess=r.error[rows] - np.fmin(least, r.error[rows]),
+            closest=r.closest[rows],
+            path_length=r.path_length[rows],
+            path_ratio=ratio,
+            excursion=(r.q_high[rows] - r.q_low[rows]).sum(axis=1),
+            past_limits=np.asarray(r.limits_passed[rows].any(axis=1)),
+            time=r.time[rows],
+        )
+
+    def pooled(self, law: str, of: str) -> NDArray[Any]:
+        """(K, N) of K locked joints: an attribute of :class:`holdfast.convergence.Case`.
+
+        Raises:
+            InputError: No such law, or no joint was locked.
+        """
+        if not self.joints:
+            raise InputError("no joint was locked here; give locked='each' or a list of joints")
+        return np.array([getattr(self.case(law, joint), of) for joint in self.joints])
+
+    def share_any(self, law: str, outcome: str = "converged") -> Interval:
+        """Share of an outcome where each of the joints is as likely to lock as any other, with its 95 % interval.
+
+        The runs of one motion with different joints locked are no independent samples: the unit is the motion, and the interval
+        that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
+        """
+        return Interval.of_fractions((self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0))
+
+    def gain(
+        self,
+        law: str,
+        failure: str | int = ANY,
+        than: str | None = None,
+        among_reachable: bool = False,
+        undecided: Literal["lost", "for", "against"] = "lost",
+    ) -> Difference:
+        """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
+
+        Paired: for one joint by the method of Newcombe with exact limits
+        (:meth:`holdfast.probability.intervals.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
+        mean over the joints of each motion, because the runs of a motion go together, with the interval of fractions, which
+        always covers.
+
+        Args:
+            law: Its name.
+            failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
+            than: The other law; the first if not given.
+            among_reachable: Of the motions whose target is still within reach only; not for ``any joint``.
+            undecided: What undecided runs with a target within reach count as, for they may yet arrive: ``lost`` under either
+                law, as if they all arrived under this law (``for``), or as if they all did under the other (``against``).
+
+        Raises:
+            InputError: A law or a joint that was not part of the comparison, or no motion to compare.
+        """
+        other = self.names[0] if than is None else than
+        generous = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
+        if failure == ANY:
+            if not self.joints:
+                raise InputError("a mean over the joints takes a locked joint; give locked='each' or name one joint")
+            one, two = (
+                np.array([_arrived(self.case(x, joint), kind) for joint in self.joints])
+                for x, kind in zip((other, law), generous, strict=True)
+            )
+            return Difference.of_fractions(two.mean(axis=0) - one.mean(axis=0))
+        before, after = self.case(other, failure), self.case(law, failure)
+        some = before.reachable if among_reachable else np.ones(len(self), dtype=bool)
+        if not some.any():
+            raise InputError(f"no target is within reach with '{before.failure}' locked; leave out among_reachable")
+        return Difference.of_pairs(_arrived(before, generous[0])[some], _arrived(after, generous[1])[some])
+
+    def change(
+        self, law: str, of: Literal["error", "excess", "closest"], failure: str | int = ANY, than: str | None = None
+    ) -> Difference:
+        """Mean change of an error at the end of the same motions under a law and under another, with its 95 % interval.
+
+        Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
+        moving count as they stood when time was up. Errors have no bound, so the interval is Student's t, which may cover too
+        little for few motions of which a few differ much (:meth:`holdfast.probability.intervals.Difference.of_means`).
+
+        Args:
+            law: Its name.
+            of: Which error of :class:`holdfast.convergence.Case`, m and rad.
+            failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
+            than: The other law; the first if not given.
+
+        Raises:
+            InputError: A law or a joint that was not part of the comparison, or fewer than two motions.
+        """
+        pair = (self.names[0] if than is None else than, law)
+        if failure == ANY:
+            one, two = (self.pooled(x, of).mean(axis=0) for x in pair)
+        else:
+            one, two = (getattr(self.case(x, failure), of) for x in pair)
+        difference = (two - one)[np.isfinite(two - one)]
+        if len(difference) < 2:
+            raise InputError("a mean change takes two motions or more")
+        return Difference.of_means(difference)
+
+    def cost(self, law: str, of: Literal["deviation", "angle", "time"], levels: Sequence[float] = LEVELS) -> Array:
+        """(L,) quantiles of what a law costs the healthy arm, over the motions that converge under every law.
+
+        Args:
+            law: Its name.
+            of: An attribute of :class:`holdfast.convergence.HealthyCost`.
+            levels: 0 to 1.
+        """
+        values = getattr(self.healthy[self._law(law)], of)[self.comparable]
+        values = values[np.isfinite(values)]
+        return np.quantile(values, levels) if values.size else np.full(len(levels), np.nan)
+
+    @cached_property
+    def comparable(self) -> Flags:
+        """(N,) True for the motions that converge under every law while nothing has failed."""
+        return np.asarray(np.all([self.case(name).ended("converged") for name in self.names], axis=0))
+
+    @cached_property
+    def table(self) -> list[dict[str, Any]]:
+        """One dictionary for each law and failure, for people, files and tables; shares are of all motions.
+
+        ``law, failure, motions, converged`` and its 95 % interval ``converged_low, converged_high``; the same of ``stuck``,
+        ``moving`` and ``undecided``; ``reachable`` (share of targets still within reach) and ``converged_reachable`` among
+        them; ``converged_within_limits`` (converged, and no joint passed a limit on the way); ``error_*`` and ``excess_*``
+        (quantiles of the end error and of what it exceeds the least by), ``astray`` (median end error of the runs that did not
+        converge), ``closest``, ``path_ratio`` and ``excursion`` (medians), and ``past_limits`` (share of runs with a joint
+        beyond a limit). m and rad.
+        """
+        return [self._row(self.case(name, failure)) for name in self.names for failure in self.failures]
+
+    def _row(self, c: Case) -> dict[str, Any]:
+        row: dict[str, Any] = {"law": c.law, "failure": c.failure, "motions": len(self)}
+        for outcome in Outcome:
+            name = outcome.name.lower()
+            row |= _ends(name, c.share(name))
+        row["reachable"] = float(c.reachable.mean())
+        row |= _ends("converged_reachable", c.share(among_reachable=True))
+        row["converged_within_limits"] = float((c.ended("converged") & ~c.past_limits).mean())
+        for what, values in (("error", c.error), ("excess", c.excess)):
+            for level in LEVELS:
+                row[f"{what}_{round(100 * level):02d}"] = _quantile(values, level)
+        row["astray"] = _quantile(c.error[~c.ended("converged")], 0.5)
+        for what in ("closest", "path_ratio", "excursion"):
+            row[what] = _quantile(getattr(c, what), 0.5)
+        row["past_limits"] = float(c.past_limits.mean())
+        return row
+
+    def reasons(self, law: str) -> dict[str, int]:
+        """How many runs of a law, healthy and failed, are undecided for which reason."""
+        reason = self.runs[self._law(law)].reason
+        return {r.name.lower(): int((reason == r).sum()) for r in Reason if r and (reason == r).any()}
+
+    @says("drawing the report")
+    def report(self, path: str | Path, command: str = "", about: str = "") -> Path:
+        """Write an HTML report that needs nothing else.
+
+        Args:
+            path: The file.
+            command: That makes it again, shown at its end.
+            about: The motions, a phrase.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        from holdfast.present.convergence import law_comparison as compare_laws_report
+
+        return compare_laws_report.write(self, Path(path), command, about)
+
+    @says("writing the results")
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write ``outcomes.csv`` (:attr:`table`), ``gains.csv``, ``healthy.csv`` and ``runs.csv`` into a folder.
+
+        Raises:
+            StoreError: They cannot be written.
+        """
+        from holdfast.present.convergence import law_comparison as compare_laws_report
+
+        return compare_laws_report.save(self, Path(folder))
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        lines = [f"{len(self)} motions of {self.arm.title}, task {self.laws[0].task.describe()}"]
+        for name in self.names:
+            healthy = self.case(name).share()
+            assert healthy is not None
+            text = f"{name}: healthy {healthy.value:.1%} arrive"
+            if self.joints:
+                after = self.share_any(name)
+                text += f"; with a joint locked {after.value:.1%} (95 % interval {after.low:.1%} to {after.high:.1%})"
+            lines.append(text)
+        return lines
+
+
+@checked
+def compare_laws(
+    laws: Sequence[Law] | Mapping[str, Law],
+    q0: ArrayLike,
+    target: ArrayLike,
+    locked: Literal["each"] | Sequence[str | int] | None = "each",
+    cycles: bool = False,
+    time_limit: float | None = None,
+    tolerance: float = TOLERANCE,
+    radius: float = RADIUS,
+    restarts: int = 24,
+    seed: int = 0,
+) -> LawComparison:
+    """Run control laws over the same motions: with nothing failed, and with each joint locked from the start.
+
+    Nobody tells the laws: see :func:`holdfast.simulation.simulate`, which this is one call of for each law.
+
+    Args:
+        laws: Laws of one arm and task, the first being the one that the others are compared with; or a
+            dictionary of them by name. Without names they are called by :attr:`holdfast.control.Law.label`.
+        q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`.
+        target: As :func:`holdfast.simulation.simulate` takes it, one or N.
+        locked: ``"each"`` joint alone, or a list of joints by name or index from 0, each of which locks alone; None: no
+            failures.
+        cycles: As for :func:`holdfast.simulation.simulate`, and so the next three.
+        time_limit: s or cycles.
+        tolerance: Of the adaptive method.
+        radius: Of the target in cycles, m (and rad).
+        restarts: Random starts of the search for the least error that a failed arm can have.
+        seed: Of these.
+
+    Raises:
+        InputError: Wrong shapes or options; laws of different arms or tasks.
+    """
+    named = dict(laws) if isinstance(laws, Mapping) else _by_label(laws)
+    every = tuple(named.values())
+    if not every:
+        raise InputError("there is no law to compare; give one or more, for example hf.control.pseudoinverse(arm)")
+    arm, task = every[0].arm, every[0].task
+    for name, law in named.items():
+        if law.arm is not arm or not law.task.same_rows(task):
+            raise InputError(f"law '{name}' is of another arm or task than '{next(iter(named))}'; make both of the same")
+    joints = _joints(arm, locked)
+    start, _ = configurations(arm, q0)
+    goal = real_numbers(target, "target")
+    if not goal.ndim:
+        raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")
+    single = 2 if goal.shape[-2:] == (4, 4) else 1
+    goal = goal[None] if goal.ndim == single else goal
+    count = max(len(start), len(goal)) if min(len(start), len(goal)) else 0
+    if not count or {len(start), len(goal)} - {1, count}:
+        raise InputError(f"q0 has {len(start)} rows and target {len(goal)}; give the same number of each, or one for all")
+    start = np.broadcast_to(start, (count, arm.n))
+    goal = np.broadcast_to(goal, (count, *goal.shape[1:]))
+    stood = np.repeat(np.array([-1, *joints]), count)
+    many = len(joints) + 1
+    runs, costs = [], []
+    with working("comparing control laws") as advance:
+        for k, law in enumerate(every):
+            every_start, every_goal = np.tile(start, (many, 1)), np.tile(goal, (many, *[1] * single))
+            runs.append(
+                simulate(
+                    law,
+                    every_start,
+                    every_goal,
+                    stood,
+                    cycles,
+                    time_limit=time_limit,
+                    tolerance=tolerance,
+                    radius=radius,
+                )
+            )
+            poses = _poses(law, goal)
+            costs.append(healthy_cost(law, start, poses, cycles, radius))
+            advance(k + 1, len(every) + 1)
+        least = _least(runs, radius if cycles else _at_rest(every[0]), restarts, seed).reshape(many, count)
+    names = (HEALTHY, *[arm.joint_names[k] for k in joints])
+    way = prescribed_way(every[0], arm.forward_kinematics(start), poses)
+    return LawComparison(every, tuple(named), names, tuple(runs), least, np.linalg.norm(way, axis=1), tuple(costs))
+
+
+def _by_label(laws: Sequence[Law]) -> dict[str, Law]:
+    found: dict[str, Law] = {}
+    for law in laws:
+        if law.label in found:
+            raise InputError(f"two laws are called '{law.label}'; give a dictionary with names of your own")
+        found[law.label] = law
+    return found
+
+
+def _joints(arm: Arm, locked: Literal["each"] | Sequence[str | int] | None) -> list[int]:
+    if locked is None:
+        return []
+    if isinstance(locked, str):
+        if locked != "each":
+            raise InputError(f"locked is '{locked}'; give 'each', a list of joints, or None")
+        return list(range(arm.n))
+    joints = [arm.joint_index(j) for j in locked]
+    if len(set(joints)) != len(joints):
+        raise InputError("locked names a joint twice; each is locked alone, once")
+    return joints
+
+
+def _poses(law: Law, goal: Array) -> Array:
+    """Targets as tool poses (N, 4, 4): of those given as the task's rows the turn does not matter."""
+    if goal.shape[-2:] == (4, 4):
+        return check_poses(goal)
+    poses = np.tile(np.eye(4), (len(goal), 1, 1))
+    poses[:, :3, 3] = goal @ law.task.rows[:, :3]
+    return poses
+
+
+def _at_rest(law: Law) -> float:
+    """Norm of the error, m and rad, below which a target counts as reached at rest."""
+    return ARRIVES if law.task.angular else ARRIVES * length_unit(law.arm)
+
+
+def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Array:
+    """(F N,) least errors: joints stand where they started, so what one law's runs find is true for all of them."""
+    least = np.full(len(runs[0]), np.inf)
+    for r in runs:
+        least = np.fmin(least, np.where(r.code == Outcome.CONVERGED, r.error, np.inf))
+    for k, r in enumerate(runs):
+        rows = np.flatnonzero((least > arrives) & np.isfinite(r.q_final).all(axis=1))
+        if rows.size:
+            # From the ends of every law, but from random configurations once.
+            found = _some(r, rows).least_error(restarts if k == 0 else 0, seed)
+            least[rows] = np.fmin(least[rows], found)
+    return np.where(np.isfinite(least), least, np.nan)
+
+
+def _some(runs: Runs, rows: NDArray[np.int64]) -> Runs:
+    arrays: dict[str, Any] = {name: value[rows] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
+    return replace(runs, **arrays)
+
+
+def _arrived(case: Case, generous: bool) -> Flags:
+    """(N,) True for the runs that converged; generously also for those that may yet."""
+    return case.ended("converged") | (generous & case.ended("undecided") & case.reachable)
+
+
+def _quantile(values: Array, level: float) -> float | None:
+    finite = values[np.isfinite(values)]
+    return float(np.quantile(finite, level)) if finite.size else None
+
+
+def _ends(name: str, p: Interval | None) -> dict[str, float | None]:
+    if p is None:
+        return {name: None, f"{name}_low": None, f"{name}_high": None}
+    return {name: p.value, f"{name}_low": p.low, f"{name}_high": p.high}

@@ -1,0 +1,196 @@
+"""Places of the hand from which, or to which, an arm moves: lattices, lists and random ones; and configurations there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.configurations import without_idle_limits
+from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
+from holdfast.arm.task import Task
+from holdfast.errors import InputError, TaskError
+from holdfast.solvers import joint_space
+from holdfast.solvers.inverse_kinematics import solver
+from holdfast.solvers.self_motions import TOLERANCE, Component, fibres
+
+if TYPE_CHECKING:
+    from holdfast.solvers.self_motions import SelfMotion
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+LATTICE = 52  # points along an edge: 2032 inside the circle
+_SPACING, _SEEDS = 0.1, 48  # of traced self-motions, rad, and starts of inverse kinematics for each place
+_TRIES = 8  # random starts of inverse kinematics for each configuration that is wanted
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Places of the hand.
+
+    Attributes:
+        poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
+        cells: (P, 2) column and row of each place in a lattice, from 0; None if they are no lattice.
+        axes: Coordinates (C,) of the columns and rows of the lattice along the task's two rows, m; None likewise.
+    """
+
+    poses: Array
+    cells: Index | None = None
+    axes: tuple[Array, Array] | None = None
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    @property
+    def points(self) -> Array:
+        """(P, 3) tool points in the world, m."""
+        return self.poses[:, :3, 3]
+
+
+def in_a_plane(task: Task) -> bool:
+    """The task is the position in a plane: places may be a lattice."""
+    return task.m == 2 and not task.angular and task.frame == "base"
+
+
+def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
+    """A square lattice over the disc that a planar arm could reach if it had no limits, ``count`` points along its edge.
+
+    With 52 points along the edge of the square about the circle there are exactly 2032 inside it, as in the paper.
+
+    Raises:
+        TaskError: The task is not the position in a plane.
+        InputError: Fewer than 2 points.
+    """
+    if not in_a_plane(task):
+        raise TaskError(f"task '{task.name}' is not the position in a plane, so there is no lattice; give places or a number")
+    if count < 2:
+        raise InputError(f"a lattice of {count} points along its edge is none; give 2 or more")
+    reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
+    middle = (arm.base @ arm.joints[0].origin)[:3, 3]
+    line = np.linspace(-reach, reach, count)
+    row, column = (x.ravel() for x in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
+    inside = np.hypot(line[column], line[row]) <= reach * (1 + 1e-12)
+    row, column = row[inside], column[inside]
+    rows = task.rows[:, :3]
+    points = middle + np.stack([line[column], line[row]], axis=1) @ rows
+    first, second = (line + float(middle @ r) for r in rows)
+    return Places(_at(points), np.stack([column, row], axis=1), (first, second))
+
+
+def random_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
+    """Where the hand is at ``count`` random configurations, uniform within the joint limits."""
+    from holdfast.arm.configurations import finite_limits
+
+    low, high = finite_limits(arm)
+    return Places(arm.forward_kinematics(generator.uniform(low, high, (count, arm.n))))
+
+
+def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, generator: np.random.Generator) -> Places:
+    """Places as people give them: ``"grid:52"``, a number of random ones, (P, m) positions or (P, 4, 4) poses.
+
+    Raises:
+        InputError: None of these.
+        TaskError: A lattice for a task that has none.
+    """
+    if isinstance(given, Places):
+        return given
+    if isinstance(given, str):
+        kind, _, count = given.partition(":")
+        if kind != "grid" or not (count or "0").isdecimal():
+            raise InputError(f"places '{given}' are not known; give grid, grid:52, a number, or an array of positions or poses")
+        return lattice(arm, task, int(count or LATTICE))
+    if isinstance(given, (int, np.integer)):
+        if given < 1:
+            raise InputError(f"{given} places are none; give 1 or more")
+        return random_places(arm, int(given), generator)
+    values = np.asarray(given, dtype=np.float64)
+    if values.ndim in (2, 3) and values.shape[-2:] == (4, 4):
+        poses = check_poses(values)
+    elif task.angular or task.frame != "base" or values.ndim not in (1, 2) or values.shape[-1] != task.m:
+        wanted = "(P, 4, 4)" if task.angular or task.frame != "base" else f"(P, {task.m}) or (P, 4, 4)"
+        raise InputError(f"places have shape {values.shape}; task '{task.name}' takes {wanted}")
+    else:
+        poses = _at(np.atleast_2d(values) @ task.rows[:, :3])
+    if not len(poses):
+        raise InputError("there are no places; give 1 or more")
+    if not np.isfinite(poses).all():
+        k = int(np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))[0])
+        raise InputError(f"place {k} holds NaN or infinity; give finite numbers")
+    return Places(poses)
+
+
+def _at(points: Array) -> Array:
+    poses = np.tile(np.eye(4), (len(points), 1, 1))
+    poses[:, :3, 3] = points
+    return poses
+
+
+# ---- configurations there ----------------------------------------------------------------------------------------
+
+
+def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int) -> tuple[Index, Array]:
+    """Configurations of places (P, 4, 4): which place each belongs to (R,), and they (R, n), in order of places.
+
+    With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
+    joint space; else up to ``count`` random ones of each place. Places out of reach have none.
+
+    Source: Goel et al. 2005, section on the analysis of a workspace.
+    """
+    arm = without_idle_limits(arm)
+    if arm.n - task.m == 1:
+        owner, guess = on_curves(arm, fibres(arm, places, task, _SPACING, seed, _SEEDS), count)
+        q, ok = solver(arm, task).attempt(guess, places[owner], TOLERANCE)
+        return owner[ok], q[ok]
+    engine = solver(arm, task)
+    generator = np.random.default_rng(seed)
+    draws = engine.starts(len(places) * count * _TRIES, generator).reshape(len(places), count * _TRIES, arm.n)
+    owner, found = np.empty(0, dtype=np.intp), np.empty((0, arm.n))
+    used, missing = 0, np.full(len(places), count)
+    while used < count * _TRIES and missing.any():
+        left = np.flatnonzero(missing)
+        wave = min(count, count * _TRIES - used)
+        rows = np.repeat(left, wave)
+        q, ok = engine.attempt(draws[left, used : used + wave].reshape(-1, arm.n), places[rows], TOLERANCE)
+        ok &= np.cumsum(ok.reshape(-1, wave), axis=1).ravel() <= missing[rows]
+        owner, found = np.concatenate([owner, rows[ok]]), np.concatenate([found, q[ok]])
+        missing -= np.bincount(rows[ok], minlength=len(places))
+        used += wave
+    order = np.argsort(owner, kind="stable")
+    return owner[order], joint_space.wrapped(arm, found[order])
+
+
+def on_curves(arm: Arm, motions: list[SelfMotion], count: int) -> tuple[Index, Array]:
+    """Points at ``count`` equal parts of each curve, in the middle of the part: of which motion (R,), and they (R, n)."""
+    owner = [i for i, m in enumerate(motions) for _ in m.components]
+    points = [_evenly(arm, c, count) for m in motions for c in m.components]
+    return np.repeat(np.array(owner, dtype=np.intp), count), np.concatenate([np.empty((0, arm.n)), *points])
+
+
+def _evenly(arm: Arm, curve: Component, count: int) -> Array:
+    q = curve.q
+    if curve.closed:
+        q = np.concatenate([q, q[-1:] + joint_space.difference(arm, q[:1], q[-1:])])
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
+    at = (np.arange(count) + 0.5) / count * way[-1]
+    return np.stack([np.interp(at, way, column) for column in q.T], axis=1)
+
+
+def picked_at(
+    arm: Arm, task: Task, places: Array, count: int, seed: int, generator: np.random.Generator
+) -> tuple[Index, Index, Array]:
+    """At most ``count`` configurations of each of the places (P, 4, 4), picked at random from :func:`configurations_at`.
+
+    Returns:
+        Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
+    """
+    owner, found = configurations_at(arm, task, places, count, seed)
+    # Of several curves some points of each: a random choice of all.
+    order = np.lexsort([generator.random(len(owner)), owner])
+    owner, found = owner[order], found[order]
+    rank = np.arange(len(owner)) - np.searchsorted(owner, owner)
+    kept = rank < count
+    return owner[kept], rank[kept], found[kept]

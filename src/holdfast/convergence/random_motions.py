@@ -1,0 +1,147 @@
+"""Random point-to-point motions: where a hand starts, and where it is sent."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.configurations import finite_limits
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, as_task
+from holdfast.errors import InputError
+from holdfast.solvers.inverse_kinematics import solver
+
+Array = NDArray[np.float64]
+
+_BLOCK = 256  # motions drawn at a time: the first ones of a seed do not depend on how many are asked for
+_PATIENCE = 400  # blocks without enough motions before giving up
+TOLERANCE = 1e-6  # m and rad, of the inverse kinematics that say whether a target is still reached
+
+
+@dataclass(frozen=True, eq=False)
+class PointToPoint:
+    """N motions of one arm from a configuration to a pose of the tool.
+
+    Attributes:
+        arm: The arm.
+        q0: (N, n) configurations at the start, within the limits, rad and m.
+        target: (N, 4, 4) tool poses in the world, each that of ``q_target``.
+        q_target: (N, n) a configuration at the target, within the limits, rad and m.
+        drawn: How many motions were drawn to find these.
+        wish: What was asked of them, a phrase for people.
+    """
+
+    arm: Arm
+    q0: Array
+    target: Array
+    q_target: Array
+    drawn: int
+    wish: str
+
+    def __len__(self) -> int:
+        return len(self.q0)
+
+    @property
+    def distance(self) -> Array:
+        """(N,) from the tool at the start to the tool at the target, m."""
+        start = self.arm.forward_kinematics(self.q0)[:, :3, 3]
+        return np.asarray(np.linalg.norm(self.target[:, :3, 3] - start, axis=1))
+
+    def describe(self) -> str:
+        """One phrase for people."""
+        return f"{len(self)} motions of {self.arm.title}, {self.wish}; {self.drawn} were drawn"
+
+
+@checked
+def point_to_point(
+    arm: Arm,
+    count: int,
+    seed: int = 0,
+    distance: tuple[float, float] | None = None,
+    reachable_after: Literal["each"] | Sequence[str | int] | None = None,
+    task: str | Task | Sequence[str] = "pose",
+    restarts: int = 30,
+) -> PointToPoint:
+    """Random motions: start and target are configurations drawn uniformly within the limits, the target as the tool's pose.
+
+    Where a joint has no limits it is drawn from one turn, or 1 m to either side.
+
+    Args:
+        arm: The arm.
+        count: How many motions.
+        seed: The same seed gives the same motions, and more of them begin with the same ones.
+        distance: Least and greatest distance of the tool from start to target, m; any if not given.
+        reachable_after: Joints, by name or index from 0, or ``"each"``: only motions whose target can be reached, within the
+            limits, also with any one of them standing where it starts. Decided by inverse kinematics as
+            :func:`holdfast.solve_ik` does, so a target that is hard to reach may be taken for one that is not.
+        task: Rows of the target that must be reached then; nothing else depends on it.
+        restarts: Random starts of that inverse kinematics.
+
+    Raises:
+        InputError: Options out of range; or so few motions meet the wishes that the search was given up.
+        TaskError: A task that the arm does not have.
+    """
+    if count < 1:
+        raise InputError(f"count is {count}; it must be 1 or more")
+    if restarts < 1:
+        raise InputError(f"restarts is {restarts}; it must be 1 or more")
+    nearest, farthest = (0.0, np.inf) if distance is None else distance
+    if not 0 <= nearest < farthest:
+        raise InputError(f"distance is {nearest:g} to {farthest:g} m; the first must be 0 or more and below the second")
+    joints = _joints(arm, reachable_after)
+    chosen = as_task(arm, task)
+    wishes = [] if distance is None else [f"{nearest:g} to {farthest:g} m long"]
+    if joints:
+        names = "any one joint" if reachable_after == "each" else " or ".join(arm.joint_names[k] for k in joints)
+        wishes.append(f"target still within reach (task {chosen.name}) with {names} locked at the start")
+    wish = ", ".join(wishes) or "drawn within the limits"
+    low, high = finite_limits(arm)
+    seeds = np.random.SeedSequence(seed)
+    kept: list[PointToPoint] = []
+    found = drawn = 0
+    while found < count:
+        if len(kept) == _PATIENCE:
+            raise InputError(
+                f"only {found} of {drawn} motions of '{arm.name}' are as asked for ({wish}), too few for {count}; ask for "
+                "fewer motions, or for less of each"
+            )
+        own, solving = seeds.spawn(2)
+        q0, q1 = np.random.default_rng(own).uniform(low, high, (2, _BLOCK, arm.n))
+        block = PointToPoint(arm, q0, arm.forward_kinematics(q1), q1, _BLOCK, wish)
+        block = _rows(block, (block.distance >= nearest) & (block.distance <= farthest))
+        for k in joints:
+            block = _rows(block, _still_reached(block, chosen, k, solving, restarts))
+        kept.append(block)
+        found += len(block)
+        drawn += _BLOCK
+    q0, target, q_target = (np.concatenate([getattr(b, x) for b in kept])[:count] for x in ("q0", "target", "q_target"))
+    return PointToPoint(arm, q0, target, q_target, drawn, wish)
+
+
+def _joints(arm: Arm, given: Literal["each"] | Sequence[str | int] | None) -> list[int]:
+    if given is None:
+        return []
+    if isinstance(given, str):
+        if given != "each":
+            raise InputError(f"reachable_after is '{given}'; give 'each' or a list of joints")
+        return list(range(arm.n))
+    return [arm.joint_index(j) for j in given]
+
+
+def _still_reached(
+    motions: PointToPoint, task: Task, joint: int, seed: np.random.SeedSequence, restarts: int
+) -> NDArray[np.bool_]:
+    if not len(motions):
+        return np.zeros(0, dtype=bool)
+    locked = np.full(len(motions), joint)
+    engine = solver(motions.arm, task)
+    return engine.reaches_locked(motions.target, locked, motions.q0[:, joint], seed, restarts, TOLERANCE)
+
+
+def _rows(motions: PointToPoint, keep: NDArray[np.bool_]) -> PointToPoint:
+    return replace(motions, q0=motions.q0[keep], target=motions.target[keep], q_target=motions.q_target[keep])

@@ -1,0 +1,52 @@
+"""Results over places as files: a table with a line for each place, and a summary."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.convergence.places import Places
+from holdfast.errors import StoreError
+from holdfast.files.output import replaced, writing
+
+
+def axis_label(direction: NDArray[np.float64]) -> str:
+    """What an axis of a map shows, from its direction (3,) in the world: ``x, m``."""
+    k = int(np.argmax(np.abs(direction)))
+    if abs(direction[k]) < 1 - 1e-9:
+        return "along (" + ", ".join(f"{v:.2f}" for v in direction) + "), m"
+    return ("" if direction[k] > 0 else "-") + "xyz"[k] + ", m"
+
+
+def save_places(
+    folder: str | Path,
+    name: str,
+    places: Places,
+    columns: Sequence[str],
+    values: Sequence[ArrayLike],
+    summary: Mapping[str, Any],
+) -> list[Path]:
+    """Write ``name.csv``, places and ``columns`` from values (P,) or (P, C), empty where NaN; and ``name.json``.
+
+    Raises:
+        StoreError: The folder cannot be written.
+    """
+    place = Path(folder)
+    files = [place / f"{name}.csv", place / f"{name}.json"]
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+        with writing(files[0]) as stream:
+            writer = csv.writer(stream)
+            writer.writerow(["x_m", "y_m", "z_m", *columns])
+            for row in np.column_stack([places.points, *values]):
+                writer.writerow(["" if np.isnan(x) else f"{x:.9g}" for x in row])
+        replaced(files[1], json.dumps(summary, indent=2) + "\n")
+    except OSError as error:
+        raise StoreError(f"cannot write to '{place}': {error.strerror or error}; choose another folder") from error
+    return files

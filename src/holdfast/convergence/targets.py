@@ -1,0 +1,177 @@
+"""The workspace measures over targets instead of starts: which targets does a lock put at risk, wherever the motion began?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.control.law import Law
+from holdfast.convergence.analysis import ENDS, Beginnings, Method, prepared, usual_method
+from holdfast.convergence.measures import NAMES
+from holdfast.convergence.origins import analysed, mean_intervals, mean_over
+from holdfast.convergence.places import Places, read_places
+from holdfast.convergence.table import save_places
+from holdfast.notice import says
+from holdfast.present.convergence.places import measure_maps
+from holdfast.probability.intervals import check_confidence
+
+Array = NDArray[np.float64]
+
+LATTICE: tuple[str | int, int] = ("grid:12", 8)  # targets and configurations where targets are a lattice
+SAMPLE: tuple[str | int, int] = (50, 4)  # and where they are sampled
+STARTS, POINTS = 20, 2
+
+
+@dataclass(frozen=True, eq=False)
+class TargetMeasures:
+    """Measures of T targets over the same S starts; the last of the n + 1 columns is for an arbitrary joint.
+
+    Attributes:
+        law: The law of the controller.
+        targets: Where the hand should go.
+        starts: Where it begins.
+        values: R100, Ravg, Rsens, F100, Favg and Fsens by name, (T, S, n + 1) each, percent; NaN for a target or start out of
+            reach, and F where no failure leaves the target in reach.
+        configurations: (T, S) starting configurations that were looked at, less those lost at singular configurations.
+        ends: (T, 6) how the failures ended, as in :class:`holdfast.Workspace`.
+    """
+
+    law: Law
+    targets: Places
+    starts: Places
+    values: dict[str, Array]
+    configurations: NDArray[np.int64]
+    ends: NDArray[np.int64]
+
+    @property
+    def measures(self) -> dict[str, Array]:
+        """Of each target the mean over the starts that have the measure, (T, n + 1) each, percent."""
+        return {name: mean_over(v, 1) for name, v in self.values.items()}
+
+    def means(self) -> dict[str, Array]:
+        """Mean of every measure over the targets that have it, (n + 1,) each, percent."""
+        return {name: mean_over(v, 0) for name, v in self.measures.items()}
+
+    def intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+        """How sure :meth:`means` are for targets that are a random sample: (n + 1, 2) each, percent, for these very starts.
+
+        The unit is the target. NaN where no target has a value.
+        """
+        check_confidence(confidence)
+        return {name: mean_intervals(v, confidence) for name, v in self.measures.items()}
+
+    def target_intervals(self, confidence: float = 0.95) -> dict[str, Array]:
+        """How sure the ``measures`` of each target are for starts that are a random sample: (T, n + 1, 2) each, percent.
+
+        The unit is the start, as in :meth:`holdfast.Workspace.intervals`.
+        """
+        check_confidence(confidence)
+        return {name: np.array([mean_intervals(v, confidence) for v in values]) for name, values in self.values.items()}
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        told = ", ".join(f"{count} {name}" for name, count in zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
+        within = int(np.isfinite(self.measures["Ravg"][:, -1]).sum())
+        return [
+            f"{self.law.describe()} on {self.law.arm.title}: {within} of {len(self.targets)} targets within reach of motions "
+            f"from {len(self.starts)} starts",
+            f"failures: {told}",
+        ]
+
+    @says("writing the results")
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write ``targets.csv``, ``targets.json`` and maps, ``targets-reach.png`` and ``targets-finish.png``.
+
+        The table has for each target the means over the starts and their 95 % intervals.
+
+        Raises:
+            StoreError: The folder cannot be written.
+        """
+        from holdfast.report.figures import save_png
+
+        names = (*self.law.arm.joint_names, "any")
+        columns: list[str] = list(ENDS)
+        values: list[NDArray[Any]] = [self.ends]
+        for name, sure in self.target_intervals().items():
+            values += [self.measures[name], sure[..., 0], sure[..., 1]]
+            columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
+        facts: dict[str, Any] = {"arm": self.law.arm.title, "law": self.law.describe(), "starts": len(self.starts)}
+        files = save_places(folder, "targets", self.targets, columns, values, facts)
+        for name, figure in self.figures().items():
+            files.append(save_png(figure, Path(folder) / f"targets-{name}.png", 130))
+        return files
+
+    def figures(self) -> dict[str, Any]:
+        """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
+        about = (
+            f"{self.law.arm.name}, {self.law.name}: each place is a target, its value the mean over {len(self.starts)} starts; "
+            "grey: no value"
+        )
+        count = int(self.ends.sum())
+        return measure_maps(self.law, self.targets, self.measures, about, f"{count} failures" if count else "")
+
+
+@checked
+@says("simulating failures")
+def target_measures(
+    law: Law,
+    targets: ArrayLike | str | int | Places | None = None,
+    starts: ArrayLike | str | int | Places | None = None,
+    configurations: int | None = None,
+    points: int | None = None,
+    method: Method | None = None,
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> TargetMeasures:
+    """The measures of :func:`holdfast.workspace` for many targets, over the same starts.
+
+    Args:
+        law: The law of the controller, with one joint to spare or more.
+        targets: A lattice (``"grid:14"``, for a task in a plane), a number of random ones, (T, m) positions or (T, 4, 4)
+            poses. If not given: the lattice ``"grid:12"``, or 50 random ones where there is none.
+        starts: Likewise; 20 random ones if not given.
+        configurations: Of each start, as in :func:`holdfast.workspace`; 8 on a lattice, else 4, if not given.
+        points: Failures of each joint on each motion; 2 if not given.
+        method: As in :func:`holdfast.workspace`.
+        seed: Of random places and of the search for configurations.
+        progress: Is told how many targets are done, and of how many.
+        options: Further ones of :func:`holdfast.workspace`: ``cells``, ``time_limit``, ``tolerance``, ``relative_to``.
+
+    Returns:
+        A :class:`holdfast.TargetMeasures`.
+
+    Raises:
+        InputError, TaskError: As :func:`holdfast.workspace`.
+
+    Source: the measures are those of Goel, Maciejewski, Balakrishnan 2005, section 5; over targets they are ours.
+    """
+    chosen = usual_method(law) if method is None else method
+    usual = LATTICE if usual_method(law) == "brute" else SAMPLE
+    each = usual[1] if configurations is None else configurations
+    failures = POINTS if points is None else points
+    generator = np.random.default_rng(seed)
+    goals = read_places(law.arm, law.task, usual[0] if targets is None else targets, generator)
+    places = read_places(law.arm, law.task, STARTS if starts is None else starts, generator)
+    begin = Beginnings(law, places, each, chosen, seed)
+    shape = len(goals), len(places)
+    values = {name: np.full((*shape, law.arm.n + 1), np.nan) for name in NAMES}
+    tried = np.zeros(shape, dtype=np.int64)
+    ends = np.zeros((len(goals), len(ENDS)), dtype=np.int64)
+    for k, pose in enumerate(goals.poses):
+        job = prepared(law, pose, each, failures, chosen, seed=seed, **options)
+        if job.reached:
+            one = analysed(job, begin)
+            for name, found in one.measures.items():
+                values[name][k] = found
+            tried[k] = one.configurations - one.lost
+            ends[k] = one.ends.sum(axis=0)
+        if progress is not None:
+            progress(k + 1, len(goals))
+    return TargetMeasures(law, goals, places, values, tried, ends)

@@ -1,0 +1,14 @@
+from holdfast.designs.convergence import ConvergenceDesigns as ConvergenceDesigns
+from holdfast.designs.convergence import design_for_convergence as design_for_convergence
+from holdfast.designs.designs import Check as Check
+from holdfast.designs.designs import Checked as Checked
+from holdfast.designs.designs import Designs as Designs
+from holdfast.designs.joints import DesignJoints as DesignJoints
+from holdfast.designs.joints import LawOfDesigns as LawOfDesigns
+from holdfast.designs.planar import PlanarRest as PlanarRest
+from holdfast.designs.planar import Radial as Radial
+from holdfast.designs.search import design as design
+from holdfast.designs.space import DesignSpace as DesignSpace
+from holdfast.designs.space import Parameter as Parameter
+from holdfast.designs.space import design_space as design_space
+from holdfast.designs.space import parse_vary as parse_vary

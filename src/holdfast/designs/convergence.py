@@ -1,0 +1,380 @@
+"""Which arm to build so that it still arrives when a joint locks and its controller does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.arms.serial import to_dict
+from holdfast.control.law import Law
+from holdfast.convergence.places import read_places
+from holdfast.designs.arrival import Arrivals, Failures
+from holdfast.designs.joints import DesignJoints, LawOfDesigns
+from holdfast.designs.memory import Memory, Parts
+from holdfast.designs.pattern import Box, improved
+from holdfast.designs.planar import PlanarRest, Radial
+from holdfast.designs.space import DesignSpace, Vary, design_space
+from holdfast.errors import InputError, StoreError
+from holdfast.notice import says
+from holdfast.probability.intervals import Difference, Interval
+from holdfast.registry import LAWS
+
+Array = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+Aim = Literal["guaranteed", "arrival"]
+
+RINGS = 40
+TARGETS, FAILURES = 12, 2  # of a sampled search; each failure is one of every joint
+_CHUNK = 16  # designs that are looked at, and remembered, together
+_FRESH = 8  # times as many targets in the check of a sampled search
+
+
+@dataclass(frozen=True, eq=False)
+class ConvergenceDesigns:
+    """Designs of an arm by how surely they arrive after an unidentified lock; the given arm is design 0.
+
+    Attributes:
+        law: The law, of the given arm.
+        space: What is varied.
+        values: (D, k) of all designs that were looked at, m and rad.
+        measures: By name, (D,) each. ``guaranteed``: share of the targets (of the area, for planar arms) that whatever lock
+            leaves within reach the arm arrives at, as far as no sink and no singular trap holds it (exact only);
+            ``free``: share of the locks that leave the target within reach after which nothing can hold the arm (exact), or it
+            arrived (sampled), every joint alike; ``arrival``: share of all locks after which the target is in reach and nothing
+            can hold the arm (exact); mean over the targets of the share of failures after which it arrived, 0 for targets out
+            of reach (sampled); ``reached``: share of the targets that the healthy arm reaches.
+        objective: What was maximised.
+        exact: From the stationary sets, not from simulations.
+        best: Index of the best design.
+        checked: Sampled only: shares of the given and of the best arm on targets and failures that the search did not see,
+            and their difference.
+        searched: How it was searched, by the names of the options.
+    """
+
+    law: Law
+    space: DesignSpace
+    values: Array
+    measures: dict[str, Array]
+    objective: Aim
+    exact: bool
+    best: int
+    checked: tuple[Interval, Interval, Difference] | None
+    searched: dict[str, Any] = field(default_factory=dict)
+    _rest: PlanarRest | None = field(repr=False, default=None)
+    _rings: Array | None = field(repr=False, default=None)
+
+    def arm(self, design: int | None = None) -> Arm:
+        """The arm of a design, the best one if none is given, without inertial data."""
+        return self.space.arm_of(self.values[self.best if design is None else design])
+
+    def radial(self, design: int | None = None) -> Radial:
+        """Of a design, the best one if none is given: what locks leave of targets at every distance (exact only).
+
+        Raises:
+            InputError: The search was by sampling.
+        """
+        if self._rest is None or self._rings is None:
+            raise InputError("only designs of planar arms with three joints are known by distance; these were sampled")
+        chosen = self.values[[self.best if design is None else design]]
+        return self._rest.radial(_lengths(self._rest, self.space, chosen), self._rings)
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        how = "from its stationary sets" if self.exact else "by simulation"
+        lines = [f"{self.law.arm.title} under {self.law.describe()}: {len(self.values)} designs, {how}"]
+        for word, k in (("given", 0), ("best", self.best)):
+            numbers = ", ".join(f"{p.name} {p.text(x)}" for p, x in zip(self.space.parameters, self.values[k], strict=True))
+            told = ", ".join(f"{name} {100 * m[k]:.1f} %" for name, m in self.measures.items())
+            lines.append(f"{word}: {numbers}: {told}")
+        if self.checked is not None:
+            given, best, apart = self.checked
+            lines.append(
+                f"on fresh failures: given {100 * given.value:.1f} % ({100 * given.low:.1f} to {100 * given.high:.1f}), best "
+                f"{100 * best.value:.1f} % ({100 * best.low:.1f} to {100 * best.high:.1f}), difference "
+                f"{100 * apart.value:+.1f} points ({100 * apart.low:+.1f} to {100 * apart.high:+.1f})"
+            )
+        return lines
+
+    def to_dict(self) -> dict[str, Any]:
+        """What was found, as JSON takes it: rad, m and shares."""
+
+        def one(k: int) -> dict[str, Any]:
+            values = dict(zip(self.space.names, self.values[k].tolist(), strict=True))
+            return {"values": values, **{name: float(m[k]) for name, m in self.measures.items()}}
+
+        out: dict[str, Any] = {
+            **self.law.arm.entry(),
+            "law": self.law.label,
+            "task": self.law.task.name,
+            "objective": self.objective,
+            "exact": self.exact,
+            "designs": len(self.values),
+            "given": one(0),
+            "best": one(self.best),
+        }
+        if self.checked is not None:
+            given, best, apart = self.checked
+            named: dict[str, Interval | Difference] = {"given": given, "best": best, "difference": apart}
+            out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
+        return out
+
+    @says("writing the results")
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), ``best-arm.yaml`` and
+        ``report.html``.
+
+        Raises:
+            StoreError: The folder cannot be written.
+        """
+        from holdfast.files.output import replaced
+
+        lines = [",".join((*self.space.names, *self.measures))]
+        columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
+        lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
+        files = [Path(folder) / "designs.csv", Path(folder) / "best-arm.yaml"]
+        try:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            for path, content in zip(files, ("\n".join(lines) + "\n", self.arm_file()), strict=True):
+                replaced(path, content)
+        except OSError as error:
+            raise StoreError(f"folder '{folder}' cannot be written: {error.strerror or error}") from error
+        return [*files, self.report(Path(folder) / "report.html")]
+
+    def arm_file(self) -> str:
+        """The best arm as a file that every command takes."""
+        from holdfast.arms.dh_file import text
+
+        arm = self.arm()
+        return text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
+
+    @says("drawing the report")
+    def report(self, path: str | Path) -> Path:
+        """Write one HTML file that needs nothing else: what to build, what that gains, and how it was found.
+
+        Raises:
+            StoreError: The file cannot be written; what was there is as it was.
+        """
+        from holdfast.present.designs.convergence import write
+
+        return write(self, path)
+
+
+@checked
+@says("searching designs")
+def design_for_convergence(
+    law: Law,
+    vary: Vary,
+    targets: ArrayLike | int | None = None,
+    objective: Aim = "guaranteed",
+    designs: int = 256,
+    climbs: int = 4,
+    keep_reach: bool = False,
+    exact: bool | None = None,
+    failures: int = FAILURES,
+    seed: int = 0,
+    progress: Progress | None = None,
+    store: str | Path | None = None,
+) -> ConvergenceDesigns:
+    """Search for the arm that arrives most surely when a joint has locked and its controller does not know.
+
+    **Planar arms of three joints** (pseudoinverse, weighted by joint, damped): exact, up to a grid of 1.5 deg in one angle.
+    Where the arm can come to rest away from the target is known for all targets at once, and so, for every distance of the
+    target, at which locked angles that leave it within reach there is a sink, or a singular configuration that draws the arm
+    in. No sink and no trap does not exclude limit cycles, of which one is known; see :func:`holdfast.equilibria.orbit`.
+
+    **Any other arm, task or law**: by simulation of the same random failures for all designs. A joint locks where it stands in
+    some configuration at the target, so that the target stays within reach, and the arm starts anywhere.
+
+    Neither measure is smooth in the design. A scrambled Sobol sequence screens the bounds, together with designs in which two
+    varied lengths are made equal, as coincidences matter here; the best are improved by pattern search. What is found is
+    good, and not proved to be best.
+
+    Args:
+        law: The law, with the given arm and the task; every design is driven by the same.
+        vary: What is varied, and between which bounds, m and rad: ``{"a2": (0.5, 1.5), "tool.z": (0.0, 0.2)}``, or whatever
+            else :func:`holdfast.designs.design_space` takes; not joint limits.
+        targets: Exact: the range of distances from the first joint, m; from 0 to the reach of the given arm if not given.
+            Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's hand; 12 if not given.
+        objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
+            ``arrival``. ``arrival``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``arrival``.
+        designs: Of the screening.
+        climbs: Of the best of them, so many are improved.
+        keep_reach: The varied link lengths keep their sum.
+        exact: False: simulate where the exact sets are known, too.
+        failures: Of each joint for each target (sampled).
+        seed: Of the designs, and of all random numbers of a sampled search.
+        progress: Called with (designs done, designs expected in all).
+        store: Folder in which a sampled search that was stopped is remembered and goes on; an exact one takes seconds.
+
+    Raises:
+        InputError: Names, bounds or options that do not fit; a law or an arm without exact sets, if ``exact`` is True.
+        StoreError: The folder holds something else, or cannot be written.
+
+    Source: Goel, Maciejewski, Balakrishnan 2005, footnote 11, say that their analysis can be extended to design such arms, and
+    not how. Measures and search are ours.
+    """
+    if objective not in ("guaranteed", "arrival"):
+        raise InputError(f"objective '{objective}' is not known; use guaranteed or arrival")
+    for what, number, least in (("designs", designs, 1), ("climbs", climbs, 0), ("failures", failures, 1)):
+        if number < least:
+            raise InputError(f"{what} is {number}; it must be {least} or more")
+    space = design_space(law.arm, vary)
+    box = Box.read(space, keep_reach)
+    rest = None
+    if exact is not False:
+        try:
+            rest = _planar(law, space)
+        except InputError:
+            if exact:
+                raise
+    if rest is not None:
+        if space.lower.min() <= 0:
+            raise InputError("a link of length 0 or less is none; give bounds above 0")
+        return _exact(rest, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
+    if keep_reach:
+        raise InputError("keep_reach belongs to the exact search for planar arms of three joints; leave it out")
+    return _sampled(law, box, targets, designs, climbs, failures, seed, progress, store)
+
+
+def _planar(law: Law, space: DesignSpace) -> PlanarRest:
+    rest = PlanarRest(law)
+    other = [name for name in space.names if name not in ("a1", "a2", "a3")]
+    if other:
+        raise InputError(f"'{other[0]}' is no link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
+    return rest
+
+
+def _rings(rest: PlanarRest, targets: ArrayLike | int | None) -> Array:
+    ends = np.asarray([0.0, rest.lengths.sum()] if targets is None else targets, dtype=np.float64)
+    if ends.shape != (2,) or not np.isfinite(ends).all() or not 0 <= ends[0] < ends[1]:
+        raise InputError(
+            f"targets are {np.array2string(ends, precision=4)}; give the least and the greatest distance from the first "
+            "joint, m"
+        )
+    return np.asarray(np.linspace(float(ends[0]), float(ends[1]), RINGS + 1))
+
+
+def _lengths(rest: PlanarRest, space: DesignSpace, values: Array) -> Array:
+    out = np.tile(rest.lengths, (len(values), 1))
+    out[:, [int(name[1:]) - 1 for name in space.names]] = values
+    return out
+
+
+def _exact(
+    rest: PlanarRest,
+    box: Box,
+    rings: Array,
+    objective: Aim,
+    designs: int,
+    climbs: int,
+    seed: int,
+    progress: Progress | None,
+) -> ConvergenceDesigns:
+    def measured(values: Array) -> dict[str, Array]:
+        return planar_measures(rest.radial(_lengths(rest, box.space, values), rings))
+
+    order = ("guaranteed", "free", "arrival") if objective == "guaranteed" else ("arrival",)
+    values, measures = improved(box, measured, order, designs, climbs, seed, progress)
+    best = _best(measures, order)
+    searched = {"designs": designs, "climbs": climbs, "seed": seed, "keep_reach": box.total is not None}
+    return ConvergenceDesigns(rest.law, box.space, values, measures, objective, True, best, None, searched, rest, rings)
+
+
+def planar_measures(radial: Radial) -> dict[str, Array]:
+    """The measures of :class:`ConvergenceDesigns`, (D,) each, over the area of the rings."""
+    area = radial.area
+    in_reach, stuck = ((area * x).sum(axis=2) for x in (radial.in_reach, radial.stuck))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        free = 1 - np.where(in_reach > 0, stuck / in_reach, 0.0).mean(axis=1)
+    return {
+        "guaranteed": (area * radial.guaranteed).sum(axis=1),
+        "free": free,
+        "arrival": (in_reach - stuck).mean(axis=1),
+        "reached": (area * radial.reached).sum(axis=1),
+    }
+
+
+def _best(measures: dict[str, Array], order: tuple[str, ...]) -> int:
+    # Of measures that differ by less than 0.1 % the next one decides.
+    keys = [np.round(measures[name], 3) for name in order[:-1]] + [measures[order[-1]]]
+    return int(np.lexsort([-k for k in reversed(keys)])[0])
+
+
+def _sampled(
+    law: Law,
+    box: Box,
+    targets: ArrayLike | int | None,
+    designs: int,
+    climbs: int,
+    failures: int,
+    seed: int,
+    progress: Progress | None,
+    store: str | Path | None,
+) -> ConvergenceDesigns:
+    if store is not None:
+        LAWS.label(law)  # says so where there is none
+    moved = LawOfDesigns(law, DesignJoints.of(box.space))
+    search, check = np.random.SeedSequence(seed).spawn(2)
+    given = TARGETS if targets is None else targets
+    places = read_places(law.arm, law.task, given, np.random.default_rng(search))
+    seen = Failures(moved, places.poses, failures, seed)
+    searched = {"designs": designs, "climbs": climbs, "seed": seed, "failures": failures, "targets": len(places)}
+    own = law.arm, law.describe(), law.label, law.task
+    listed = None if isinstance(given, (int, np.integer)) else places.poses.tolist()
+    memory = None if store is None else Memory(store, _plan(own, box.space, {**searched, "places": listed}))
+    parts = count(1)
+
+    def part(name: str, make: Callable[[], Parts]) -> Parts:
+        return make() if memory is None else memory.part(name, make)
+
+    def looked(values: Array) -> Parts:
+        a = seen.of(values)
+        with np.errstate(invalid="ignore"):
+            free = a.arrived.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
+        return {"free": free, "arrival": a.arrival, "reached": a.reached}
+
+    def measured(values: Array) -> dict[str, Array]:
+        # What a design is worth does not depend on its company, so that a stopped search loses little.
+        chunks = [values[k : k + _CHUNK] for k in range(0, len(values), _CHUNK)]
+        found = [part(f"designs {next(parts)}", lambda c=c: looked(c)) for c in chunks]  # type: ignore[misc]
+        return {name: np.concatenate([f[name] for f in found]) for name in found[0]}
+
+    values, measures = improved(box, measured, ("arrival",), designs, climbs, seed, progress)
+    best = _best(measures, ("arrival",))
+    # What was chosen for doing well on some failures is judged by others; targets that were given stay what they are.
+    more = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
+    fresh = read_places(law.arm, law.task, more, np.random.default_rng(check))
+    judged = part("check", lambda: vars(Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])))
+    compared = _compared(Arrivals(**judged))
+    return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, compared, searched)
+
+
+def _plan(own: tuple[Arm, str, str, Task], space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
+    """What defines a sampled search, as JSON data."""
+    arm, law, label, task = own
+    return {
+        "kind": "design for convergence",
+        "arm": to_dict(arm),
+        "law": [label, law],
+        "task": [task.rows.tolist(), task.frame, task.length],
+        "vary": [p.written for p in space.parameters],
+        **searched,
+    }
+
+
+def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:
+    """Of two designs: mean shares over the targets with their intervals, and of the difference."""
+    shares = np.nan_to_num(arrivals.by_target)
+    if shares.shape[1] < 2:
+        return None
+    given, best = (Interval.of_fractions(x) for x in shares)
+    return given, best, Difference.of_fractions(shares[1] - shares[0])

@@ -1,0 +1,148 @@
+"""Chunks on a Dask cluster: the workers compute, this process alone writes."""
+
+from __future__ import annotations
+
+import logging
+import queue
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import Any
+
+from holdfast.engine.runner import Result, Stop, Task, compute
+from holdfast.errors import InputError, StoreError
+
+_POLL = 0.5  # s between looks at the scheduler
+_PATIENCE = 15.0  # s without the scheduler before it counts as gone
+_GRACE = 10.0  # s that chunks in hand get once a stop is asked for
+_LOCAL = "local:"
+
+
+class Cluster:
+    """A Dask cluster by the address of its scheduler (``tcp://HOST:8786``, or a scheduler file), or one of its own.
+
+    ``local:4`` starts four worker processes on this machine. Use it in a ``with`` statement.
+
+    Raises:
+        InputError: The extra ``cluster`` is not installed, or no scheduler answers.
+    """
+
+    def __init__(self, address: str, timeout: float = 20.0) -> None:
+        try:
+            import distributed
+        except ImportError as error:
+            raise InputError(
+                "a scheduler needs Dask, which is not installed; install it with: pip install 'holdfast[cluster]'"
+            ) from error
+        for part in ("client", "core", "comm"):  # its tracebacks; what matters comes back as one sentence
+            logging.getLogger(f"distributed.{part}").setLevel(logging.CRITICAL)
+        self.address = address
+        self._own: Any = None
+        if address.startswith(_LOCAL):
+            count = address.removeprefix(_LOCAL)
+            if not count.isdecimal() or int(count) < 1:
+                raise InputError(f"scheduler '{address}' is not known; write local:4 for four worker processes")
+            self._own = distributed.LocalCluster(
+                n_workers=int(count), threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+            )
+        elif "://" not in address and not address.endswith(".json"):
+            raise InputError(
+                f"scheduler '{address}' is not known; give its address such as tcp://HOST:8786, its scheduler file (.json), "
+                "or local:4 for worker processes of its own"
+            )
+        try:
+            if address.endswith(".json"):
+                self._client = distributed.Client(scheduler_file=address, timeout=timeout, set_as_default=False)
+            else:
+                place = address if self._own is None else self._own
+                self._client = distributed.Client(place, timeout=timeout, set_as_default=False)
+        except (OSError, TimeoutError, ValueError) as error:
+            raise InputError(
+                f"no Dask scheduler answers at '{address}'; start one with 'dask scheduler', and workers with "
+                "'dask worker ADDRESS'"
+            ) from error
+
+    def __enter__(self) -> Cluster:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with suppress(Exception):  # a scheduler that is gone cannot be taken leave of
+            self._client.close(timeout=2)
+        if self._own is not None:
+            with suppress(Exception):
+                self._own.close(timeout=5)
+
+    @property
+    def about(self) -> str:
+        """The address."""
+        return f"Dask at {self.address}"
+
+    def results(self, tasks: Iterator[Task], stop: Stop) -> Iterator[Result]:
+        """See :class:`holdfast.engine.Runner`."""
+        finished: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        waiting: dict[str, tuple[Any, Task]] = {}
+        looked, room, heard = 0.0, 1, time.monotonic()
+        again: list[Task] = []  # of which a lost connection took the answer
+        more, asked = True, 0.0
+        try:
+            while True:
+                now = time.monotonic()
+                if now - looked > _POLL:
+                    looked = now
+                    if self._client.status == "running":
+                        heard, room = now, 2 * self._threads() + 1
+                    elif now - heard > _PATIENCE or self._client.status == "closed":
+                        raise self._gone()
+                while (again or more) and len(waiting) < room and self._client.status == "running" and not stop():
+                    task = again.pop() if again else next(tasks, None)
+                    if task is None:
+                        more = False
+                        break
+                    future = self._client.submit(compute, task, pure=False)
+                    waiting[future.key] = future, task
+                    future.add_done_callback(finished.put)
+                if not waiting and (stop() or not (again or more)):
+                    return
+                try:
+                    future = finished.get(timeout=_POLL)
+                except queue.Empty:
+                    if stop():
+                        asked = asked or now
+                        if now - asked > _GRACE:  # the workers may be far away and slow: it is given up
+                            return
+                    continue
+                _, task = waiting.pop(future.key)
+                if future.status in ("cancelled", "lost"):
+                    again.append(task)
+                    continue
+                yield self._taken(future, task)
+        finally:
+            with suppress(Exception):
+                self._client.cancel([future for future, _ in waiting.values()])
+
+    def _threads(self) -> int:
+        return sum(w["nthreads"] for w in self._client.scheduler_info(n_workers=-1)["workers"].values())
+
+    def _gone(self) -> StoreError:
+        return StoreError(
+            f"the Dask scheduler at '{self.address}' is gone; what was committed is safe: start it and give the same command "
+            "again"
+        )
+
+    def _taken(self, future: Any, task: Task) -> Result:
+        from distributed import KilledWorker
+
+        try:
+            result: Result = future.result(timeout=60)
+        except KilledWorker as error:
+            raise StoreError(
+                f"rows {task.chunk.start + 1} to {task.chunk.stop} of a cell took several workers with them, perhaps for want "
+                "of memory; give the workers more, or write a study file with a smaller chunk"
+            ) from error
+        except (TimeoutError, OSError) as error:
+            raise self._gone() from error
+        except ImportError as error:
+            raise StoreError(f"a worker lacks a package ({error}); install the same versions on every machine") from error
+        finally:
+            future.release()
+        return result

@@ -1,0 +1,16 @@
+from holdfast.equilibria.attraction import Basins as Basins
+from holdfast.equilibria.attraction import basins as basins
+from holdfast.equilibria.curves import Curve as Curve
+from holdfast.equilibria.curves import Curves as Curves
+from holdfast.equilibria.curves import Segment as Segment
+from holdfast.equilibria.limit_cycles import Orbit as Orbit
+from holdfast.equilibria.limit_cycles import orbit as orbit
+from holdfast.equilibria.points import RestPoints as RestPoints
+from holdfast.equilibria.points import stationary as stationary
+from holdfast.equilibria.stability import Kind as Kind
+from holdfast.equilibria.stability import Linearisation as Linearisation
+from holdfast.equilibria.stability import linearisation as linearisation
+from holdfast.equilibria.theorem import column_residual as column_residual
+from holdfast.equilibria.theorem import is_stuck as is_stuck
+from holdfast.equilibria.theorem import null_components as null_components
+from holdfast.equilibria.theorem import stuck_subspace as stuck_subspace

@@ -1,0 +1,226 @@
+"""Where starts end up: the share of each point of rest, and for two healthy joints the lines between the basins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import LARGEST, checked, real_numbers
+from holdfast.arm.configurations import finite_limits, without_limits
+from holdfast.arm.targets import target_pose
+from holdfast.control.law import Law
+from holdfast.equilibria.points import Joints, RestPoints, read_joints, rest_points, search
+from holdfast.equilibria.stability import Kind
+from holdfast.equilibria.system import RestSystem, distinct
+from holdfast.errors import InputError
+from holdfast.notice import says
+from holdfast.probability.intervals import Interval, check_confidence
+from holdfast.simulation.closed_loop import simulate
+from holdfast.simulation.runs import Outcome, Runs
+from holdfast.solvers import joint_space
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+STARTS = 2000
+NEAR = 1e-2  # rad (and m): a run that ends nearer than this to a point of rest ended there
+ARRIVED, MOVING, UNDECIDED, STUCK = -1, -2, -3, -4
+_WORDS = {ARRIVED: "target", STUCK: "stuck on a continuum", MOVING: "moving", UNDECIDED: "undecided"}
+_OFFSET, _LENGTH = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
+_SPACING = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Basins:
+    """Where N starts ended.
+
+    Attributes:
+        points: Points of rest; those at which runs ended are among them.
+        starts: (N, n) rad and m.
+        end: (N,) index of the point; or -1 at the target, but not at an isolated solution; -2 moving; -3 undecided; -4 stuck,
+            but not at an isolated point of rest.
+        runs: The runs.
+        confidence: Of the intervals.
+        boundaries: Lines of configurations (K, n) that run into saddles, for two healthy joints: starts on either side may end
+            at different points. Continuous, so that joints may run beyond pi.
+        shape: Starts along each of the two healthy joints, if they are a grid.
+    """
+
+    points: RestPoints
+    starts: Array
+    end: Indices
+    runs: Runs
+    confidence: float
+    boundaries: tuple[Array, ...] = ()
+    shape: tuple[int, int] | None = None
+    _moving: tuple[int, ...] = field(default=(), repr=False)
+
+    @property
+    def shares(self) -> list[tuple[str, Interval]]:
+        """What was arrived at, solutions and sinks always, and the share of starts with its exact interval."""
+        always = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
+        codes = sorted({*self.end.tolist(), *np.flatnonzero(always).tolist()}, key=lambda k: (k < 0, abs(k)))
+        return [(self.name(k), Interval.of(int((self.end == k).sum()), len(self.end), self.confidence)) for k in codes]
+
+    def name(self, code: int) -> str:
+        """A value of ``end`` for people: the kind and number from 1 of a point, or a word."""
+        return _WORDS[code] if code < 0 else f"{Kind(self.points.kind[code]).word} {code + 1}"
+
+    @property
+    def converged(self) -> Interval:
+        """Share of starts that reach the target."""
+        arrived = np.asarray(self.runs.code) == Outcome.CONVERGED
+        return Interval.of(int(arrived.sum()), len(self.end), self.confidence)
+
+    @property
+    def healthy(self) -> tuple[int, ...]:
+        """Joints that move and that the task notices, from 0."""
+        return self._moving
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        lines = [f"{len(self.end)} starts, {self.converged} reach the target"]
+        return lines + [f"{name}: {share}" for name, share in self.shares]
+
+
+@checked
+@says("simulating the basins")
+def basins(
+    law: Law,
+    target: ArrayLike,
+    locked: Joints,
+    at: ArrayLike,
+    starts: int | ArrayLike = STARTS,
+    grid: int | None = None,
+    seed: int = 0,
+    time_limit: float | None = None,
+    confidence: float = 0.95,
+) -> Basins:
+    """From where a failed arm reaches its target, and from where it ends elsewhere.
+
+    Starts are drawn uniformly between the limits of the healthy joints, over the whole turn where there are none, and each is
+    simulated; its end is matched with the points of rest of :func:`holdfast.stationary`.
+
+    Args:
+        law: The control law, with its arm, task and gain.
+        target: (m,) for tasks without angular rows, or a tool pose (4, 4).
+        locked: A joint by name or index from 0, or several.
+        at: Where each stands, rad (or m).
+        starts: How many random starts, or configurations (N, n), whose locked joints are set to ``at``.
+        grid: With two healthy joints, cell centres of a grid of so many by so many in place of ``starts``.
+        seed: Of the random starts and of the search for points of rest.
+        time_limit: Of each run, s; 3000/Ke if not given.
+        confidence: Of the intervals; of a grid they are what as many random starts would have.
+
+    Raises:
+        InputError: Wrong shapes, joints or options.
+
+    Source: Goel et al. 2005, Fig. 8. Matching, shares and intervals are ours.
+    """
+    check_confidence(confidence)
+    joints, pose = read_joints(law.arm, locked), target_pose(law.task, target)
+    generator = np.random.default_rng(seed)
+    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
+    if values.shape != (len(joints),) or not np.isfinite(values).all():
+        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    system = RestSystem(law, pose, joints)
+    moving = tuple(int(k) for k in np.flatnonzero(system.healthy))
+    points = search(system, values, generator)
+    q0 = _starts(law, moving, starts, grid, generator)
+    q0[:, list(joints)] = values
+    runs = simulate(law, q0, pose, locked=list(joints), time_limit=time_limit)
+    points = _completed(system, points, runs)
+    shape = None if grid is None else (grid, grid)
+    lines = tuple(_boundaries(system, points)) if len(moving) == 2 else ()
+    return Basins(points, q0, _ends(system, points, runs), runs, confidence, lines, shape, moving)
+
+
+def _starts(
+    law: Law, moving: Sequence[int], starts: int | ArrayLike, grid: int | None, generator: np.random.Generator
+) -> Array:
+    arm = law.arm
+    low, high = finite_limits(arm)
+    if grid is not None:
+        if len(moving) != 2 or grid < 2:
+            raise InputError(
+                f"grid is {grid} with {len(moving)} healthy joints; it takes two healthy joints and 2 or more cells"
+            )
+        share = (np.arange(grid) + 0.5) / grid
+        q = np.zeros((grid * grid, arm.n))
+        first, second = np.meshgrid(share, share, indexing="ij")
+        for k, x in zip(moving, (first, second), strict=True):
+            q[:, k] = low[k] + (high[k] - low[k]) * x.ravel()
+        return q
+    if np.ndim(starts) == 0:
+        number = float(real_numbers(starts, "starts"))
+        if not 1 <= number <= LARGEST or number != int(number):
+            raise InputError(f"starts is {number:g}; it must be a whole number of 1 or more, or configurations")
+        count = int(number)
+        return np.asarray(generator.uniform(low, high, (count, arm.n)))
+    return np.atleast_2d(arm.check_configurations(np.asarray(starts, dtype=np.float64))).copy()
+
+
+def _completed(system: RestSystem, points: RestPoints, runs: Runs) -> RestPoints:
+    """With points added at which runs came to rest though the search did not find them."""
+    stuck = _finals(system, runs)[runs.code == Outcome.STUCK]
+    new = distinct(system.law.arm, stuck, points.q, NEAR)
+    if not len(new):
+        return points
+    exact = system.settled(new)
+    new = np.where(np.isfinite(exact) & (np.abs(exact - new) < NEAR), exact, new)
+    return rest_points(
+        system, points.at, np.concatenate([points.q, distinct(system.law.arm, new, points.q, NEAR)]), points.starts
+    )
+
+
+def _finals(system: RestSystem, runs: Runs) -> Array:
+    """(N, n) where the runs ended, joints that the task does not notice at 0, as in points of rest."""
+    q = runs.q_final.copy()
+    q[:, list(system.idle)] = 0.0
+    return q
+
+
+def _ends(system: RestSystem, points: RestPoints, runs: Runs) -> Indices:
+    """(N,) see :class:`Basins`."""
+    codes = {Outcome.CONVERGED: ARRIVED, Outcome.STUCK: STUCK, Outcome.MOVING: MOVING, Outcome.UNDECIDED: UNDECIDED}
+    end = np.array([codes[Outcome(c)] for c in runs.code], dtype=np.int64)
+    free, finals = without_limits(points.law.arm), _finals(system, runs)
+    reached = points.kind == Kind.SOLUTION
+    for outcome, alike in ((Outcome.CONVERGED, reached), (Outcome.STUCK, ~reached)):
+        rows, among = np.flatnonzero(runs.code == outcome), np.flatnonzero(alike & ~points.continuum)
+        if rows.size and among.size:
+            away, nearest = joint_space.nearest(free, points.q[among], finals[rows])
+            end[rows[away < NEAR]] = among[nearest[away < NEAR]]
+    return end
+
+
+def _boundaries(system: RestSystem, points: RestPoints) -> Iterator[Array]:
+    """The stable manifolds of the saddles, followed backwards in time at unit speed."""
+    from scipy.integrate import solve_ivp
+
+    rates = system.linear.field(system.pose, system.healthy)
+
+    def back(_: float, q: Array) -> Array:
+        now = rates(q)
+        return np.asarray(-now / max(float(np.linalg.norm(now)), 1e-12))
+
+    def slow(_: float, q: Array) -> float:
+        return float(np.linalg.norm(rates(q))) - 1e-6
+
+    slow.terminal = True  # type: ignore[attr-defined]
+    for q in points.q[points.kind == Kind.SADDLE]:
+        matrix = system.linear.matrices(q[None], system.pose, system.healthy)[0]
+        values, vectors = np.linalg.eig(matrix)
+        into = np.zeros(len(q))
+        into[system.healthy] = vectors[:, np.argmin(values.real)].real
+        for side in (1.0, -1.0):
+            start = q + side * _OFFSET * into / np.linalg.norm(into)
+            run: Any = solve_ivp(back, (0, _LENGTH), start, rtol=1e-8, atol=1e-10, max_step=0.1, events=slow, dense_output=True)
+            yield run.sol(np.arange(0, run.t[-1], _SPACING)).T

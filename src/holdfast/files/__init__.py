@@ -1,0 +1,1 @@
+"""Files read and written with one sentence when that cannot be done."""

@@ -1,0 +1,186 @@
+"""Reading YAML files that people write: each key once, none unknown, and one sentence for what is wrong."""
+
+from __future__ import annotations
+
+import itertools
+import reprlib
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+import yaml
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Tag, ValidationError
+
+from holdfast.errors import InputError
+from holdfast.files import reading
+
+_LARGEST = 1 << 20  # bytes: PyYAML takes ten seconds for as many
+_DEEPEST = 50
+_MOST = 500_000
+_TOO_DEEP = f"its blocks are more than {_DEEPEST} levels deep; write it flatter"
+
+
+def _not_a_flag(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError("it must be a number")
+    return value
+
+
+# Text is let through to the number parser because YAML 1.1 reads 1e-3 (no point) as text.
+Number = Annotated[float, BeforeValidator(_not_a_flag)]
+Three = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Four = Annotated[list[Number], Field(min_length=4, max_length=4)]
+
+
+class Strict(BaseModel):
+    """A block of keys: unknown keys, NaN and infinity are errors."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML as PyYAML reads it, except that a key given twice is an error and not an overwrite, and so is what blows up."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen: set[str] = set()
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise InputError(f"line {key.start_mark.line + 1}: a key is a list or a block; keys must be words or numbers")
+            if key.value in seen:
+                raise InputError(f"line {key.start_mark.line + 1}: the key '{_short(key.value)}' is given twice; give it once")
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def parse(text: str, hint: str = "") -> Any:
+    """What a text in YAML says; None if it says nothing.
+
+    Args:
+        text: The text.
+        hint: How messages about wrong YAML end.
+
+    Raises:
+        InputError: It is not YAML, gives a key twice, or is far larger or deeper than what people write once its aliases are
+            written out.
+    """
+    try:
+        loader = _Loader(text)
+        node = loader.get_single_node()
+        if node is None:
+            return None
+        _extent(node, {})
+        return loader.construct_document(node)
+    except InputError:
+        raise
+    except RecursionError as error:
+        raise InputError(_TOO_DEEP) from error
+    # PyYAML lets pass what Python says of a value, as of the day 2026-02-30 or of !!int x.
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError) as error:
+        raise InputError(f"this is not sound YAML ({_short(' '.join(str(error).split()), 300)}){hint}") from error
+
+
+def _extent(node: yaml.Node, known: dict[int, tuple[int, int]]) -> tuple[int, int]:
+    """Entries and depth of a node with every alias and merge written out."""
+    if id(node) in known:
+        return known[id(node)]
+    known[id(node)] = _MOST, 0  # while it is open: an alias to a block from within it has no end
+    size, depth = 1, 0
+    inner = () if isinstance(node, yaml.ScalarNode) else node.value
+    for part in itertools.chain.from_iterable(inner) if isinstance(node, yaml.MappingNode) else inner:
+        more, deep = _extent(part, known)
+        size, depth = size + more, max(depth, deep + 1)
+    if size > _MOST:
+        line = node.start_mark.line + 1
+        raise InputError(f"line {line}: with its aliases written out it has more than {_MOST} entries; use fewer aliases")
+    if depth > _DEEPEST:
+        raise InputError(_TOO_DEEP)
+    known[id(node)] = size, depth
+    return size, depth
+
+
+def content(path: Path, example: str, least: str) -> dict[str, Any]:
+    """The keys and values of a file.
+
+    Args:
+        path: The file.
+        example: Where an example of the format is, for messages.
+        least: What the file must hold at least, for messages.
+
+    Raises:
+        InputError: The file cannot be read, or is not YAML with keys and values.
+    """
+    try:
+        data = parse(reading.text(path, _LARGEST), f"; see {example} for an example")
+    except OSError as error:
+        raise InputError(f"the file cannot be read ({error.strerror}); give the path of a YAML file") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"this is not sound YAML ({error}); see {example} for an example") from error
+    if not isinstance(data, dict):
+        raise InputError(f"the file must hold keys and values, at least {least}; see {example} for an example")
+    return data
+
+
+def _short(text: str, most: int = 80) -> str:
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[str] = ()) -> str:
+    """The most telling of pydantic's complaints; a misspelt key comes before the key that it leaves missing.
+
+    Args:
+        error: What pydantic says.
+        model: The whole file.
+        tags: Names of the alternatives in ``model``, which are no part of the place.
+    """
+    problems = error.errors()
+    first = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
+    trail = tuple(x for x in first["loc"] if x not in tags)
+    where = first["loc"]
+    place = "".join(f"[{x}]" if isinstance(x, int) else f".{x}" for x in trail).lstrip(".")
+    given = reprlib.repr(first["input"])
+    match first["type"]:
+        case "extra_forbidden":
+            return f"{place}: the key '{trail[-1]}' is not known; the keys here are {', '.join(_keys(model, where))}"
+        case "missing":
+            return f"{place}: it is missing; it must be given"
+        case "literal_error":
+            return f"{place}: {given} is not known; use {first['ctx']['expected']}"
+        case "value_error":
+            return f"{place}: {given} is wrong; {first['ctx']['error']}"
+        case "too_short" | "too_long":
+            return f"{place}: it has {first['ctx']['actual_length']} entries; it must have {_length(first['ctx'])}"
+        case _:
+            return f"{place}: {given} is wrong; {first['msg'][0].lower()}{first['msg'][1:]}"
+
+
+def _length(context: dict[str, Any]) -> str:
+    least = context.get("min_length", context.get("max_length"))
+    return "at least 1" if least == 1 else str(least)
+
+
+def _keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
+    """The keys of the block that the last entry of a trail, tags of alternatives included, stands in."""
+    annotation: Any = None
+    for step in trail[:-1]:
+        if isinstance(step, str):
+            field = next((f for name, f in model.model_fields.items() if step in (name, f.alias)), None)
+            if field is not None:  # else a tag, or a key that people choose, as the name of a link
+                annotation = field.annotation
+                model = next(_blocks(annotation))
+            else:
+                model = next(_blocks(_tagged(annotation, step)), model)
+    return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def _tagged(annotation: Any, tag: str) -> Any:
+    """The alternative with a tag, or nothing."""
+    if any(isinstance(x, Tag) and x.tag == tag for x in getattr(annotation, "__metadata__", ())):
+        return annotation
+    return next((found for part in get_args(annotation) if (found := _tagged(part, tag)) is not None), None)
+
+
+def _blocks(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _blocks(part)

@@ -1,0 +1,349 @@
+"""Manipulability and relative manipulability after a failure, from the null space of J.
+
+Both are invariant to ``J -> A J``: rho for every invertible A, the manipulability for det A = 1. A task of all six rows
+therefore uses the Jacobian with the most zeros, and the null-space form needs no determinant of a reduced Jacobian: one
+factorisation serves every failure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import comb
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.caching import cached_property
+from holdfast.failures import FailureSpec
+from holdfast.indices.index import Index, WorstCase
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
+from holdfast.linalg import HouseholderQR, dot, householder, slopes_along, smallest, squared_volume
+from holdfast.registry import constructor
+from holdfast.status import Status
+
+Array = NDArray[np.float64]
+TaskSpec = str | Task | Sequence[str]
+
+_FLAT_SCORE = 1e-12  # below this square a root is drawn as a straight line, whose slope is finite
+_FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by convention
+
+
+def _bound_note(n: int, m: int, size: int) -> str:
+    """How near a Jacobian of m rows and n columns can come to the Cauchy-Binet bound of ``size`` failures at a time."""
+    if size == 1 or m == 1 or size > n - m or (n, m, size) in ((6, 3, 2), (10, 5, 2)):
+        return ""
+    if (size == 2 and n - m == 2) or (m == 2 and size == n - 2):
+        # The least minor of n lines in a plane is at most that of a regular star: 2/n sin(pi/n).
+        return f"an upper bound, not attained: the best possible is {2 / n * np.sin(np.pi / n):.4f}"
+    return "an upper bound, not attained" if n <= 10 else "an upper bound; whether it is attained is not known"
+
+
+class RelativeManipulability(Index):
+    r"""Share of the manipulability that is left when joints S lock.
+
+    :math:`\rho_S = \sqrt{\det({}^SJ\,{}^SJ^\top)/\det(JJ^\top)} = \sqrt{\det(N_S N_S^\top)}`, where :math:`{}^SJ` is the
+    task Jacobian without the columns S and :math:`N_S` the rows S of an orthonormal null-space basis of J.
+
+    The bound of one failure at a time is attained by some Jacobian of any size. That of several at a time holds always, but is
+    attained only where the rows of the null-space basis are equiangular lines that form a tight frame: for up to ten joints
+    and tasks of two rows or more those of 6 joints, 3 rows, 2 failures, and of 10, 5, 2. ``bound_note`` says so.
+
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (3) and (4); null-space form by the matrix determinant lemma; bound by
+    Cauchy and Binet.
+    """
+
+    source = "Abdi et al. 2012, eq. (3), (4)"
+
+    def __init__(
+        self,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+    ) -> None:
+        super().__init__("relative manipulability", arm, task, failures, length)
+        size = len(self.failures[0])
+        every = comb(arm.n, size)
+        if len(self.failures) == every and all(len(s) == size for s in self.failures):
+            # The squares over all sets of s joints sum to C(n - m, s) (Cauchy-Binet), so the smallest is at most their mean.
+            self.bound = float(np.sqrt(comb(arm.n - self.task.m, size) / every))
+            self.bound_note = _bound_note(arm.n, self.task.m, size)
+
+    # ---- symbols -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _symbols(self) -> tuple[SX, SX, HouseholderQR]:
+        q = kinematics.joint_symbols(self.arm)
+        j = kinematics.invariant_jacobian(self.arm, q) if self.task.invariant else self.task.jacobian(self.arm, q)
+        return q, j, householder(j)
+
+    def _scale(self, qr: HouseholderQR) -> SX:
+        """Factor that turns rho into this index."""
+        return ca.SX(1)
+
+    def _squares(self, qr: HouseholderQR) -> list[SX]:
+        """rho^2 of every failure."""
+        rows = qr.null_rows()
+        return [squared_volume([rows[k] for k in s]) for s in self.failures]
+
+    def _clear(self, qr: HouseholderQR) -> SX:
+        """True only where J is certainly not singular; false also where the factorisation divided by zero.
+
+        The product of the singular values bounds the smallest one from below: by the means inequality
+        ``sigma_m >= |det| ((m - 1) / |J|^2)^((m - 1) / 2)``. The factor covers the change of frame and point.
+        """
+        length = max(self.task.length, 1 / self.task.length)
+        reach = sum(float(np.linalg.norm(x.origin[:3, 3])) for x in self.arm.joints) + float(
+            np.linalg.norm(self.arm.tool[:3, 3])
+        )
+        threshold = min(1e-11 * (1 + reach) ** 2 * length, 1e-6)
+        return qr.squared_volume() > threshold**2 * qr.squared_norm() ** self.task.m
+
+    def _mark(self, qr: HouseholderQR, outputs: list[SX], marked: bool) -> SX:
+        """NaN in every output of a row that is not clear: such a row is then looked at with singular values."""
+        clear = self._clear(qr)
+        return ca.vertcat(*[ca.if_else(clear, y, np.nan) if marked else y for y in outputs])
+
+    def _build_values(self, marked: bool, worst_only: bool) -> Kernel:
+        q, _, qr = self._symbols
+        squares = self._squares(qr)
+        if worst_only:
+            squares = [smallest(squares)]
+        scale = self._scale(qr)
+        values = [scale * ca.sqrt(s) for s in squares]
+        return Kernel(self.name, [q], [self._mark(qr, values, marked)])
+
+    def _build_gradient(self, marked: bool) -> Kernel:
+        q, j, qr = self._symbols
+        if all(len(s) == 1 for s in self.failures):
+            cotangent = self._cotangent(qr)
+            # Through the kinematics by reverse differentiation of J alone: fewer operations, and exact.
+            seed = ca.SX.sym("seed", self.task.m, self.arm.n)
+            pull = ca.Function("pull", [q, seed], [ca.jtimes(ca.vec(ca.densify(j)), q, ca.vec(seed), True)])
+            g = pull(q, cotangent)
+        else:
+            best, scale = smallest(self._squares(qr)), self._scale(qr)
+            rho = ca.sqrt(best)
+            slope = ca.if_else(rho > _FLAT, 0.5 / rho, 0.0)
+            # Held apart so that no root is differentiated at 0.
+            s, b = ca.SX.sym("scale"), ca.SX.sym("best")
+            outer = ca.jtimes(ca.vertcat(scale, best), q, ca.vertcat(b, s), True)
+            g = ca.substitute(ca.vertcat(outer), ca.vertcat(s, b), ca.vertcat(scale * slope, rho))
+        return Kernel(f"{self.name} gradient", [q], [self._mark(qr, ca.vertsplit(ca.densify(g)), marked)])
+
+    def _cotangent(self, qr: HouseholderQR) -> SX:
+        r"""Derivative of the worst case by J, (m, n).
+
+        With ``P = N N'``, ``dP = -J^+ dJ P - (J^+ dJ P)'``, so ``d rho_k / dJ = -a_k (P e_k)' / rho_k`` with
+        ``a_k = (J J')^-1 j_k = R^-1 (Q' e_k)_{1..m}``. The worst k enters as a unit vector.
+        """
+        rows = qr.null_rows()
+        squares = [dot(r, r) for r in rows]
+        best, unit = ca.SX(np.inf), [ca.SX(0)] * self.arm.n
+        for s in self.failures:
+            k = s[0]
+            less = squares[k] < best
+            best = ca.if_else(less, squares[k], best)
+            unit = [ca.if_else(less, float(i == k), u) for i, u in enumerate(unit)]
+        rotated = qr.q_transposed(unit)
+        a = qr.pinv_transposed(rotated)
+        p = [dot(r, rotated[self.task.m :]) for r in rows]
+        rho = ca.sqrt(best)
+        return self._assemble(qr, rho, a, p)
+
+    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        slope = ca.if_else(rho > _FLAT, 1 / rho, 0.0)
+        return -ca.vertcat(*a) @ (ca.horzcat(*p) * slope)
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """``rho^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
+        if any(len(s) != 1 for s in self.failures):
+            values = self._squares(qr)
+            return values, slopes_along(values, q, directions)
+        values, slopes_by_joint, _ = self._squares_and_slopes(q, j, qr, directions)
+        return values, slopes_by_joint
+
+    def value_of_score(self, score: SX) -> SX:
+        """The root of a square, with a finite slope at 0; see :meth:`Index.value_of_score`."""
+        least = _FLAT_SCORE
+        return ca.if_else(score > least, ca.sqrt(ca.if_else(score > least, score, 1.0)), score / least**0.5)
+
+    def _squares_and_slopes(
+        self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]
+    ) -> tuple[list[SX], list[list[SX]], list[SX]]:
+        """``rho_k^2`` and ``d rho_k^2 = -2 a_k' dJ P e_k`` along each direction, and ``tr(J^+ dJ)`` for each direction."""
+        n, m = self.arm.n, self.task.m
+        rows = qr.null_rows()
+        projector = [[dot(rows[max(i, k)], rows[min(i, k)]) for k in range(n)] for i in range(n)]
+        a = [qr.pinv_transposed(qr.q_transposed([ca.SX(float(i == k)) for i in range(n)])) for k in range(n)]
+        failed = [s[0] for s in self.failures]
+        slopes: list[list[SX]] = [[] for _ in failed]
+        traces = []
+        dense = ca.vec(ca.densify(j))
+        for v in directions:
+            change = ca.reshape(ca.jtimes(dense, q, v), m, n)
+            for slot, k in enumerate(failed):
+                column = [dot([change[i, c] for c in range(n)], projector[k]) for i in range(m)]
+                slopes[slot].append(-2 * dot(a[k], column))
+            traces.append(ca.trace(ca.horzcat(*[ca.vertcat(*x) for x in a]).T @ change))
+        return [projector[k][k] for k in failed], slopes, traces
+
+    # ---- kernels -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    @recalled
+    def _worst_kernel(self) -> Kernel:
+        return self._build_values(marked=True, worst_only=True)
+
+    @cached_property
+    @recalled
+    def _which_kernel(self) -> Kernel:
+        """The worst value, and which failure it is of: the first of those with exactly this value."""
+        q, _, qr = self._symbols
+        scale = self._scale(qr)
+        least, which = ca.SX(np.inf), ca.SX(0)
+        for k, square in enumerate(self._squares(qr)):
+            value = scale * ca.sqrt(square)
+            less = value < least
+            least, which = ca.if_else(less, value, least), ca.if_else(less, float(k), which)
+        return Kernel(f"worst {self.name}", [q], [self._mark(qr, [least, which], marked=True)])
+
+    @cached_property
+    @recalled
+    def _values_kernel(self) -> Kernel:
+        return self._build_values(marked=True, worst_only=False)
+
+    @cached_property
+    @recalled
+    def _plain_values_kernel(self) -> Kernel:
+        return self._build_values(marked=False, worst_only=False)
+
+    @cached_property
+    @recalled
+    def _gradient_kernel(self) -> Kernel:
+        return self._build_gradient(marked=True)
+
+    @cached_property
+    @recalled
+    def _plain_gradient_kernel(self) -> Kernel:
+        return self._build_gradient(marked=False)
+
+    def __call__(self, q: ArrayLike) -> Array:
+        """The worst case over the failures, (N,), or a scalar for one configuration; 0 at a singular one."""
+        rows, single = self._rows(q)
+        values, marked = self._worst_kernel.marked_rows(rows)
+        value = values[:, 0]
+        if marked:
+            again = np.flatnonzero(np.isnan(value))
+            value[again] = super().evaluate(rows[again]).value
+        return value[0] if single else value
+
+    def worst_case(self, q: ArrayLike) -> WorstCase:
+        """See :meth:`Index.worst_case`: of these the kernel finds the worst failure itself."""
+        rows, single = self._rows(q)
+        found, marked = self._which_kernel.marked_rows(rows)
+        value, status = np.ascontiguousarray(found[:, 0]), np.full(len(rows), Status.OK, dtype=np.uint8)
+        if marked:
+            again = np.flatnonzero(np.isnan(value))
+            closely = self.evaluate(rows[again])
+            value[again], status[again], found[again, 1] = closely.value, closely.status, closely.worst
+        worst = found[:, 1].astype(np.int64)
+        return WorstCase(value[0], worst[0], status[0]) if single else WorstCase(value, worst, status)
+
+    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+        values, marked = self._values_kernel.marked_rows(q)
+        again, singular = self._second_look(q, values, marked)
+        if again.size:
+            values[again] = self._plain_values_kernel.rows(q[again])
+            values[singular] = 0.0
+        return values, singular
+
+    def _gradient(self, q: Array) -> Array:
+        g, marked = self._gradient_kernel.marked_rows(q)
+        again, singular = self._second_look(q, g, marked)
+        if again.size:
+            g[again] = self._plain_gradient_kernel.rows(q[again])
+            g[singular] = 0.0
+        return g
+
+    def _second_look(self, q: Array, out: Array, marked: bool) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Rows that a kernel marked with NaN although q is finite, and which rows are singular."""
+        singular = np.zeros(len(q), dtype=bool)
+        again = np.zeros(0, dtype=np.int64)
+        if marked:
+            again = np.flatnonzero(np.isnan(out[:, 0]) & np.isfinite(q).all(axis=1))
+            singular[again] = self._is_singular(q[again])
+        return again, singular
+
+
+class Manipulability(RelativeManipulability):
+    r"""Manipulability :math:`{}^Sr = \sqrt{\det({}^SJ\,{}^SJ^\top)}` left when joints S lock; unit of det of the rows.
+
+    Source: Abdi, Maciejewski, Nahavandi 2012, eq. (1) and (2).
+    """
+
+    source = "Abdi et al. 2012, eq. (1), (2)"
+
+    def __init__(
+        self,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+    ) -> None:
+        super().__init__(arm, task, failures, length)
+        self.name = "manipulability"
+        self.bound = None
+        # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
+        self._rows_scale = self.task.length**-3 if self.task.invariant else 1.0
+        linear = int(np.linalg.matrix_rank(self.task.rows[:, :3]))
+        # For an arm of revolute joints: each linear row brings one length.
+        self.unit = "1" if linear == 0 or self.task.length != 1.0 else ("m" if linear == 1 else f"m^{linear}")
+
+    def _scale(self, qr: HouseholderQR) -> SX:
+        return qr.volume() * self._rows_scale
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """``kr^2`` of every failure and its derivatives; see :meth:`Index.scores`."""
+        if any(len(s) != 1 for s in self.failures):
+            volume = self._scale(qr) ** 2
+            values = [volume * x for x in self._squares(qr)]
+            return values, slopes_along(values, q, directions)
+        squares, slopes, traces = self._squares_and_slopes(q, j, qr, directions)
+        volume = qr.squared_volume() * self._rows_scale**2  # D^2, with d(D^2) = 2 D^2 tr(J^+ dJ)
+        values = [volume * x for x in squares]
+        return values, [
+            [volume * (s + 2 * x * t) for s, t in zip(row, traces, strict=True)] for x, row in zip(squares, slopes, strict=True)
+        ]
+
+    def _assemble(self, qr: HouseholderQR, rho: SX, a: list[SX], p: list[SX]) -> SX:
+        # kr = rho D with dD/dJ = D (J^+)'
+        units = [[ca.SX(float(i == k)) for i in range(self.arm.n)] for k in range(self.arm.n)]
+        columns = [qr.pinv_transposed(qr.q_transposed(e)) for e in units]
+        pinv_transposed = ca.horzcat(*[ca.vertcat(*c) for c in columns])
+        return self._scale(qr) * (super()._assemble(qr, rho, a, p) + rho * pinv_transposed)
+
+
+@constructor(
+    formula="ρ<sub>S</sub> = √( det(<sup>S</sup>J <sup>S</sup>Jᵀ) / det(J Jᵀ) )",
+    properties=("Abdi 2012", "base-free"),
+)
+def relative_manipulability(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> RelativeManipulability:
+    """Worst-case relative manipulability, 0 to 1; Abdi et al. 2012, eq. (3), (4)."""
+    return RelativeManipulability(arm, task, failures, length)
+
+
+@constructor(formula="<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)", properties=("Abdi 2012", "base-free"))
+def manipulability(
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+) -> Manipulability:
+    """Worst-case manipulability of the reduced Jacobian; Abdi et al. 2012, eq. (1), (2)."""
+    return Manipulability(arm, task, failures, length)

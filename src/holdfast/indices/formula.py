@@ -1,0 +1,131 @@
+"""Indices that are one formula of the reduced Jacobian; one of your own is one symbolic function."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arguments import checked_class
+from holdfast.arm import kinematics
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.caching import cached_property
+from holdfast.errors import TaskError
+from holdfast.failures import FailureSpec
+from holdfast.indices.index import Index
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
+from holdfast.linalg import HouseholderQR, slopes_along
+
+Array = NDArray[np.float64]
+Formula = Callable[[SX], SX]
+
+
+class FormulaIndex(Index):
+    """The worst case over the failures of one formula of the reduced Jacobian, with its exact gradient: what most indices are.
+
+    Raises:
+        TaskError: When it is first asked, if the formula does not return one scalar.
+    """
+
+    @abstractmethod
+    def formula(self, j: SX) -> SX:
+        """The value, a scalar, of the reduced task Jacobian (m, n - |S|), linear rows divided by the characteristic length."""
+
+    def _symbols(self) -> tuple[SX, list[SX]]:
+        q = kinematics.joint_symbols(self.arm)
+        j = self.task.jacobian(self.arm, q)
+        values = []
+        for failed in self.failures:
+            value = self.formula(j[:, [k for k in range(self.arm.n) if k not in failed]])
+            if value.shape != (1, 1):
+                raise TaskError(f"{self.name}: its formula returned shape {value.shape}; it must return one scalar")
+            values.append(value)
+        return q, values
+
+    @cached_property
+    @recalled
+    def _values_kernel(self) -> Kernel:
+        q, values = self._symbols()
+        return Kernel(self.name, [q], [ca.vertcat(*values)])
+
+    @cached_property
+    @recalled
+    def _gradient_kernel(self) -> Kernel:
+        q, values = self._symbols()
+        worst = values[0]
+        for value in values[1:]:
+            worst = ca.if_else(value < worst if self.better == "larger" else value > worst, value, worst)
+        return Kernel(f"{self.name} gradient", [q], [ca.gradient(worst, q)])
+
+    def scores(self, q: SX, j: SX, qr: HouseholderQR, directions: list[SX]) -> tuple[list[SX], list[list[SX]]]:
+        """The formula for every failure, negated if smaller is better, and its derivatives; see :meth:`Index.scores`."""
+        symbols, formulas = self._symbols()
+        sign = 1.0 if self.better == "larger" else -1.0
+        values = ca.vertsplit(ca.substitute(ca.vertcat(*[sign * x for x in formulas]), symbols, q))
+        return values, slopes_along(values, q, directions)
+
+    def _by_failure(self, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+        values = self._values_kernel.rows(q)
+        singular = self._singular_rows(q)
+        values[singular] = self.singular_value_by_convention
+        return values, singular
+
+    def _gradient(self, q: Array) -> Array:
+        g = self._gradient_kernel.rows(q)
+        g[self._singular_rows(q)] = 0.0
+        return g
+
+    def _singular_rows(self, q: Array) -> NDArray[np.bool_]:
+        singular = np.zeros(len(q), dtype=bool)
+        finite = np.flatnonzero(np.isfinite(q).all(axis=1))
+        singular[finite] = self._is_singular(q[finite])
+        return singular
+
+
+@checked_class
+class CustomIndex(FormulaIndex):
+    """The worst case over the failures of ``formula(reduced Jacobian)``, with its exact gradient.
+
+    Args:
+        formula: Takes the reduced task Jacobian, CasADi ``SX`` ``(m, n - |S|)``, returns a scalar ``SX``.
+        arm: The arm.
+        task: As for every index.
+        failures: As for every index.
+        length: As for every index.
+        name: For people and files.
+        unit: Of the value.
+        better: ``"larger"`` or ``"smaller"``.
+        bound: The best value possible, if known.
+
+    Raises:
+        TaskError: The formula does not return one scalar.
+    """
+
+    def __init__(
+        self,
+        formula: Formula,
+        arm: Arm,
+        task: str | Task | Sequence[str] = "pose",
+        failures: FailureSpec = "single",
+        length: float | None = None,
+        name: str = "custom index",
+        better: Literal["larger", "smaller"] = "larger",
+        unit: str = "1",
+        bound: float | None = None,
+    ) -> None:
+        super().__init__(name, arm, task, failures, length)
+        if better not in ("larger", "smaller"):
+            raise TaskError(f"{name}: better is '{better}'; it must be 'larger' or 'smaller'")
+        self.better, self.unit, self.bound = better, unit, bound
+        self._formula = formula
+
+    def formula(self, j: SX) -> SX:
+        """See :meth:`FormulaIndex.formula`."""
+        return ca.SX(self._formula(j))

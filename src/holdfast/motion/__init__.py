@@ -1,0 +1,5 @@
+"""Following a path: resolution of redundancy, tracking, the trajectory, its events and how slow it must be."""
+
+from holdfast._lazy import offer
+
+offer(__name__)

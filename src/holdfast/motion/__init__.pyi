@@ -1,0 +1,11 @@
+from holdfast.motion.redundancy import AugmentedJacobian as AugmentedJacobian
+from holdfast.motion.redundancy import ExtendedJacobian as ExtendedJacobian
+from holdfast.motion.redundancy import GradientProjection as GradientProjection
+from holdfast.motion.resolution import Rates as Rates
+from holdfast.motion.resolution import Resolution as Resolution
+from holdfast.motion.slowness import SlowMotion as SlowMotion
+from holdfast.motion.slowness import slow_enough as slow_enough
+from holdfast.motion.tracking import METHODS as METHODS
+from holdfast.motion.tracking import follow as follow
+from holdfast.motion.trajectory import Event as Event
+from holdfast.motion.trajectory import Trajectory as Trajectory

@@ -1,0 +1,106 @@
+"""Is a motion slow enough that only gravity matters, as the susceptibilities to free-swinging failures assume?
+
+Source: English and Maciejewski 1998, eq. (5), (6).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SlowMotion:
+    """How slow a motion must be.
+
+    Attributes:
+        time_scale: The smallest factor k such that a motion that takes k times as long, or longer still, meets the bound;
+            0 if it meets the bound at any speed.
+        worst_joint: Index from 0 of the joint that asks for it.
+        worst_time_index: Index from 0 of the sample at which it does.
+        satisfied: ``time_scale <= 1``: the motion is slow as it is.
+    """
+
+    time_scale: float
+    worst_joint: int
+    worst_time_index: int
+    satisfied: bool
+
+
+@checked
+def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, bound: ArrayLike) -> SlowMotion:
+    """By how much a motion must be stretched in time for its torques to stay close to those at rest.
+
+    When a motion takes k times as long, its rates are divided by k and its accelerations by k^2, so what its torques add to
+    gravity's is ``b / k + a / k^2`` with the friction b and the inertial torque a of the original motion. The largest k at
+    which that meets the bound is a root of a quadratic, one for each joint and sample. Where friction and inertia oppose
+    each other a faster motion may meet the bound again; that is not counted.
+
+    Args:
+        arm: The arm.
+        q: (T, n) configurations of the motion, rad and m.
+        qd: (T, n) their rates, rad/s and m/s.
+        qdd: (T, n) their accelerations, rad/s^2 and m/s^2.
+        bound: Of ``|torque - gravity torque|``, N m and N: a number or (n,), above 0. It may be 0 for a joint on which
+            neither friction nor inertia acts.
+
+    Raises:
+        ArmError: A link of which nothing is known, or whose inertia no body has.
+        InputError: Shapes that do not fit, no samples, NaN or infinity, or a bound that no slowness meets.
+
+    Source: English and Maciejewski 1998, eq. (5), (6).
+    """
+    inertial, viscous, _ = (np.atleast_2d(x) for x in arm.torque_terms(q, qd, qdd))
+    if not len(inertial):
+        raise InputError("the motion has no samples; give q, qd and qdd with at least one row")
+    bad = ~np.isfinite(inertial).all(axis=1)
+    if bad.any():
+        raise InputError(f"the motion holds NaN or infinity at sample {int(bad.argmax())}; all its numbers must be finite")
+    limit = _limits(arm, bound)
+    loaded = ((inertial != 0) | (viscous != 0)).any(axis=0)
+    for joint, most, used in zip(arm.joints, limit, loaded, strict=True):
+        if used and most == 0:
+            raise InputError(
+                f"the bound of joint '{joint.name}' is 0, but friction or inertia acts on it, so no motion is slow enough; "
+                "give a bound above 0"
+            )
+    most = np.where(loaded, limit, 1.0)  # of the others every bound is kept
+    scales = _largest_root(viscous / most, inertial / most)
+    sample, joint_index = np.unravel_index(int(scales.argmax()), scales.shape)
+    scale = float(scales.max())
+    return SlowMotion(scale, int(joint_index), int(sample), scale <= 1)
+
+
+def _limits(arm: Arm, bound: ArrayLike) -> Array:
+    try:
+        limit = np.asarray(bound, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"bound must be a number or {arm.n} numbers, N m and N") from error
+    if limit.shape not in ((), (arm.n,)):
+        raise InputError(f"bound has shape {limit.shape}; it must be a number or ({arm.n},), one per joint")
+    if not (limit >= 0).all():
+        raise InputError(f"bound is {limit.tolist()}; it must be above 0, N m and N")
+    return np.broadcast_to(limit, (arm.n,))
+
+
+def _largest_root(b: Array, a: Array) -> Array:
+    """The largest k at which ``|b / k + a / k^2| = 1``, 0 if b and a are 0.
+
+    With signs turned so that b is positive: ``k^2 - b k - a = 0`` for +1 and ``k^2 + b k + a = 0`` for -1.
+    """
+    a, b = np.where(b < 0, -a, a), np.abs(b)
+    reach = np.sqrt(b**2 + 4 * np.abs(a))
+    together = (b + reach) / 2
+    # Opposed: inertia leads when fast, friction when slow. Written so that nothing cancels.
+    inertia = 2 * np.abs(a) / np.where(b + reach > 0, b + reach, 1.0)
+    crossing = b**2 - 4 * np.abs(a)
+    friction = np.where(crossing > 0, (b + np.sqrt(np.maximum(crossing, 0))) / 2, 0.0)
+    return np.asarray(np.where(a >= 0, together, np.maximum(inertia, friction)))

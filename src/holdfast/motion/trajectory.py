@@ -1,0 +1,247 @@
+"""What came of following a path: joints over time, what it cost, and what happened on the way."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.errors import InputError, StoreError
+from holdfast.files.output import writing
+from holdfast.files.spreadsheet import cell
+from holdfast.indices.objective import Objective, Opposite, WeightedSum
+from holdfast.indices.susceptibility.measure import Susceptibility
+from holdfast.motion.slowness import SlowMotion, slow_enough
+from holdfast.notice import says
+
+Array = NDArray[np.float64]
+
+ON_PATH = 1e-4  # m and rad
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened along a path.
+
+    Attributes:
+        kind: ``algorithmic singularity``, ``not at an extremum``, ``fast motion``, ``zero cost``, ``value not kept``,
+            ``value jump``, ``rate cap``, ``joint limit``, ``hand slowed`` or ``near a singularity``.
+        start, end: From when to when, s.
+        text: One sentence for people.
+    """
+
+    kind: str
+    start: float
+    end: float
+    text: str
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Joints along a path of the hand, T samples.
+
+    Attributes:
+        arm, task, objective: What moved, which rows of the hand were prescribed, and what the self-motion served.
+        method: The law, for people.
+        gain: Of the law; see :func:`holdfast.follow`.
+        seed: Of the search for a start.
+        rate_cap: Largest norm of the joint rates that was asked for, rad/s, or None.
+        time: (T,) s.
+        q, qd, qdd: (T, n) rad and m, and their rates per s and s^2.
+        poses: (T, 4, 4) wanted poses of the hand in the world.
+        position_error: (T,) m, of the task's rows.
+        rotation_error: (T,) rad.
+        value: (T,) of the objective.
+        curvature: (T,) smallest curvature of the objective along the self-motion, larger than 0 at a proper local best; its
+            unit is that of the objective per rad^2.
+        self_motion: (T,) share of the self-motion that the rate cap let pass.
+        task_share: (T,) share of the commanded velocity that was carried out.
+        damping: (T,) above 0 where rates were damped near a singularity.
+        steps: Of control that were computed.
+        peak_rate: Largest norm of the joint rates, also between the samples, rad/s.
+        peak_time: When that was, s.
+        events: What happened, in order.
+        best_value: (T,) the best value over the whole self-motion manifold of each pose, or None if it was not asked for.
+        best_path: (T, n) the best continuous motion through these manifolds, NaN where there is none; or None.
+    """
+
+    arm: Arm
+    task: Task
+    objective: Objective
+    method: str
+    gain: float
+    seed: int
+    rate_cap: float | None
+    time: Array
+    q: Array
+    qd: Array
+    qdd: Array
+    poses: Array
+    position_error: Array
+    rotation_error: Array
+    value: Array
+    curvature: Array
+    self_motion: Array
+    task_share: Array
+    damping: Array
+    steps: int
+    peak_rate: float
+    peak_time: float
+    events: tuple[Event, ...]
+    best_value: Array | None = None
+    best_path: Array | None = None
+
+    @property
+    def rate_norm(self) -> Array:
+        """(T,) norm of the joint rates, rad/s (sliding joints in m/s)."""
+        return np.asarray(np.linalg.norm(self.qd, axis=1))
+
+    @property
+    def on_path(self) -> bool:
+        """True if the hand never left its path by more than 0.1 mm and 0.1 mrad."""
+        return bool(np.nanmax(self.position_error) <= ON_PATH and np.nanmax(self.rotation_error) <= ON_PATH)
+
+    @property
+    def hand_error(self) -> str:
+        """The largest error of the hand in what the task prescribes, for people."""
+        rows = self.task.rows
+        parts = []
+        for error, unit, used in ((self.position_error, "mm", rows[:, :3]), (self.rotation_error, "mrad", rows[:, 3:])):
+            if np.any(used):
+                most = 1000 * float(np.nanmax(error))
+                shown = f"{most:.0f}" if most >= 100 else f"{most:.3g}" if most >= 1e-3 else "less than 0.001"
+                parts.append(f"{shown} {unit}")
+        return " and ".join(parts)
+
+    @property
+    def headline(self) -> str:
+        """Whether the hand stayed on its path, and if not, when it left and how far it got from it."""
+        if self.on_path:
+            return f"the hand stays on its path, off it by {self.hand_error}"
+        off = (self.position_error > ON_PATH) | (self.rotation_error > ON_PATH)
+        slowed = {"hand slowed", "near a singularity"}
+        why = [e.kind for e in self.events if e.kind in slowed or e.kind == "joint limit"]
+        reason = f" ({', '.join(dict.fromkeys(why))})" if why else ""
+        return (
+            f"THE HAND LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s and gets up to {self.hand_error} away from it, "
+            f"off it for {off.mean():.0%} of the time{reason}"
+        )
+
+    @property
+    def by_joint(self) -> dict[str, Array]:
+        """Measures of the failure of each joint, (T, n) signed, of every susceptibility in the objective, by its name."""
+        return {m.slug: m.by_joint(self.q) for m in susceptibilities(self.objective)}
+
+    def torques(self, time_scale: float = 1.0) -> Array:
+        """Torques (T, n) of the whole dynamics, viscous friction included, N m and N, with time stretched by a factor.
+
+        Source: English and Maciejewski 1998, eq. (5).
+
+        Raises:
+            ArmError: The arm has no inertial data.
+            InputError: A factor that is not above 0.
+        """
+        if not (np.isfinite(time_scale) and time_scale > 0):
+            raise InputError(f"time_scale is {time_scale:g}; it must be above 0 (2: half as fast)")
+        return self.arm.inverse_dynamics(self.q, self.qd / time_scale, self.qdd / time_scale**2)
+
+    def columns(self) -> dict[str, Array]:
+        """Named columns (T,) of the table that files hold: time, joints, rates, accelerations, errors, objective."""
+        table = {"time_s": self.time}
+        for suffix, values, per in (("", self.q, ""), ("_rate", self.qd, "_per_s"), ("_acceleration", self.qdd, "_per_s2")):
+            for joint, column in zip(self.arm.joints, values.T, strict=True):
+                table[f"{joint.name}{suffix}_{joint.unit}{per}"] = column
+        table |= {
+            "position_error_m": self.position_error,
+            "rotation_error_rad": self.rotation_error,
+            "objective": self.value,
+            "self_motion_share": self.self_motion,
+            "task_share": self.task_share,
+        }
+        for measure in susceptibilities(self.objective):
+            for joint, unit, column in zip(self.arm.joints, measure.joint_unit, measure.by_joint(self.q).T, strict=True):
+                table[f"{joint.name}_{measure.slug}_{unit}"] = column
+        if self.best_value is not None:
+            table["best_objective"] = self.best_value
+        return table
+
+    def save(self, path: str | Path) -> Path:
+        """Write the table as CSV, or as Parquet if the name ends in ``.parquet`` (needs pyarrow).
+
+        Raises:
+            StoreError: The file cannot be written, or what Parquet needs is not installed.
+        """
+        target = Path(path)
+        table = self.columns()
+        try:
+            if target.suffix.lower() == ".parquet":
+                import pyarrow
+                from pyarrow import parquet
+
+                parquet.write_table(pyarrow.table(table), target)
+            else:
+                with writing(target) as file:
+                    writer = csv.writer(file)
+                    writer.writerow(map(cell, table))
+                    writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
+        except ImportError as error:
+            raise StoreError(f"'{target}': Parquet needs pyarrow; install holdfast[parquet], or give a name in .csv") from error
+        except OSError as error:
+            raise StoreError(f"'{target}' cannot be written: {error.strerror or error}") from error
+        return target
+
+    @says("drawing the report")
+    def report(self, path: str | Path, command: str = "", torque_bound: float | None = None) -> Path:
+        """Write a report: one HTML file with curves, events and the arm in motion, that needs nothing else.
+
+        Args:
+            path: The file; it is replaced in one step.
+            command: The command line that makes the motion again, if there is one.
+            torque_bound: If given, N m and N, how slow the motion must be for its torques to stay this close to gravity's;
+                see :func:`holdfast.motion.slow_enough`.
+
+        Raises:
+            StoreError: The file cannot be written; what was there is as it was.
+            ArmError: A torque_bound for an arm without inertial data.
+        """
+        from holdfast.present.motion import trajectory as trajectory_report
+
+        return trajectory_report.write(self, Path(path), command, torque_bound)
+
+    def slowness(self, bound: float) -> list[SlowMotion]:
+        """How slow each joint asks the motion to be, n of them: see :func:`holdfast.motion.slow_enough`.
+
+        Args:
+            bound: Of ``|torque - gravity torque|``, N m and N, of every joint.
+
+        Source: English and Maciejewski 1998, eq. (6).
+        """
+        each = np.where(np.eye(self.arm.n) > 0, bound, np.inf)
+        return [slow_enough(self.arm, self.q, self.qd, self.qdd, one) for one in each]
+
+    def describe(self) -> list[str]:
+        """A few sentences for people: how far, how well, and what happened."""
+        lines = [
+            f"{self.headline}; {self.method} on {self.arm.title}, {self.time[-1]:.4g} s, {len(self.time)} samples",
+            f"{self.objective.name}: {self.value[0]:.4g} at the start, {self.value[-1]:.4g} at the end, "
+            f"mean {self.value.mean():.4g}, range {self.value.min():.4g} to {self.value.max():.4g}",
+            f"largest norm of the joint rates {self.peak_rate:.4g} rad/s at {self.peak_time:.4g} s",
+        ]
+        return lines + [e.text for e in self.events]
+
+
+def susceptibilities(objective: Objective) -> list[Susceptibility]:
+    """Those an objective is made of; of two of one kind the first."""
+    if isinstance(objective, Opposite):
+        return susceptibilities(objective.objective)
+    parts = [o for _, o in objective.terms] if isinstance(objective, WeightedSum) else [objective]
+    found: dict[str, Susceptibility] = {}
+    for part in parts:
+        for measure in [part] if isinstance(part, Susceptibility) else susceptibilities(part) if part is not objective else []:
+            found.setdefault(measure.slug, measure)
+    return list(found.values())

@@ -1,0 +1,259 @@
+"""The closed loop of a controller that does not know of a locked joint, once with bodies, motors and a joint really locked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.mjcf import import_mujoco, quiet
+from holdfast.arm.model import Arm
+from holdfast.control.law import Law
+from holdfast.errors import InputError
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.recall import recalled
+from holdfast.notice import says
+from holdfast.physics.model import compiled, mujoco_spec
+from holdfast.physics.run import Ending, PhysicalRun, Why
+from holdfast.physics.servos import Servos, leads
+from holdfast.simulation.batch import ARRIVES, DECAYS
+from holdfast.simulation.closed_loop import Locked, simulate
+from holdfast.simulation.runs import Runs
+from holdfast.simulation.system import HALF, WINDOW, System
+
+Array = NDArray[np.float64]
+
+REST = 1e-6  # rad (and m) per 1/Ke, of the command and of the joints
+STILL_FOR = 0.1  # 1/Ke: for so long, without a break
+TIME_LIMIT = 200.0  # 1/Ke
+MOVES = 10.0  # rad (and m) per time limit: slower at the end may be creeping to rest
+BURST = 1e4  # rad/s or m/s: no arm is so fast; MuJoCo itself goes on to 1e10 and then writes a log
+EARLY = 1e-9  # s: a lock at a control cycle's time is not left to the next one
+
+
+@checked
+@quiet()
+@says("simulating the physics")
+def simulate_physics(
+    law: Law,
+    q0: ArrayLike,
+    target: ArrayLike,
+    locked: Locked = (),
+    servos: Servos | None = None,
+    time_limit: float | None = None,
+) -> PhysicalRun:
+    """One run of the closed loop on MuJoCo, beside the kinematic one (needs ``holdfast[physics]``).
+
+    :func:`holdfast.simulation.simulate` lets healthy joints do what they are told. Here they have bodies and motors: at every
+    control cycle the law, which knows of no failure, is given the measured configuration (the failed joint's sensor works),
+    and its joint rates go to the :class:`holdfast.Servos`. A locked joint is welded where it is, whatever its motor does; one
+    that locks while it moves stops at once, and the jolt goes through the arm (an impact without rebound). The arm starts at
+    rest. Nothing is in the way, joint limits do not stop it, and there is no sensor noise, dry friction, backlash or
+    flexibility.
+
+    How it ends: at rest, where the law's command to the healthy joints (without the speed limit) and their true rates have
+    both been below 1e-6 Ke for 0.1/Ke; *converged* if the error is below 1e-5 (rad, and of the arm's own
+    length), *stuck* if not. *moving*, if at the time limit
+    that command was never below 10 rad per time limit during the last 20 % of the time, and did not decay (as in the
+    kinematic loop, which has more time and so a lower threshold). Else *undecided*: slow; or singular, where the law has no
+    answer; or unstable, where the physics left all bounds, as servos that are too stiff for their rate may make it.
+
+    Args:
+        law: The control law, with its arm, task, gain ``Ke`` and speed limit. The arm needs inertial data.
+        q0: (n,) configuration at the start, rad and m.
+        target: (m,) or (4, 4), as for :func:`holdfast.simulation.simulate`.
+        locked: Joints, by name or index from 0, that stand from the start; ``(joint, time)`` locks at that time, s, at the
+            next control cycle.
+        servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
+        time_limit: s; 200/Ke if not given.
+
+    Returns:
+        A :class:`holdfast.PhysicalRun`, which holds the kinematic run and how far they are apart.
+
+    Raises:
+        InputError: Wrong shapes, joints or options, or more than one run.
+        ArmError: Inertial data are missing or impossible, or a joint carries no mass.
+        HoldfastError: MuJoCo is not installed.
+    """
+    limit = TIME_LIMIT / law.gain if time_limit is None else float(time_limit)
+    if not (np.isfinite(limit) and limit > 0):
+        raise InputError(f"time_limit is {limit:g}; it must be a finite number above 0")
+    chosen, arm = Servos() if servos is None else servos, law.arm
+    start = arm.check_configurations(q0).reshape(-1, arm.n)[0]
+    plant = _Plant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen)
+    stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start)
+    runs = simulate(law, q0, target, locked)
+    if runs.code.ndim:
+        raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
+    notes, end = _drive(plant, law, runs, stiffness, damping, limit)
+    outcome, reason = end or _verdict(notes.speed * limit)
+    return PhysicalRun(
+        law=law,
+        servos=chosen,
+        stiffness=stiffness,
+        damping=damping,
+        kinematic=runs,
+        outcome=outcome,
+        reason=reason,
+        time=np.arange(len(notes.speed)) / chosen.rate,
+        q=notes.q,
+        reference=notes.reference,
+        torque=notes.torque,
+        x=arm.forward_kinematics(notes.q)[:, :3, 3],
+        error=notes.error,
+    )
+
+
+@dataclass(frozen=True)
+class _Notes:
+    """Noted at each of T control cycles, as in :class:`holdfast.PhysicalRun`; the speed is that commanded."""
+
+    q: Array
+    reference: Array
+    torque: Array
+    speed: Array
+    error: Array
+
+
+def _drive(
+    plant: _Plant, law: Law, runs: Runs, stiffness: Array, damping: Array, limit: float
+) -> tuple[_Notes, tuple[Ending, Why] | None]:
+    """The physical run beside a kinematic one, and how it ended if it did before the time limit."""
+    n, period = law.arm.n, 1 / plant.servos.rate
+    asked, row = _command(law).single(), np.concatenate([plant.start, *_goal(law, runs)])
+    lead, feed = leads(law.arm, stiffness), damping / stiffness
+    reference, lock_time = plant.start.copy(), runs.lock_time
+    healthy, next_lock = np.ones(n, dtype=bool), float(lock_time.min())
+    plant.tune(stiffness, damping)
+    patience, still = int(np.ceil(STILL_FOR / law.gain / period)), 0
+    cycles: list[Array] = []
+    end: tuple[Ending, Why] | None = None
+    for k in range(int(np.ceil(limit / period - 1e-9)) + 1):
+        if k * period >= next_lock - EARLY:
+            healthy = lock_time > k * period + EARLY
+            plant = plant.locked(healthy)
+            plant.tune(stiffness, damping)
+            next_lock = float(lock_time[healthy].min(initial=np.inf))
+        row[:n] = q = plant.q
+        out = asked(row)
+        rates, square, scaled = out[:n], out[n + 1], out[n + 2]
+        if not np.isfinite(square + rates.sum()):
+            end = ("undecided", "singular" if np.isfinite(q).all() else "unstable")
+            break
+        reference = np.minimum(np.maximum(reference + period * rates, q - lead), q + lead)
+        obeyed = rates[healthy]
+        speed = float(np.sqrt(obeyed @ obeyed)) / out[n]
+        plant.follow(reference + feed * rates)
+        cycles.append(np.concatenate((q, reference, plant.torque, (speed, square))))
+        velocity = plant.data.qvel
+        moving = float(velocity @ velocity)
+        if not moving < BURST**2:
+            end = ("undecided", "unstable")
+            break
+        still = still + 1 if max(speed, np.sqrt(moving)) < REST * law.gain else 0
+        if still > patience:
+            end = ("converged" if scaled < ARRIVES**2 else "stuck", "none")
+            break
+    table = np.array(cycles).reshape(-1, 3 * n + 2)
+    q, references, torque = (table[:, i * n : (i + 1) * n].copy() for i in range(3))
+    return _Notes(q, references, torque, table[:, -2].copy(), np.sqrt(table[:, -1])), end
+
+
+class _Plant:
+    """The arm with the healthy joints driven and the others welded."""
+
+    def __init__(self, arm: Arm, q: Array, rates: Array, healthy: NDArray[np.bool_], servos: Servos) -> None:
+        self.mujoco = mujoco = import_mujoco()
+        self.arm, self.start, self.servos = arm, q, servos
+        self.free = np.flatnonzero(healthy)
+        self.model = _model(mujoco, arm, q, self.free.tolist(), servos)
+        self.data = mujoco.MjData(self.model)
+        self.data.qvel[:] = rates[self.free]
+
+    def tune(self, stiffness: Array, damping: Array) -> None:
+        """Set the gains (n,) of the motors."""
+        gains, biases = self.model.actuator_gainprm, self.model.actuator_biasprm
+        gains[:, 0], biases[:, 1], biases[:, 2] = stiffness[self.free], -stiffness[self.free], -damping[self.free]
+
+    @property
+    def q(self) -> Array:
+        """(n,) configuration."""
+        q = self.start.copy()
+        q[self.free] += self.data.qpos
+        return q
+
+    @property
+    def torque(self) -> Array:
+        """(n,) of the motors, 0 where the joint stands."""
+        torque = np.zeros(self.arm.n)
+        torque[self.free] = self.data.qfrc_actuator
+        return torque
+
+    def follow(self, wanted: Array) -> None:
+        """One control cycle towards (n,) references with the feed of the rates in them."""
+        self.data.ctrl[:] = (wanted - self.start)[self.free]
+        self.mujoco.mj_step(self.model, self.data, self.servos.substeps)
+
+    def locked(self, healthy: NDArray[np.bool_]) -> _Plant:
+        """The same arm at this moment with fewer healthy joints: the others stop at once, as in an impact without rebound.
+
+        The momenta of the joints that stay healthy go on: M_hh rates_h is after it what (M rates)_h was before.
+        """
+        before, left = self.data.qvel.copy(), healthy[self.free]
+        momentum = np.zeros(self.free.size)
+        self.mujoco.mj_forward(self.model, self.data)
+        self.mujoco.mj_mulM(self.model, self.data, momentum, before)
+        after = _Plant(self.arm, self.q, np.zeros(self.arm.n), healthy, self.servos)
+        if left.any() and before.any():
+            after.mujoco.mj_forward(after.model, after.data)
+            after.mujoco.mj_solveM(after.model, after.data, after.data.qvel[None], momentum[left][None])
+        return after
+
+
+def _model(mujoco: Any, arm: Arm, q: Array, free: list[int], servos: Servos) -> Any:
+    """The arm with a motor at each free joint; the motors' gains are still to come."""
+    step = 1 / (servos.rate * servos.substeps)
+    spec = mujoco_spec(arm, q, free, step=step)
+    for body in spec.bodies:
+        body.gravcomp = servos.compensation
+    for k, made in zip(free, spec.joints, strict=True):
+        joint = arm.joints[k]
+        made.actgravcomp = True  # the motor gives it, within its effort
+        if np.isfinite(joint.effort):
+            made.actfrclimited, made.actfrcrange = mujoco.mjtLimited.mjLIMITED_TRUE, [-joint.effort, joint.effort]
+        motor = spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        motor.gaintype, motor.biastype = mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_AFFINE
+    # Implicit in the motors' damping, which may be far stiffer than the light links behind it.
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+    return compiled(spec, arm, free)
+
+
+@recalled
+def _command(law: Law) -> Kernel:
+    """``(q, p, R) -> rates`` (n,) as commanded, how far they are slowed, and squared errors, in m and in the arm's own unit."""
+    system = System(law)
+    e, _ = system.error(system.q)
+    v, share = system.command(e)
+    rates = law.rates(system.q, v) * law.gain
+    known = ca.vertcat(rates, share, ca.sumsqr(e), ca.sumsqr(system.scaled_error(system.q)[0]))
+    return Kernel("command in physics", [system.q, system.target, system.rotation], [known])
+
+
+def _goal(law: Law, runs: Runs) -> tuple[Array, Array]:
+    """Position (3,) and rotation (9,), row by row, of the target."""
+    if runs.target.ndim == 2:
+        return runs.target[:3, 3], runs.target[:3, :3].ravel()
+    return runs.target @ law.task.rows[:, :3], np.eye(3).ravel()
+
+
+def _verdict(speed: Array) -> tuple[Ending, Why]:
+    """How a run stands at the time limit, by the speeds commanded to the healthy joints, per time limit."""
+    first, half = (int(share * len(speed)) for share in (WINDOW, HALF))
+    early, late = speed[first:half].max(initial=0.0), speed[half:].max(initial=0.0)
+    moving = speed[first:].min(initial=np.inf) > MOVES and early > 0 and late >= DECAYS * early
+    return ("moving", "none") if moving else ("undecided", "slow")

@@ -1,0 +1,177 @@
+"""A run of the closed loop with bodies and motors, and how far it is from the kinematic one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.caching import cached_property
+from holdfast.physics.servos import Servos
+from holdfast.simulation.runs import Path, Runs
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.control.law import Law
+
+Array = NDArray[np.float64]
+Ending = Literal["converged", "stuck", "moving", "undecided"]
+Why = Literal["none", "singular", "slow", "unstable"]
+
+SAMPLES = 4000  # of the kinematic path, at equal times
+PIECES = 800  # of each path where their distance is measured, of equal length
+FULL = 0.999  # of the effort: a motor at its limit
+
+
+@dataclass(frozen=True, eq=False)
+class PhysicalRun:
+    """One run of :func:`holdfast.simulate_physics`, T control cycles.
+
+    Attributes:
+        law: The law of the controller.
+        servos: The joint servos.
+        stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for sliding joints).
+        kinematic: The same run of :func:`holdfast.simulation.simulate`.
+        outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
+        reason: Why it is undecided: ``singular``, ``slow`` or ``unstable``; else ``none``.
+        time: (T,) s.
+        q: (T, n) measured configuration, rad and m.
+        reference: (T, n) what the servos are to follow, rad and m.
+        torque: (T, n) of the motors of healthy joints, gravity compensation included, N m and N; 0 for a locked joint.
+        x: (T, 3) tool point in the world, m.
+        error: (T,) norm of the task's error, m and rad.
+    """
+
+    law: Law
+    servos: Servos
+    stiffness: Array
+    damping: Array
+    kinematic: Runs
+    outcome: Ending
+    reason: Why
+    time: Array
+    q: Array
+    reference: Array
+    torque: Array
+    x: Array
+    error: Array
+
+    @property
+    def agrees(self) -> bool:
+        """The kinematic run ended in the same way."""
+        return self.outcome == str(self.kinematic.outcome)
+
+    @cached_property
+    def kinematic_path(self) -> Path:
+        """The kinematic run over the time of this one, or until it was at rest."""
+        return self.kinematic.path(0, SAMPLES, until=max(float(self.time[-1]), 1e-3))
+
+    @property
+    def terminal_distance(self) -> float:
+        """Between the tool points of both runs when this one ended, m."""
+        return float(np.linalg.norm(self.x[-1] - self.kinematic_path.x[-1]))
+
+    @property
+    def terminal_turn(self) -> float:
+        """Angle between the tools of both runs when this one ended, rad."""
+        ours, theirs = self.law.arm.forward_kinematics(np.stack([self.q[-1], self.kinematic_path.q[-1]]))[:, :3, :3]
+        # Not the arccosine of the trace, which loses half of the digits of small angles.
+        return float(2 * np.arcsin(min(np.linalg.norm(ours - theirs) / np.sqrt(8), 1.0)))
+
+    @cached_property
+    def path_distance(self) -> float:
+        """Largest distance of a point of either hand path from the other path, as curves, whenever they are there, m."""
+        ours, theirs = _even(self.x), _even(self.kinematic_path.x)
+        return max(_farthest(ours, theirs), _farthest(theirs, ours))
+
+    @property
+    def tracking_error(self) -> Array:
+        """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
+        return np.asarray(np.where(self._locked, 0.0, np.abs(self.q - self.reference)).max(axis=0, initial=0.0))
+
+    @property
+    def saturated(self) -> Array:
+        """(n,) share of the time for which the motor of each joint was at its effort while the joint was healthy."""
+        effort = np.array([joint.effort for joint in self.law.arm.joints])
+        healthy = ~self._locked
+        full = healthy & (np.abs(self.torque) >= FULL * effort)
+        return np.asarray(full.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
+
+    @cached_property
+    def _locked(self) -> NDArray[np.bool_]:
+        """(T, n)."""
+        return np.asarray(self.time[:, None] >= self.kinematic.lock_time - 1e-9)
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        why = "" if self.reason == "none" else f" ({self.reason})"
+        lines = [
+            f"{self.servos.describe()}, on MuJoCo: {self.outcome}{why}; kinematic: {self.kinematic.outcome}",
+            f"hand paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
+        ]
+        full = [name for name, share in zip(self.law.arm.joint_names, self.saturated, strict=True) if share > 0]
+        if full:
+            lines.append(f"motors at their effort for a while: {', '.join(full)}")
+        return lines
+
+    def figure(self) -> Figure:
+        """Both hand paths in the two world axes along which they are longest, errors and tracking errors over time."""
+        from matplotlib.figure import Figure
+
+        from holdfast.report import figures
+
+        told, arm = self.kinematic_path, self.law.arm
+        spread = np.ptp(np.vstack([self.x, told.x]), axis=0)
+        a, b = sorted(np.argsort(spread)[-2:])
+        with figures.style():
+            figure = Figure(figsize=(1.25 * figures.WIDTH, 4.1))
+            path, error, lag = figure.subplots(1, 3)
+            path.plot(told.x[:, a], told.x[:, b], color=figures.SKY, linewidth=4.5, label="kinematic")
+            path.plot(self.x[:, a], self.x[:, b], color=figures.BLUE, linewidth=1.4, label="in MuJoCo")
+            path.plot(*self.x[0, [a, b]], "o", color=figures.INK, markersize=4, label="start")
+            path.plot(
+                *told.x[-1, [a, b]], "s", color=figures.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end"
+            )
+            path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the hand")
+            path.set_aspect("equal", adjustable="datalim")
+            size = "m and rad" if self.law.task.angular else "m"
+            error.plot(told.time, told.error, color=figures.SKY, linewidth=4.5)
+            error.plot(self.time, self.error, color=figures.BLUE, linewidth=1.4)
+            error.set(xlabel="time, s", ylabel=f"error of the hand, {size}", title="Error", ylim=(0, None))
+            healthy = np.where(self._locked, 0.0, np.abs(self.q - self.reference)).max(axis=1)
+            unit = "m or rad" if arm.prismatic.any() else "rad"
+            lag.plot(self.time, np.maximum(healthy, 1e-9), color=figures.BLUE, linewidth=1.2)
+            lag.set(xlabel="time, s", ylabel=f"largest servo error of a healthy joint, {unit}", title="Servos", yscale="log")
+            for axes in (error, lag):
+                axes.set_xlim(0, max(float(self.time[-1]), 1e-3))
+            locked = [name for name, t in zip(arm.joint_names, self.kinematic.lock_time, strict=True) if np.isfinite(t)]
+            caption = (
+                f"{arm.name}, {self.law.name}, locked: {', '.join(locked) or 'none'}; one run. "
+                f"Kinematic: {self.kinematic.outcome}; in MuJoCo, {self.servos.describe()}: {self.outcome}"
+            )
+            figures.legend_below(figure, path, 4)
+            figure.suptitle(figures.plain(caption, 200), fontsize=9, color=figures.SOFT)
+            return figures.finished(figure)
+
+
+def _even(points: Array) -> Array:
+    """A path (T, 3) as points (P, 3) at equal lengths along it."""
+    length = np.r_[0.0, np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()]
+    if length[-1] == 0:
+        return points[:1]
+    at = np.linspace(0, length[-1], PIECES + 1)
+    return np.stack([np.interp(at, length, column) for column in points.T], axis=1)
+
+
+def _farthest(points: Array, path: Array) -> float:
+    """Largest distance of points (P, 3) from a path of straight pieces (S, 3)."""
+    if len(path) == 1:
+        return float(np.linalg.norm(points - path[0], axis=1).max())
+    start, along = path[:-1], np.diff(path, axis=0)
+    square = np.maximum((along**2).sum(axis=1), np.finfo(np.float64).tiny)
+    away = points[:, None] - start
+    share = np.clip((away * along).sum(axis=2) / square, 0, 1)
+    return float(np.linalg.norm(away - share[:, :, None] * along, axis=2).min(axis=1).max())

@@ -1,0 +1,117 @@
+"""Joint servos for an arm in MuJoCo: what turns commanded joint rates into torques."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arguments import checked_class
+from holdfast.arm.model import Arm
+from holdfast.errors import InputError
+
+Array = NDArray[np.float64]
+
+CONFIGURATIONS = 64  # at which the inertia that a servo is tuned to is looked for
+LEAD = 1.0  # rad or m: how far a reference may run ahead of a joint without torque limit
+
+
+@checked_class
+@dataclass(frozen=True)
+class Servos:
+    """How each joint follows its command.
+
+    The commanded rate is integrated into a reference r at every control cycle, and the motor's torque is
+
+        K (r - q) + D (commanded rate - rate) + compensation x gravity torque,
+
+    cut off at the joint's effort. The reference stays within effort / K of the joint (1 rad or 1 m where the arm states no
+    effort): a motor at its limit winds up no further. There is no integral action besides, and no friction compensation.
+
+    Attributes:
+        bandwidth: Hz. With w = 2 pi bandwidth, a joint's friction B and the largest inertia M that it alone sees at the start
+            and at 64 random configurations, K = w^2 M + w B and D = 2 ratio w M: with a ratio of 1 the joint alone follows with
+            a pole at -w, friction or not. Coupling between the joints makes some motions slower, some faster than that.
+        ratio: Damping ratio of a joint without friction.
+        rate: Hz, of the control cycle: measured configuration, law, reference. Torques follow at every step of the physics.
+        compensation: Share of the gravity torque that the motors are given beforehand.
+        stiffness: K for each joint, N m/rad or N/m, in place of ``bandwidth`` and ``ratio``; then ``damping`` too.
+        damping: D for each joint, N m s/rad or N s/m.
+        step: s, the longest step of the physics.
+
+    Raises:
+        InputError: A value that is not above 0 (``compensation``, ``damping``: below 0), or only one of K and D.
+    """
+
+    bandwidth: float = 10.0
+    ratio: float = 1.0
+    rate: float = 500.0
+    compensation: float = 1.0
+    stiffness: Sequence[float] | None = None
+    damping: Sequence[float] | None = None
+    step: float = 1e-3
+
+    def __post_init__(self) -> None:
+        for what in ("bandwidth", "ratio", "rate", "step"):
+            value = getattr(self, what)
+            if not 1e-9 < value < 1e9:
+                raise InputError(f"{what} of the servos is {value:g}; it must be above 1e-9 and below 1e9")
+        if not (np.isfinite(self.compensation) and self.compensation >= 0):
+            raise InputError(f"compensation of the servos is {self.compensation:g}; it must be a finite number of 0 or more")
+
+        if (self.stiffness is None) != (self.damping is None):
+            raise InputError("the servos have only one of stiffness and damping; give both, or a bandwidth")
+
+    @property
+    def substeps(self) -> int:
+        """Steps of the physics in one control cycle."""
+        return int(np.ceil(1 / (self.rate * self.step) - 1e-9))
+
+    def gains(self, arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> tuple[Array, Array]:
+        """K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
+        if self.stiffness is not None:
+            return self._given("stiffness", arm), self._given("damping", arm)
+        inertia, natural = _largest_inertia(arm, mujoco, model, start), 2 * np.pi * self.bandwidth
+        friction = np.array([joint.friction for joint in arm.joints])
+        return natural**2 * inertia + natural * friction, 2 * self.ratio * natural * inertia
+
+    def _given(self, what: str, arm: Arm) -> Array:
+        numbers = np.asarray(getattr(self, what), dtype=np.float64)
+        least = 0.0 if what == "damping" else np.finfo(np.float64).tiny
+        if numbers.shape != (arm.n,) or not np.isfinite(numbers).all() or (numbers < least).any():
+            wanted = "of 0 or more" if what == "damping" else "above 0"
+            raise InputError(
+                f"{what} of the servos must be {arm.n} finite numbers {wanted}, one for each joint of '{arm.name}'"
+            )
+        return numbers
+
+    def describe(self) -> str:
+        """One phrase for people."""
+        gains = "gains as given" if self.stiffness is not None else f"{self.bandwidth:g} Hz, damping ratio {self.ratio:g}"
+        gravity = "" if self.compensation == 1 else f", {self.compensation:.0%} of gravity compensated"
+        return f"joint servos of {gains}, control at {self.rate:g} Hz{gravity}"
+
+
+def leads(arm: Arm, stiffness: Array) -> Array:
+    """(n,) how far a reference may be from its joint: what asks for the whole effort."""
+    effort = np.array([joint.effort for joint in arm.joints])
+    return np.where(np.isfinite(effort), effort / stiffness, LEAD)
+
+
+def _largest_inertia(arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> Array:
+    """(n,) the largest of each joint's diagonal entry of the inertia matrix."""
+    free = np.where(arm.prismatic, 1.0, np.pi)
+    low, high = np.where(np.isfinite(arm.lower), arm.lower, -free), np.where(np.isfinite(arm.upper), arm.upper, free)
+    places = np.random.default_rng(0).uniform(low, high, (CONFIGURATIONS, arm.n))
+    data, found, product = mujoco.MjData(model), np.zeros(arm.n), np.zeros(arm.n)
+    for q in (start, *places):
+        data.qpos[:] = q - start
+        mujoco.mj_forward(model, data)
+        for k, unit in enumerate(np.eye(arm.n)):
+            mujoco.mj_mulM(model, data, product, unit)
+            found[k] = max(found[k], product[k])
+    return found

@@ -1,0 +1,1 @@
+"""What people look at: pages, figures and console text of what the packages below compute."""

@@ -1,0 +1,384 @@
+"""What a report says, computed once: threshold, headline, rows, scene, curves."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import rotations
+from holdfast.arm.model import Arm
+from holdfast.arm.task import as_task
+from holdfast.assessment.assessment import ZERO, Assessment
+from holdfast.assessment.rows import provenance
+from holdfast.assessment.single_points import Structure, structure, structures
+from holdfast.assessment.upgrade import sample
+from holdfast.caching import cached_property
+from holdfast.errors import InputError
+from holdfast.probability.distribution import Distribution, Interval
+from holdfast.report import figures
+from holdfast.report.figures import Bin, Curve, Mark
+from holdfast.report.scenes import Scale, Scene, View
+from holdfast.solvers.inverse_kinematics import solver
+from holdfast.words import article, as_given, either, interval, number, percent, share
+
+Array = NDArray[np.float64]
+
+EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
+_MOST_DOTS = 20_000
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The poses that were computed, with tool poses also for a region of joints."""
+
+    number: NDArray[np.int64]
+    position: Array
+    rotation: Array
+    q: Array
+    reached: NDArray[np.bool_]
+    value: Array
+    by_failure: Array
+    worst: NDArray[np.int64]
+    weight: Array | None
+
+
+class Facts:
+    """Everything the report says, computed once."""
+
+    def __init__(self, assessment: Assessment, threshold: float | None) -> None:
+        if threshold is not None and not np.isfinite(threshold):
+            raise InputError(f"threshold is {threshold:g}; it must be a finite number")
+        self.a = assessment
+        self.d = assessment.distribution
+        self.index = assessment.index
+        self.larger = self.index.better == "larger"
+        self.noun = "configuration" if assessment.region.kind == "joints" else "pose"
+        self.reached = f"{self.noun}s" if assessment.region.kind == "joints" else "reached poses"
+        self.chosen = threshold is not None
+        self.threshold = assessment.default_threshold() if threshold is None else float(threshold)
+
+    @property
+    def nothing(self) -> bool:
+        """The index is at its worst at every reached pose, up to rounding."""
+        if self.larger:
+            return self.d.reached > 0 and self.d.highest <= ZERO
+        return self.d.reached > 0 and self.d.infinite == self.d.reached
+
+    @property
+    def decided(self) -> bool:
+        """There is a threshold that means something."""
+        return self.chosen or self.index.bound is not None or (self.d.reached > 0 and not self.nothing)
+
+    @property
+    def drawable(self) -> bool:
+        """There are finite values."""
+        return self.d.reached > self.d.infinite
+
+    @cached_property
+    def answer(self) -> Interval:
+        """Probability that a pose of the region meets the threshold."""
+        t = self.threshold
+        return self.a.interval(at_least=t) if self.larger else self.a.interval(at_most=t)
+
+    @property
+    def condition(self) -> str:
+        """The threshold as a condition, for a formula."""
+        return f"index {'≥' if self.larger else '≤'} {as_given(self.threshold)}{self.unit}"
+
+    @property
+    def axis_label(self) -> str:
+        """What an axis of index values says."""
+        return figures.plain(f"worst-case {self.index.name}{self.unit and ','}{self.unit}")
+
+    @property
+    def failures(self) -> str:
+        """``whichever joint locks`` and the like."""
+        sizes = {len(s) for s in self.index.failures}
+        size = sizes.pop() if len(sizes) == 1 else 0
+        if size and len(self.index.failures) == math.comb(self.a.arm.n, size):
+            return "whichever joint locks" if size == 1 else f"whichever {size} joints lock together"
+        count = len(self.index.failures)
+        return f"if {either(self.index.failure_names)} locks" if count == 1 else f"after any of the {count} failures considered"
+
+    @cached_property
+    def headline(self) -> str:
+        """The answer in one sentence."""
+        d, name, noun = self.d, self.index.name, self.noun
+        if not d.samples:
+            return "Nothing has been computed yet."
+        if not d.reached:
+            return (
+                f"No configuration within the joint limits was found for any of the {d.samples:,} poses of the region: "
+                "move the region, widen the joint limits or give more restarts."
+            )
+        lost = (
+            f"; for {percent(d.unreached_share)} of poses no configuration within the joint limits was found"
+            if d.unreached
+            else ""
+        )
+        if self.nothing:
+            worst = "0" if self.larger else "infinite"
+            verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
+            return f"No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
+        bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
+        kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
+        text = f"With probability {interval(self.answer)} a {noun} of the region {kept}"
+        return f"{text} {self.why}" if self.answer.value < EMPTY else text
+
+    @cached_property
+    def why(self) -> str:
+        """What keeps the answer at nothing, joint or structure, and the next figures that say something."""
+        a, index, names = self.a, self.index, self.a.arm.joint_names
+        own = self.structures[0]
+        ends = [k for k in own.fatal if any(k in s for s in index.failures)]
+        if own.never:
+            return "The healthy arm itself is singular for this task in every configuration."
+        if ends:
+            text = f"Once {either([names[k] for k in ends])} locks, the task is singular in every configuration."
+            spared = any(ends[0] not in s for s in index.failures)
+            if len(ends) == 1 and spared and a.kept and self.d.reached:
+                median = number(float(a.if_never_fails(ends[0]).quantile(0.5)))
+                text += f" If it never failed, the median of the {self.reached} would be {median}."
+            return text
+        counts = a.worst_counts
+        parts = []
+        if counts.sum() > 0:
+            k = int(counts.argmax())
+            worst = percent(float(counts[k] / counts.sum()))
+            parts.append(f"A lock of {index.failure_names[k]} is the worst failure at {worst} of the {self.reached}.")
+        parts.append(f"The median of the {self.reached} is {number(float(self.d.quantile(0.5)))}")
+        best = a.optimised
+        if best is not None and best.reached:
+            p = a.interval(**{f"at_{'least' if self.larger else 'most'}": self.threshold}, optimised=True)  # type: ignore[arg-type]
+            parts[-1] += f"; at the best configuration of each pose it is {number(float(best.quantile(0.5)))}, "
+            parts[-1] += f"and the probability {interval(p)}"
+        elif a.region.kind != "joints":
+            parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
+        return f"{' '.join(parts)}."
+
+    @property
+    def drawn(self) -> str:
+        """How poses were chosen."""
+        listed = self.a.region.listed
+        each = listed is not None and self.a.poses == len(listed)
+        return "each pose of the list once" if each else f"{self.a.sampling} poses of the region"
+
+    def share(self, count: int) -> str:
+        """A count of poses as a share of all, with its interval if all count alike."""
+        d = self.d
+        return f"{count:,} of {d.samples:,} {self.noun}s, not weighted" if d.weighted else share(count, d.samples)
+
+    @property
+    def weights(self) -> str:
+        """What weights do to the numbers."""
+        return (
+            f"poses count by weight: {percent(1 - self.d.unreached_share)} of the weight is reached. Effective sample size "
+            f"{self.d.effective():,.0f} of {self.d.samples:,} (total weight over the largest weight): intervals and bands are "
+            "those of so many equal poses"
+        )
+
+    @property
+    def unit(self) -> str:
+        """With a space in front, or nothing."""
+        return "" if self.index.unit == "1" else f" {self.index.unit}".replace("^2", "²").replace("^3", "³")
+
+    # ---- structure -------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def structures(self) -> tuple[Structure, list[Structure]]:
+        """Of the task of the run, and of all tasks with that one among them."""
+        everything = structures(self.a.arm)
+        task = self.index.task
+        for s in everything:
+            standard = as_task(self.a.arm, s.task)
+            if s.task == task.name and standard.rows.shape == task.rows.shape and np.allclose(standard.rows, task.rows):
+                return s, everything
+        own = structure(self.a.arm, task)
+        return own, [own, *everything]
+
+    # ---- rows ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def rows(self) -> Rows | None:
+        """Every pose that was computed; None if the rows were not kept."""
+        if not self.d.samples or not self.a.kept:
+            return None
+        s = sample(self.a, optimised=False)
+        if self.a.region.kind == "joints":
+            pose = self.a.arm.forward_kinematics(s.q)
+            position, rotation = pose[:, :3, 3], pose[:, :3, :3]
+        else:
+            columns = self.a.columns
+            position = columns["position"][:][s.number]
+            rotation = rotations.of_quaternions(columns["quaternion"][:][s.number])
+        return Rows(s.number, position, rotation, s.q, s.reached, s.value, s.by_failure, s.worst, s.weight)
+
+    @cached_property
+    def best_rows(self) -> Rows | None:
+        """The same poses at their best configurations; None if the run was not optimised or the rows were not kept."""
+        if self.rows is None or self.a.optimised is None:
+            return None
+        s = sample(self.a, optimised=True)
+        return replace(self.rows, q=s.q, reached=s.reached, value=s.value, by_failure=s.by_failure, worst=s.worst)
+
+    @property
+    def samples(self) -> list[tuple[str, Distribution, Rows | None]]:
+        """The samples of the run: what each is, its distribution, its rows."""
+        first = ("found by inverse kinematics", self.d, self.rows)
+        return [first] if self.a.optimised is None else [first, ("after optimisation", self.a.optimised, self.best_rows)]
+
+    @cached_property
+    def provenance(self) -> dict[str, object]:
+        """When, how long, and with which versions; of this report where the run did not note it."""
+        notes = self.a.store.notes if self.a.store is not None else {}
+        return notes if "versions" in notes else provenance(self.a.seconds)
+
+    # ---- figures ---------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def representative(self) -> tuple[Array, str]:
+        """A configuration to draw, and what it is."""
+        a, rows = self.a, self.rows
+        if rows is not None and rows.reached.any():
+            some = np.flatnonzero(rows.reached)
+            k = some[np.argsort(rows.value[some], kind="stable")[(len(some) - 1) // 2]]
+            what = (
+                "the only one there is" if len(some) == 1 else f"the one with the median index, {number(float(rows.value[k]))}"
+            )
+            return rows.q[k], f"at {self.noun} {rows.number[k] + 1:,}, {what}"
+        center = np.array(a.region.center)
+        if a.region.kind == "joints":
+            return center, "in the middle of the region"
+        if self.d.reached and a.region.kind == "box":
+            reach = solver(a.arm, self.index.task).solve(
+                a.region.poses(center[None]), np.random.SeedSequence(a.seed), a.restarts, 1e-6
+            )
+            if reach.success[0]:
+                return reach.q[0], "at the middle of the region"
+        low = np.where(np.isfinite(a.arm.lower), a.arm.lower, -np.pi / 2)
+        high = np.where(np.isfinite(a.arm.upper), a.arm.upper, np.pi / 2)
+        return (low + high) / 2, "in the middle of its joint limits"
+
+    @cached_property
+    def scene(self) -> tuple[Scene, int]:
+        """What the views show, and how many poses are drawn."""
+        a, rows = self.a, self.rows
+        posture = chain(a.arm, self.representative[0])
+        none = np.zeros((0, 3))
+        points, values, missing, drawn = none, np.zeros(0), none, 0
+        if rows is not None:
+            chosen = np.arange(len(rows.value))
+            if len(chosen) > _MOST_DOTS:
+                chosen = np.sort(np.random.default_rng(0).choice(len(chosen), _MOST_DOTS, replace=False))
+            ok = rows.reached[chosen]
+            points, values, missing = rows.position[chosen[ok]], rows.value[chosen[ok]], rows.position[chosen[~ok]]
+            drawn = len(chosen)
+        box = None
+        if a.region.kind == "box":
+            c, s = np.array(a.region.center[:3]), np.array(a.region.size[:3])
+            box = np.array([c - s / 2, c + s / 2])
+        return Scene(points, values, missing, posture, posture[1:-1], a.arm.prismatic, box), drawn
+
+    @cached_property
+    def views(self) -> list[View]:
+        """Side and top view; only one of them if everything lies in its plane."""
+        size = np.diff(self.scene[0].extent, axis=0)[0]
+        flat = size < 1e-6 * size.max()
+        found = [View(0, 2, "Side view"), View(0, 1, "Top view")]
+        if size[1] > 1.5 * size[0]:
+            found[0] = View(1, 2, "Side view")
+        return [v for v in found if not (flat[v.right] or flat[v.up])] or found
+
+    @property
+    def side(self) -> View:
+        """The first view."""
+        return self.views[0]
+
+    @cached_property
+    def log(self) -> bool:
+        """Values spread over decades and none is 0: show them on a log scale."""
+        return not self.larger and self.d.lowest > 0 and self.d.highest > 20 * self.d.lowest
+
+    @cached_property
+    def scale(self) -> Scale:
+        """Colours of the dots."""
+        values = self.scene[0].values
+        if self.nothing and self.larger:
+            return Scale(0.0, self.index.bound or 1.0)
+        return Scale.of(values, self.log, not self.larger)
+
+    @cached_property
+    def axis(self) -> Array:
+        """Values of the index at which the CDF is drawn."""
+        d, marks = self.d, [m.x for m in self.marks]
+        if self.log:
+            return np.geomspace(min(d.lowest, *marks) / 1.15, max(d.highest, *marks) * 1.15, 1601)
+        finite = [x for x in (d.lowest, d.highest) if np.isfinite(x)]
+        high = max([0.0, *finite, *marks])
+        low = min([0.0, *finite, *marks])
+        return np.linspace(low, high + 0.04 * ((high - low) or 1.0), 1601)
+
+    @cached_property
+    def marks(self) -> list[Mark]:
+        """Lines at the threshold and at the bound."""
+        found = [Mark(self.threshold, f"threshold {as_given(self.threshold)}{self.unit}")] if self.decided else []
+        if self.index.bound is not None:
+            found.append(Mark(self.index.bound, f"no configuration can exceed {self.index.bound:.3f}", "bound"))
+        return found
+
+    @cached_property
+    def curves(self) -> list[Curve]:
+        """The cumulative distribution, over all poses and over the reached ones."""
+        band = self.a.distribution.band()
+        lost = f" (not found counts as {'0' if self.larger else 'infinite'})" if self.d.unreached else ""
+        every = "" if not self.d.unreached else f"all {self.d.samples:,} poses{lost}, "
+        first = Curve(
+            self.axis,
+            self.a.cdf(self.axis),
+            f"{every or f'all {self.d.samples:,} {self.noun}s, '}95 % band ±{band:.3f}",
+            band=band,
+        )
+        if not self.d.unreached:
+            return [first]
+        return [
+            first,
+            Curve(
+                self.axis, self.a.cdf(self.axis, reachable_only=True), f"the {self.d.reached:,} reached poses only", second=True
+            ),
+        ]
+
+    @cached_property
+    def histogram(self) -> Bin:
+        """Density over the reached poses, from the CDF, so that it also works for binned distributions."""
+        count = int(np.clip(2 * self.d.reached ** (1 / 3), 8, 40)) if self.d.values is not None else 40
+        edges = (np.geomspace if self.log else np.linspace)(self.axis[0], self.axis[-1], count + 1)
+        share = np.diff(self.a.cdf(edges, reachable_only=True))
+        width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
+        per = "per decade" if self.log else self.unit and f"per{self.unit}"
+        return Bin(edges, share / width, "", f"probability density {per}".strip())
+
+
+def chain(arm: Arm, q: Array) -> Array:
+    """Base, origins of the joint frames and tool point (n + 2, 3) in the world, m, at one configuration (n,)."""
+    return np.vstack([arm.base[:3, 3], *joint_positions(arm, q)])
+
+
+def joint_positions(arm: Arm, q: Array) -> tuple[Array, Array]:
+    """Origins (n, 3) of the joint frames, and the tool point (3,), in the world, m, at one configuration (n,)."""
+    t = np.array(arm.base)
+    origins = np.empty((arm.n, 3))
+    for k, joint in enumerate(arm.joints):
+        t = t @ joint.origin
+        moved = np.eye(4)
+        if joint.prismatic:
+            moved[:3, 3] = q[k] * joint.axis
+            t = t @ moved  # the slider is drawn where it is, not where its rail begins
+            origins[k] = t[:3, 3]
+        else:
+            origins[k] = t[:3, 3]
+            moved[:3, :3] = rotations.of_vectors(q[k] * joint.axis)
+            t = t @ moved
+    return origins, (t @ arm.tool)[:3, 3]

@@ -1,0 +1,113 @@
+"""What is left of the region once a joint has locked."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from holdfast.assessment.plan import LOCK_RESTARTS
+from holdfast.present.assessment.facts import Facts
+from holdfast.report import figures, maps
+from holdfast.report.page import Block, Picture, Table, Text
+from holdfast.report.scenes import View
+from holdfast.words import as_given, fixed, interval, percent
+
+Array = NDArray[np.float64]
+
+_LEAST_FOR_MAP = 200
+
+
+def survival(f: Facts) -> list[Block]:
+    """Share of the region that each lock leaves, if the run asked for it."""
+    survivors = f.a.survivors
+    if survivors is None or not f.d.samples:
+        return []
+    shares, locks = f.a.survival(), f.a.plan.locks
+    worst = min(shares, key=lambda name: shares[name].value)
+    rules = {f.a.arm.joint_names[k]: _rule(f, k, angle) for k, angle in locks.items()}
+    names = [
+        f"{k + 1} {f.a.arm.joint_names[k]}{'' if angle is None else f' {_angle(f, k, angle)}'}" for k, angle in locks.items()
+    ]
+    what = f"{'weight of ' if f.d.weighted else ''}poses still reached once the joint has locked"
+    figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, _whole(f), "least")
+    given = [angle is not None for angle in locks.values()]
+    where = "where it stood at another pose of the region, drawn at random"
+    if all(given):
+        where = "at the angle that was given"
+    elif any(given):
+        where = f"at the angle that was given for it, else {where}"
+    blocks: list[Block] = [
+        Text(
+            f"Healthy, the arm reaches {percent(1 - f.d.unreached_share)} of {'the weight of ' if f.d.weighted else ''}the "
+            f"{f.d.samples:,} poses. The lock that costs most is that of {worst}, {rules[worst]}: "
+            f"{interval(shares[worst])} of the poses are left."
+        ),
+        Picture(
+            figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
+            f"Each joint is locked {where}. A pose counts as left if one "
+            f"of {LOCK_RESTARTS} starts reaches it with that joint standing still; so the shares are lower bounds.",
+        ),
+    ]
+    blocks += _before_and_after(f, f.a.arm.joint_index(worst), rules[worst])
+    blocks.append(
+        Table(
+            [[name, rules[name], interval(share)] for name, share in shares.items()],
+            ["Once it has locked", "where", "share of the poses still reached"],
+            frozenset({2}),
+        )
+    )
+    return blocks
+
+
+def _whole(f: Facts) -> float:
+    return f.d.total_weight() if f.d.weighted else f.d.samples
+
+
+def _angle(f: Facts, joint: int, angle: float) -> str:
+    """In degrees, or metres."""
+    return f"at {as_given(angle)} m" if f.a.arm.prismatic[joint] else f"at {fixed(np.rad2deg(angle), 1)} deg"
+
+
+def _rule(f: Facts, joint: int, angle: float | None) -> str:
+    """Where the joint stands."""
+    if angle is None:
+        return "where it stood at another pose"
+    return _angle(f, joint, angle) + ("" if f.a.arm.prismatic[joint] else f" ({as_given(angle)} rad)")
+
+
+def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
+    """Where the healthy arm reaches, and where it still does after the lock that costs most."""
+    rows = f.rows
+    if rows is None or len(rows.reached) < _LEAST_FOR_MAP:
+        return []
+    size = np.ptp(rows.position, axis=0)
+    flat = size < 1e-6 * max(float(size.max()), 1e-6)
+    views = [v for v in (View(0, 2, "seen from the side"), View(0, 1, "seen from above")) if not (flat[v.right] or flat[v.up])]
+    if not views:
+        return []
+    left = f.a.columns["survives"][:][rows.number, joint] == 1
+    name = f.a.arm.joint_names[joint]
+    figure = before_and_after_figure(rows.position, rows.reached, left, views[0], name, rows.weight)
+    total = len(left)
+    text = (
+        f"Share of the poses in each cell that are reached, over the whole depth of the region {views[0].title}, and below it "
+        f"how many poses the cell holds. Left: the healthy arm reaches {int(rows.reached.sum()):,} of {total:,} poses. Right: "
+        f"with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
+    )
+    if f.d.weighted:
+        text += " Shares count by weight, these numbers do not."
+    return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
+
+
+def before_and_after_figure(
+    position: Array,
+    healthy: NDArray[np.bool_],
+    locked: NDArray[np.bool_],
+    view: View,
+    joint: str,
+    weights: Array | None = None,
+) -> Figure:
+    """Maps of the share of poses (N, 3), m, that are reached (N,) before and after a lock, by weight (N,) if there is one."""
+    panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
+    return maps.share_figure(position, panels, view, "share of the poses reached", weights=weights)

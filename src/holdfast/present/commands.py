@@ -1,0 +1,139 @@
+"""The command and the region file that make a run again."""
+
+from __future__ import annotations
+
+import shlex
+from dataclasses import replace
+
+import numpy as np
+import yaml
+from markupsafe import Markup
+
+from holdfast import arms
+from holdfast.arm.model import Arm
+from holdfast.arm.task import NAMES, ROWS, Task, as_task, plane_normal
+from holdfast.arms.tool import attachment, attachment_text
+from holdfast.assessment.assessment import Assessment
+from holdfast.failures import FailureSets, failure_sets
+from holdfast.regions.region import Region
+from holdfast.regions.weights import Density
+from holdfast.registry import INDICES
+from holdfast.report.page import Block, Code, Text
+
+_POSES_FILE = "poses.csv"
+_CAPSULES_FILE = "capsules.yaml"
+_MOST_POSES = 50  # of a list in a report; a results folder holds any number
+
+
+def command_line(a: Assessment) -> tuple[str | None, str]:
+    """The command that makes the run again from ``region.yaml``, or None, and a remark."""
+    index, task = a.index, a.index.task
+    if not a.region.storable:
+        return None, "The region has a function of your own, so no command line makes this run again; keep the script."
+    if not INDICES.storable(index):
+        return None, "The index is a function of your own, so no command line makes this run again; keep the script."
+    asked = task_option(a.arm, task)
+    if asked is None:
+        return None, "The task is of your own making, so no command line makes this run again; keep the script."
+    spec, words, remark = arms.command_words(a.arm)
+    tool = {}
+    known_arm = arms.load(a.arm.name) if a.arm.name in arms.names() else None
+    if known_arm is not None and remark and replace(a.arm, tool=known_arm.tool).fingerprint == known_arm.fingerprint:
+        spec, remark, text = a.arm.name, "", attachment_text(a.arm)
+        words.clear()
+        tool = {"tool": f"tool={text}"}
+        if known_arm.with_tool(attachment(text.split(","))).fingerprint != a.arm.fingerprint:
+            remark = "the tool to 12 digits"
+    options = {**tool, "region": "region.yaml", "index": index.label, "task": asked}
+    if task.length != 1.0:
+        options["length"] = repr(task.length)
+    if index.failures != failure_sets(a.arm, "single"):
+        options["failures"] = failures_option(a.arm, index.failures)
+    options |= {"poses": str(a.poses), "seed": str(a.seed), "sampling": a.sampling}
+    if a.region.kind != "joints":
+        options["restarts"] = str(a.restarts)
+    apart = _clearance_options(a)
+    locks = [f"--lock-at {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
+    lines = [f"holdfast assess {shlex.quote(spec)}"]
+    words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
+    flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]
+    for word in [*words, *flags, *apart, *locks]:
+        if len(lines[-1]) + len(word) > 90:
+            lines[-1] += " \\"
+            lines.append("    " + word)
+        else:
+            lines[-1] += " " + word
+    return "\n".join(lines), remark
+
+
+def _clearance_options(a: Assessment) -> list[str]:
+    """What says how clear of itself the arm stays, where that is not what a run does anyway."""
+    clearance, arm = a.plan.clearance, a.arm
+    planar = plane_normal(arm) is not None
+    looks = a.plan.optimise and not planar  # unless told otherwise
+    if clearance is None:
+        return ["--no-clearance"] if looks else []
+    radius = clearance.capsules.radius_along(arm)
+    if clearance.capsules.assumed(arm):
+        words = [] if looks else ["--clearance"]
+    else:
+        words = [f"--capsules {_CAPSULES_FILE}"] if radius is None else [f"--radius {radius!r}"]
+    return [*words, *([f"--margin {a.plan.margin!r}"] if a.plan.margin and a.plan.optimise else [])]
+
+
+def capsule_files(a: Assessment) -> list[Block]:
+    """The capsule file that the command needs, if any, to copy."""
+    clearance = a.plan.clearance
+    if clearance is None or clearance.capsules.radius_along(a.arm) is not None:
+        return []
+    data = clearance.capsules.to_dict(a.arm)
+    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
+    return [Code(text.rstrip(), Markup("and <code>{}</code>:").format(_CAPSULES_FILE))]
+
+
+def task_option(arm: Arm, task: Task) -> str | None:
+    """What ``--task`` says for a task, if it can."""
+    if task.name in NAMES:
+        standard = as_task(arm, task.name, task.length)
+        return task.name if standard.frame == task.frame and np.array_equal(standard.rows, task.rows) else None
+    picked = task.rows.argmax(axis=1)
+    return f"{task.frame}:{','.join(ROWS[k] for k in picked)}" if np.array_equal(np.eye(6)[picked], task.rows) else None
+
+
+def failures_option(arm: Arm, failures: FailureSets) -> str:
+    """What ``--failures`` says: how many joints fail together, or the sets."""
+    size = len(failures[0])
+    if size < arm.n and failures == failure_sets(arm, size):
+        return str(size)
+    plain = not any(c in name for name in arm.joint_names for c in "+;")
+    text = "; ".join("+".join(arm.joint_names[k] if plain else str(k + 1) for k in f) for f in failures)
+    return text + ";" if text.isdigit() else text  # a lone number would be how many
+
+
+def region_file(region: Region) -> str:
+    """The region as the YAML text that :meth:`Region.load` reads, with every digit."""
+    center, size = list(region.center), list(region.size)
+    data: dict[str, object] = {"name": region.name, "angles": "rad"}
+    if region.listed is not None:
+        data["poses"] = _POSES_FILE
+    elif region.kind == "box":
+        box: dict[str, object] = {"center": center[:3], "size": size[:3], "rpy_center": center[3:], "rpy_size": size[3:]}
+        data["box"] = box
+        if isinstance(region.weight, Density):
+            box["density"] = region.weight.to_dict()
+    else:
+        low = [c - s / 2 for c, s in zip(center, size, strict=True)]
+        data["joints"] = {"lower": low, "upper": [c + s / 2 for c, s in zip(center, size, strict=True)]}
+    text: str = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=100)
+    return text.rstrip()
+
+
+def region_files(region: Region) -> list[Block]:
+    """The files that the command needs, to copy."""
+    blocks: list[Block] = [Code(region_file(region), Markup("with <code>region.yaml</code>:"))]
+    if region.listed is not None and len(region.listed) <= _MOST_POSES:
+        blocks.append(Code(region.listed.table(), Markup("and <code>{}</code>:").format(_POSES_FILE)))
+    elif region.listed is not None:
+        where = Markup("and <code>{}</code>, the list of poses; the results folder holds it in <code>run.json</code>.")
+        blocks.append(Text(where.format(_POSES_FILE)))
+    return blocks

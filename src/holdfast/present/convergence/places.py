@@ -1,0 +1,100 @@
+"""Maps over places as every analysis of a workspace draws them: over the plane of the task, or from above and from the side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.convergence.measures import FINISH, REACH
+from holdfast.convergence.places import Places, in_a_plane
+from holdfast.convergence.table import axis_label
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.arm.task import Task
+    from holdfast.control.law import Law
+
+Array = NDArray[np.float64]
+
+_BINS = 12  # cells along the longer edge
+_VIEWS = {"-top": (0, 1), "-side": (0, 2)}
+
+
+def panels(
+    task: Task,
+    places: Places,
+    rows: Mapping[str, Array],
+    columns: Sequence[str],
+    label: str,
+    caption: str,
+    mark: Array | None = None,
+    gathered: bool = True,
+) -> dict[str, Figure]:
+    """A figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and y.
+
+    Args:
+        task: Whether places lie in a plane, and in which.
+        places: P places.
+        rows: By title, (P, C) percentages, NaN where there are none.
+        columns: (C,) titles.
+        label: Of the colour bar.
+        caption: What was computed; where values were averaged is added.
+        mark: (3,) a target to show; None: none.
+        gathered: Places in a plane that are no lattice are averaged in square cells, as those of spatial arms always are;
+            else each is a dot.
+    """
+    from holdfast.report.places import Plane, binned, place_maps
+
+    found = {}
+    views = {"": None} if in_a_plane(task) else _VIEWS
+    for name, axes in views.items():
+        across = task.rows[:, :3] if axes is None else np.eye(3)[list(axes)]
+        words = axis_label(across[0]), axis_label(across[1])
+        where = None if mark is None else (float(across[0] @ mark), float(across[1] @ mark))
+        points, told = places.points @ across.T, ""
+        plane, shown = Plane(points, words, places.cells, places.axes, where, "target"), dict(rows)
+        if places.cells is None and (gathered or axes is not None):
+            pairs = {word: binned(points, v, _BINS) for word, v in rows.items()}
+            first = next(iter(pairs.values()))[0]
+            plane = replace(first, labels=words, mark=where, mark_label="target")
+            shown = {word: v for word, (_, v) in pairs.items()}
+            told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
+        found[name] = place_maps(plane, shown, columns, label, caption + told)
+    return found
+
+
+def measure_maps(
+    law: Law,
+    places: Places,
+    measures: Mapping[str, Array],
+    about: str,
+    failures: str,
+    mark: Array | None = None,
+) -> dict[str, Figure]:
+    """Maps of R100, Ravg, Rsens and, where failures were looked at, of F100, Favg, Fsens, by name: ``reach``, ``finish-top``.
+
+    Args:
+        law: The law, with its arm and task.
+        places: The P places.
+        measures: By name, (P, n + 1) each, percent.
+        about: First line of the captions.
+        failures: How many there were; empty: none.
+        mark: (3,) the target, to be shown.
+    """
+    columns = [*law.arm.joint_names, "any joint"]
+    told = {
+        "reach": (REACH, "of the way, percent", "R: share of the way on which the joint may lock and the target stays in reach")
+    }
+    if failures:
+        told["finish"] = (FINISH, "percent", f"F: share of that part from which the failed arm arrives; {failures}")
+    found = {}
+    for word, (names, label, second) in told.items():
+        rows = {name: measures[name] for name in names}
+        for view, figure in panels(law.task, places, rows, columns, label, f"{about}\n{second}", mark, False).items():
+            found[word + view] = figure
+    return found

@@ -1,0 +1,155 @@
+"""The report of a search of designs that still reach their targets after an unidentified lock."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+
+import numpy as np
+from markupsafe import Markup
+
+from holdfast import arms
+from holdfast.assessment.rows import provenance
+from holdfast.designs.convergence import FAILURES, TARGETS, ConvergenceDesigns
+from holdfast.present.designs.figures import parameters_figure
+from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table
+from holdfast.probability.intervals import Difference, Interval
+from holdfast.report import figures, page
+from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
+from holdfast.words import fixed, percent
+
+_MEANINGS = {
+    "guaranteed": "share of the targets, by area, that the arm reaches whatever lock leaves them within reach",
+    "free": "share of the locks that leave the target within reach after which nothing holds the arm away from it",
+    "arrival": "share of all locks after which the arm reaches its target; a target out of reach counts as 0",
+    "reached": "share of the targets within reach of the healthy arm",
+}
+
+
+def write(d: ConvergenceDesigns, path: str | Path) -> Path:
+    """Write the report as one HTML file that needs nothing else.
+
+    Raises:
+        StoreError: The file cannot be written; what was there is as it was.
+    """
+    return page.write(build(d), path)
+
+
+def build(d: ConvergenceDesigns) -> Page:
+    """The report as blocks, before it becomes HTML."""
+    best = d.values[d.best]
+    return Page(
+        f"Designs of {d.law.arm.name} that reach their targets after an unknown lock",
+        headline(d),
+        [
+            Section("What to build", [*(bounds_callout(d.space, best) if d.best else []), parameters_table(d.space, best)]),
+            Section("What that gains", _gains(d)),
+            Section("Which number matters", [_numbers(d)]),
+            Section("The best arm as a file", _file(d)),
+            Section("How it was computed", _method(d)),
+        ],
+        f"{d.law.describe()}; {', '.join(d.space.names)}",
+        footer="Written by holdfast. This file needs no network and no other file.",
+    )
+
+
+def headline(d: ConvergenceDesigns) -> str:
+    """The answer in one or two sentences."""
+    if d.checked is not None:
+        given, best, apart = d.checked
+        if d.best == 0:
+            return f"Nothing better than the given arm was found: it reaches its target in {_share(given)} of fresh failures."
+        text = (
+            "After a lock that the controller does not know of, the best design reaches its target in "
+            f"{_share(best)} of fresh failures, the given arm in {_share(given)}: {_points(apart)} more."
+        )
+        return text if apart.low > 0 else f"No gain that lasts was found. {text} Search with more targets."
+    name = d.objective if d.exact else "arrival"
+    given_, best_ = (percent(float(d.measures[name][k])) for k in (0, d.best))
+    if d.best == 0:
+        return f"Nothing better than the given arm was found; {name}: {given_}, the {_MEANINGS[name]}."
+    return f"The best design has {name} {best_}, the given arm {given_}: the {_MEANINGS[name]}."
+
+
+def _share(p: Interval) -> str:
+    return f"{percent(p.value)} ({percent(p.low)} to {percent(p.high)}, 95 %)"
+
+
+def _points(x: Difference) -> str:
+    value, low, high = (fixed(100 * y, 1) for y in (x.value, x.low, x.high))
+    return f"{value} points ({low} to {high})"
+
+
+def _gains(d: ConvergenceDesigns) -> list[Block]:
+    rows: list[list[Cell]] = [
+        [name, percent(float(m[0])), percent(float(m[d.best])), _MEANINGS[name]] for name, m in d.measures.items()
+    ]
+    head = ["Measure", "given arm", "best design", "what it is"]
+    blocks: list[Block] = [
+        Table(rows, head, frozenset({1, 2}), caption=f"As the search saw them, of {len(d.values):,} designs.")
+    ]
+    if d.checked is not None:
+        given, best, apart = d.checked
+        fresh: list[list[Cell]] = [["arrival", _share(given), _share(best), _points(apart)]]
+        told = "On targets and failures that had no part in the search, the same for both."
+        blocks.append(Table(fresh, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=told))
+    else:
+        blocks.append(Text("No sink and no singular trap is no proof of arrival: limit cycles exist.", quiet=True))
+    return blocks
+
+
+def _numbers(d: ConvergenceDesigns) -> Picture:
+    factors = np.array([p.shown[0] for p in d.space.parameters])
+    names = [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
+    value = d.measures[d.objective if d.exact else "arrival"]
+    start = d.values[0] * factors, float(value[0])
+    figure = parameters_figure(names, d.values * factors, value, start, f"share, {d.objective}")
+    text = "Each design by one number at a time; the others differ too. Designs of the climbs crowd round the best."
+    return Picture(figures.svg(figure, "parameters", "What designs are worth against each number"), text)
+
+
+def _file(d: ConvergenceDesigns) -> list[Block]:
+    label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
+    return [
+        Code(d.arm_file().rstrip(), label),
+        Text("Masses are not in it: a table of Denavit-Hartenberg rows holds none.", quiet=True),
+    ]
+
+
+def _method(d: ConvergenceDesigns) -> list[Block]:
+    s = d.searched
+    how = (
+        "from the stationary sets of the planar arm, all targets at once"
+        if d.exact
+        else f"simulation: {s['targets']} targets, {s['failures']} failures of each joint at each, the same for all designs; a "
+        "joint locks where it stands in some configuration at the target, and the arm starts anywhere"
+    )
+    facts: list[tuple[str, Cell]] = [
+        ("Given arm", f"{d.law.arm.name}: {d.law.arm.source or 'no source given'}"),
+        ("Law", d.law.describe()),
+        ("Measured", how),
+        (
+            "Search",
+            f"{s['designs']:,} Sobol designs, those with equal lengths, and pattern searches from {s['climbs']} of them",
+        ),
+        ("Seed", str(s["seed"])),
+    ]
+    p = provenance(None)
+    found = p["versions"]
+    facts.append(("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {p['python']}", str(p["machine"])])))
+    facts.append(("Fingerprint of the given arm", Markup("<code>{}</code>").format(d.law.arm.fingerprint)))
+    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
+    if d.exact or (s["targets"], s["failures"]) == (TARGETS, FAILURES):
+        line, remark = command(d)
+        blocks.append(Code(line, "The same search again" + (f" ({remark}):" if remark else ":")))
+    return blocks
+
+
+def command(d: ConvergenceDesigns) -> tuple[str, str]:
+    """The command that makes the search again, and a remark."""
+    s = d.searched
+    spec, words, remark = arms.command_words(d.law.arm)
+    words += [f"--maximise convergence --law {shlex.quote(d.law.label)} --task {shlex.quote(d.law.task.name)}"]
+    words += [f"--vary {shlex.quote(p.written)}" for p in d.space.parameters] + ["--keep-reach"] * bool(s.get("keep_reach"))
+    words.append(f"--designs {s['designs']} --climbs {s['climbs']} --seed {s['seed']}")
+    return " \\\n    ".join([f"holdfast design {shlex.quote(spec)}", *words]), remark

@@ -1,0 +1,160 @@
+"""What a search of designs looks like: the front of guaranteed tolerance and reach, and the arm before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, plane_normal
+from holdfast.present.assessment.facts import chain
+from holdfast.regions.region import Region
+from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.scenes import Scale, Scene, View, draw_view, view_spans
+from holdfast.solvers.inverse_kinematics import solver
+
+Array = NDArray[np.float64]
+
+
+def front_figure(
+    reach: Array,
+    value: Array,
+    front: Sequence[int],
+    best: int,
+    start: tuple[float, float] | None,
+    label: str,
+    bound: float | None,
+) -> Figure:
+    """Every design by its reach and what it guarantees, with those that no other one beats in both.
+
+    Args:
+        reach: (D,) m.
+        value: (D,) guaranteed values.
+        front: Numbers of the designs of the front, by reach.
+        best: Number of the design of the greatest value.
+        start: Reach and value of the given arm, if known.
+        label: Of the value.
+        bound: What no configuration can exceed, drawn if it is near.
+    """
+    with style():
+        figure = Figure(figsize=(WIDTH, 4.6))
+        axes = figure.add_subplot()
+        axes.scatter(reach, value, s=14, color=SKY, linewidths=0, rasterized=True)
+        line = np.asarray(front, dtype=int)
+        axes.step(reach[line], value[line], where="pre", color=BLUE, linewidth=1.4, zorder=2.5)
+        axes.plot(reach[line], value[line], "o", color=BLUE, markersize=5, zorder=2.6)
+        if start is not None:
+            axes.plot(*start, "s", color=ORANGE, markeredgecolor="white", markersize=10, zorder=3)
+        axes.plot(reach[best], value[best], "*", color=INK, markeredgecolor="white", markersize=17, zorder=3.1)
+        top = max(float(value.max(initial=0.0)), 0.0 if start is None else start[1])
+        if bound is not None and bound < 1.6 * top:
+            axes.axhline(bound, color=SOFT, linewidth=1.3, linestyle=(0, (1.2, 1.6)))
+            axes.annotate(
+                f"no configuration can exceed {bound:.3f}",
+                (0.995, bound),
+                (0, 4),
+                xycoords=("axes fraction", "data"),
+                textcoords="offset points",
+                ha="right",
+                color=SOFT,
+            )
+        axes.set(xlabel="reach, m", ylabel=label)
+        axes.set_ylim(bottom=0.0)
+        axes.margins(y=0.1)
+        handles = [
+            Line2D([], [], marker="o", color=SKY, linestyle="", markersize=5, label=f"{len(reach):,} designs that were tried"),
+            Line2D([], [], marker="o", color=BLUE, markersize=5, label="the front: no design has more of both"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
+            Line2D([], [], marker="*", color=INK, linestyle="", markersize=13, label="the best design"),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=2.0)
+        return finished(figure)
+
+
+def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) -> Figure:
+    """The given arm and the best one, to one scale, each with its tool at the middle of the region if it gets there."""
+    box = None
+    if region.kind == "box":
+        c, s = np.array(region.center[:3]), np.array(region.size[:3])
+        box = np.array([c - s / 2, c + s / 2])
+    scenes = []
+    none = np.zeros((0, 3))
+    for arm in (given, best):
+        posture = chain(arm, _posture(arm, task, region, seed))
+        scenes.append(Scene(none, np.zeros(0), none, posture, posture[1:-1], arm.prismatic, box))
+    view = _view(given, scenes)
+    # Both panels show the same part of the world.
+    both = np.concatenate([s.extent for s in scenes])
+    everything = Scene(both, np.full(len(both), np.nan), none)
+    with style():
+        figure = Figure(figsize=(WIDTH, 5.4))
+        panels: Sequence[Axes] = figure.subplots(1, 2)
+        spans, height = view_spans(everything, [view], 4.4, 2.2, 4.6)
+        figure.set_figheight(height + 0.9)
+        middle = everything.extent.mean(axis=0)[[view.right, view.up]]
+        for axes, scene, title in zip(panels, scenes, ("before: " + given.name, "after: " + best.name), strict=True):
+            draw_view(axes, scene, view, Scale(0.0, 1.0), 1.0, spans, 4.4)
+            axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
+            axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
+            axes.set_title(plain(title, 44))
+        return finished(figure)
+
+
+def _posture(arm: Arm, task: Task, region: Region, seed: int) -> Array:
+    low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+    high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+    if region.kind == "box":
+        poses = region.poses(np.array(region.center)[None])
+        found = solver(arm, task).solve(poses, np.random.SeedSequence(seed), 50, 1e-6)
+        if found.success[0]:
+            q: Array = found.q[0]
+            return q
+    return np.asarray((low + high) / 2)
+
+
+def _view(arm: Arm, scenes: Sequence[Scene]) -> View:
+    """From the side, or onto the plane in which the arm moves."""
+    normal = plane_normal(arm)
+    if normal is not None and abs(normal[2]) > 0.9:
+        return View(0, 1, "Top view")
+    size = np.ptp(np.concatenate([s.chain for s in scenes]), axis=0)
+    return View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
+
+
+def parameters_figure(
+    names: Sequence[str], values: Array, value: Array, start: tuple[Array, float] | None, label: str
+) -> Figure:
+    """What is guaranteed against each parameter by itself, a panel each.
+
+    Args:
+        names: Of the parameters, with their units.
+        values: (D, k) as people read them.
+        value: (D,) guaranteed values.
+        start: The given arm's values (k,), and what it guarantees, if known.
+        label: Of the value.
+    """
+    columns = 2 if len(names) == 4 else min(3, len(names))
+    rows = -(-len(names) // columns)
+    with style():
+        figure = Figure(figsize=(WIDTH, 2.5 * rows + 0.5))
+        panels = figure.subplots(rows, columns, squeeze=False, sharey=True)
+        for k, axes in enumerate(panels.flat):
+            if k >= len(names):
+                axes.set_axis_off()
+                continue
+            axes.scatter(values[:, k], value, s=9, color=BLUE, alpha=0.45, linewidths=0, rasterized=True)
+            if start is not None:
+                axes.plot(start[0][k], start[1], "s", color=ORANGE, markeredgecolor="white", markersize=8, zorder=3)
+            axes.set(xlabel=plain(names[k]), ylim=(0, None))
+        figure.supylabel(label, fontsize=9.5)
+        handles = [
+            Line2D([], [], marker="o", color=BLUE, linestyle="", markersize=5, label="a design"),
+            Line2D([], [], marker="s", color=ORANGE, linestyle="", markersize=8, label="the given arm"),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=2.0)
+        return finished(figure)

@@ -1,0 +1,1 @@
+"""Figures of stationary points and basins."""

@@ -1,0 +1,1 @@
+"""Page and figures of a motion along a path."""

@@ -1,0 +1,317 @@
+"""The report of a motion along a path: one HTML file that begins with the answer."""
+
+from __future__ import annotations
+
+import platform
+from pathlib import Path
+
+import numpy as np
+from markupsafe import Markup
+
+from holdfast.errors import ArmError
+from holdfast.motion.slowness import SlowMotion
+from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
+from holdfast.present.stick_figure import corners, projections
+from holdfast.provenance import versions
+from holdfast.report import page
+from holdfast.report.animations import Motion, animation, shown_seconds
+from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
+from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
+from holdfast.words import as_given
+
+_FRAMES = 201
+SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
+_SERIOUS = {"hand slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+
+
+def write(t: Trajectory, path: Path, command: str = "", torque_bound: float | None = None) -> Path:
+    """Write the report; see :meth:`holdfast.Trajectory.report`."""
+    return page.write(build(t, command, torque_bound), path)
+
+
+def build(t: Trajectory, command: str = "", torque_bound: float | None = None) -> Page:
+    """The report as blocks, before it becomes HTML."""
+    slowness = None if torque_bound is None else t.slowness(torque_bound)  # first: it may be refused
+    f = _Facts(t)
+    alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad")]
+    parts = [
+        Section("Key numbers", f.numbers()),
+        Section("The motion", f.motion()),
+        Section(f"{_upper(t.objective.name)} along the path", f.criterion()),
+        Section("What happened", f.events()),
+        Section("Joint rates", f.rates()),
+        Section("Joint positions", f.joints()),
+        Section("Torques, and how slow is slow enough", f.torques(torque_bound, slowness)),
+        Section("Curvature along the self-motion", f.curvature()),
+        Section("Where the hand was", f.hand()),
+        Section("How it was computed", f.method(command)),
+    ]
+    return Page(
+        f"Motion of {t.arm.name} along a path",
+        f.headline,
+        [s for s in parts if s.blocks],
+        f"{t.method}, {t.objective.name}, {t.objective.better} is better",
+        alerts,
+        "Written by holdfast. This file needs no network and no other file.",
+    )
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+class _Facts:
+    def __init__(self, t: Trajectory) -> None:
+        self.t = t
+        self.unit = "" if t.objective.unit in ("1", "mixed") else f" {t.objective.unit}"
+        self.singular = [e.start for e in t.events if e.kind == "algorithmic singularity"]
+
+    @property
+    def headline(self) -> str:
+        t = self.t
+        unit = f" ({t.objective.unit})" if self.unit else ""
+        hand = _upper(t.headline) if t.on_path else "The hand does not stay on its path"
+        return (
+            f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
+            f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
+        )
+
+    @property
+    def worst(self) -> float:
+        return float(self.t.value.max() if self.t.objective.better == "smaller" else self.t.value.min())
+
+    def numbers(self) -> list[Block]:
+        """The motion in a few numbers."""
+        t, unit = self.t, self.unit
+        rows: list[tuple[str, str]] = [
+            ("At the start, at the end", f"{t.value[0]:.4g}, {t.value[-1]:.4g}{unit}"),
+            ("Mean, smallest, largest", f"{t.value.mean():.4g}, {t.value.min():.4g}, {t.value.max():.4g}{unit}"),
+        ]
+        if t.best_value is not None:
+            rows.append(("Best over the whole self-motion, mean", f"{np.nanmean(t.best_value):.4g}{unit}"))
+        rows += [
+            ("Largest norm of the joint rates", f"{t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s"),
+            ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
+            ("Hand off its path by at most", t.hand_error),
+        ]
+        if t.rate_cap is not None:
+            rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))
+        if (t.task_share < 1 - 1e-9).any():
+            rows.append(("Hand slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
+        return [Table(rows)]
+
+    # ---- the arm -----------------------------------------------------------------------------------------------
+
+    def motion(self) -> list[Block]:
+        """The arm as a stick figure, moving."""
+        t = self.t
+        few = np.unique(np.linspace(0, len(t.time) - 1, min(_FRAMES, len(t.time))).astype(int))
+        unit = "" if t.objective.unit in ("1", "mixed") or len(t.objective.unit) > 12 else f" {t.objective.unit}"
+        readings = [
+            f"{t.time[k]:.2f} s, {t.objective.name} {t.value[k]:.4g}{unit}, joint rates {t.rate_norm[k]:.3g} rad/s" for k in few
+        ]
+        square = np.r_[False, t.arm.prismatic, False]
+        moving = Motion(t.time[few], corners(t.arm, t.q[few]), square, t.poses[few][:, :3, 3], readings)
+        drawn = animation(moving, projections(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
+        speed = t.time[-1] / shown_seconds(t.time)
+        how = "at its own speed" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as it is"
+        caption = (
+            f"The arm with its joints (circles; squares slide), base (black square) and tool (orange). Dashed: the path asked "
+            f"for; blue: the way of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."
+        )
+        return [Picture(drawn, caption)]
+
+    # ---- curves ------------------------------------------------------------------------------------------------
+
+    def _figure(self, panels: list[Timeline], about: str, caption: str) -> Picture:
+        return Picture(stacked_panels(self.t.time, panels, about), caption)
+
+    def criterion(self) -> list[Block]:
+        """The objective, and each joint's measure."""
+        t = self.t
+        lines = [Line(t.value, t.method, "first")]
+        caption = f"{_upper(t.objective.name)} at {len(t.time):,} samples; {t.objective.better} is better."
+        if t.best_value is not None:
+            lines.append(Line(t.best_value, "best of each pose", "compared"))
+            caption += (
+                " Best of each pose: over the whole self-motion manifold, traced at up to 101 poses, whether a motion leads "
+                "there or not."
+            )
+        if t.best_path is not None:
+            ok = np.isfinite(t.best_path).all(axis=1)
+            if ok.any():
+                value = np.full(len(t.time), np.nan)
+                value[ok] = t.objective(t.best_path[ok])
+                lines.append(Line(value, "best continuous motion", "second"))
+                caption += (
+                    " Best continuous motion: dynamic programming over these manifolds, on points between 0.05 rad apart."
+                )
+            if not ok.all():
+                caption += f" No continuous motion was found for {np.mean(~ok):.0%} of the samples."
+        unit = "" if t.objective.unit == "1" else f", {t.objective.unit}"
+        panels = [Timeline(lines, f"objective{unit}" if len(unit) < 24 else "objective", t.objective.name, self.singular)]
+        for measure in susceptibilities(t.objective):
+            values = measure.by_joint(t.q)
+            units = ", ".join(dict.fromkeys(measure.joint_unit))
+            each = [Line(v, j.name) for v, j in zip(values.T, t.arm.joints, strict=True)]
+            panels.append(
+                Timeline(each, f"{measure.formula.name}, {units}", f"{_upper(measure.formula.name)} of each joint if it fails")
+            )
+        if len(panels) > 1:
+            caption += " Below: the signed measure of each joint, without weights."
+        return [self._figure(panels, f"{t.objective.name} along the path", caption)]
+
+    def rates(self) -> list[Block]:
+        """Norm of the joint rates and each of them."""
+        t = self.t
+        cap = [] if t.rate_cap is None else [Line(np.full(len(t.time), t.rate_cap), "cap", "compared")]
+        mixed = bool(t.arm.prismatic.any())
+        unit = "rad/s and m/s" if mixed else "rad/s"
+        panels = [
+            Timeline([Line(t.rate_norm, "norm", "first"), *cap], unit, "Norm of the joint rates", self.singular),
+            Timeline([Line(v, j.name) for v, j in zip(t.qd.T, t.arm.joints, strict=True)], unit, "Joint rates"),
+        ]
+        caption = f"Rates at the samples; between them the norm reaches {t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s."
+        if t.rate_cap is not None:
+            caption += " The cap slows only the self-motion, so the norm passes it where the task alone needs more."
+        return [self._figure(panels, "Joint rates over time", caption)]
+
+    def joints(self) -> list[Block]:
+        """Each joint with its limits."""
+        t = self.t
+        panels = []
+        for k, joint in enumerate(t.arm.joints):
+            scale, unit = joint.shown
+            lines = [Line(scale * t.q[:, k], "position", "first")]
+            reach = np.ptp(scale * t.q[:, k]) + (0.1 if joint.prismatic else 10.0)
+            for limit in (joint.lower, joint.upper):
+                # A limit far away would only flatten the curve.
+                if np.isfinite(limit) and np.abs(scale * (t.q[:, k] - limit)).min() < reach:
+                    lines.append(Line(np.full(len(t.time), scale * limit), "limit", "compared"))
+            panels.append(Timeline(lines, unit, joint.name))
+        image = small_multiples(t.time, panels, "Joint positions over time")
+        return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
+
+    def torques(self, bound: float | None, slowness: list[SlowMotion] | None) -> list[Block]:
+        """Torques that hold the arm, and those of the motion at three speeds."""
+        t = self.t
+        try:
+            gravity = t.arm.gravity_torque(t.q)
+            fast = {share: t.torques(share) for share in SPEEDS}
+        except ArmError as error:
+            return [Text(f"No torques: {error}.", quiet=True)]
+        looks = ("first", "second", "third")
+        panels = []
+        for k, joint in enumerate(t.arm.joints):
+            lines = [Line(gravity[:, k], "gravity alone", "compared")]
+            lines += [
+                Line(fast[share][:, k], f"in {share * t.time[-1]:.4g} s", look)  # type: ignore[arg-type]
+                for share, look in zip(SPEEDS, looks, strict=True)
+            ]
+            panels.append(Timeline(lines, "N" if joint.prismatic else "N m", joint.name))
+        image = small_multiples(t.time, panels, "Joint torques over time")
+        blocks: list[Block] = [
+            Picture(
+                image,
+                f"Torque of each joint, inertia, centrifugal and Coriolis terms and viscous friction included, if the same "
+                f"motion takes {', '.join(f'{s * t.time[-1]:.4g}' for s in SPEEDS)} s, drawn over the time of the first; "
+                "dashed: at rest. The susceptibilities assume that these hardly differ. English and Maciejewski 1998, eq. "
+                "(5), Figs. 9 to 12. Accelerations are differences of the sampled rates.",
+            )
+        ]
+        if slowness is None:
+            return blocks
+        worst = max(slowness, key=lambda s: s.time_scale)
+        rows = [
+            [j.name, f"{s.time_scale:.3g}", f"{s.time_scale * t.time[-1]:.4g}", f"{t.time[s.worst_time_index]:.4g}"]
+            for j, s in zip(t.arm.joints, slowness, strict=True)
+        ]
+        verdict = "The motion is slow enough" if worst.time_scale <= 1 else "The motion is too fast for gravity alone to matter"
+        blocks.append(
+            Table(
+                rows,
+                ("joint", "time scale", "duration, s", "decided at, s"),
+                frozenset({1, 2, 3}),
+                caption=f"{verdict}: to stay within {bound:g} N m (N) of the gravity torque it must take at least "
+                f"{worst.time_scale:.3g} times as long. Eq. (6).",
+            )
+        )
+        return blocks
+
+    def curvature(self) -> list[Block]:
+        """Smallest curvature of the objective along the self-motion."""
+        t = self.t
+        good = np.isfinite(t.curvature)
+        if not good.any():
+            return []
+        typical = float(np.median(np.abs(t.curvature[good])))
+        level = Line(np.zeros(len(t.time)), "zero", "compared")
+        panel = Timeline(
+            [Line(t.curvature, "smallest curvature", "first"), level],
+            "per rad^2",
+            "Curvature of the objective along the self-motion",
+            self.singular,
+            "symlog" if typical > 0 and np.abs(t.curvature[good]).max() > 30 * typical else "linear",
+            typical or 1.0,
+        )
+        return [
+            self._figure(
+                [panel],
+                "Curvature along the self-motion over time",
+                "Above 0 at a local best. Where it reaches 0 while the arm is not singular the local best ends or splits: an "
+                "algorithmic singularity (English and Maciejewski 1998, section VI-B), marked where joint rates show it.",
+            )
+        ]
+
+    def hand(self) -> list[Block]:
+        """How far the hand was off its path."""
+        t = self.t
+        panels = [
+            Timeline([Line(1000 * t.position_error, "off", "first")], "mm", "Position of the hand off its path", (), "log")
+        ]
+        if t.task.angular:
+            lines = [Line(1000 * t.rotation_error, "off", "first")]
+            panels.append(Timeline(lines, "mrad", "Orientation of the hand off its path", (), "log"))
+        caption = (
+            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the hand is off."
+        )
+        return [self._figure(panels, "Error of the hand over time", caption)]
+
+    # ---- words -------------------------------------------------------------------------------------------------
+
+    def events(self) -> list[Block]:
+        """A table of events."""
+        t = self.t
+        if not t.events:
+            return [Text("Nothing: no algorithmic singularity, no joint at a limit, no rate that stands out.")]
+        rows = [
+            [
+                Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,
+                f"{e.start:.4g}",
+                f"{e.end:.4g}",
+                _upper(e.text.split(": ", 1)[1]),  # the times have columns of their own
+            ]
+            for e in t.events
+        ]
+        return [Table(rows, ("what", "from, s", "to, s", ""), frozenset({1, 2}), wide=True)]
+
+    def method(self, command: str) -> list[Block]:
+        """How it was computed, and the command that does it again."""
+        t = self.t
+        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
+        rows = [
+            ("Law", t.method),
+            ("Objective", f"{t.objective.name}, {t.objective.better} is better"),
+            ("Task", t.task.describe()),
+            ("Gain", as_given(t.gain)),
+            ("Rate cap", "none" if t.rate_cap is None else f"{t.rate_cap:g} rad/s"),
+            ("Steps", f"{t.steps:,} of {t.time[-1] / t.steps:.3g} s; {len(t.time):,} samples of them are kept"),
+            ("Seed", str(t.seed)),
+            ("Arm", t.arm.provenance),
+            ("Fingerprint of the arm", Markup("<code>{}</code>").format(t.arm.fingerprint)),
+            ("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {platform.python_version()}"])),
+        ]
+        blocks: list[Block] = [Table(rows)]
+        if command:
+            blocks.append(Code(command, "The same motion again:"))
+        return blocks

@@ -1,0 +1,1 @@
+"""Console text of runs with masses."""

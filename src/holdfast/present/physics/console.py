@@ -1,0 +1,70 @@
+"""What ``holdfast simulate --physics`` adds: the same run in MuJoCo, beside the kinematic one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from holdfast.cli.options import console, number
+from holdfast.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from holdfast.physics.run import PhysicalRun
+    from holdfast.simulation.runs import Runs
+
+
+def run_physics(
+    runs: Runs, target: NDArray[Any], locks: list[tuple[int, float]], bandwidth: float, time_limit: float | None
+) -> PhysicalRun:
+    """The same run with bodies and motors."""
+    from holdfast.physics.loop import simulate_physics
+    from holdfast.physics.servos import Servos
+
+    if runs.cycles:
+        raise InputError("--physics has a control rate of its own; leave out --cycles")
+    return simulate_physics(runs.law, runs.q0, target, locks, Servos(bandwidth=bandwidth), time_limit)
+
+
+def physics_data(run: PhysicalRun) -> dict[str, Any]:
+    """For --json."""
+    names = run.law.arm.joint_names
+    return {
+        "outcome": run.outcome,
+        "reason": run.reason,
+        "agrees": run.agrees,
+        "time_s": float(run.time[-1]),
+        "error": float(run.error[-1]),
+        "x_final": run.x[-1].tolist(),
+        "q_final": dict(zip(names, run.q[-1].tolist(), strict=True)),
+        "path_distance_m": run.path_distance,
+        "terminal_distance_m": run.terminal_distance,
+        "terminal_turn_rad": run.terminal_turn,
+        "tracking_error": dict(zip(names, run.tracking_error.tolist(), strict=True)),
+        "saturated_share": dict(zip(names, run.saturated.tolist(), strict=True)),
+        "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
+        "damping": dict(zip(names, run.damping.tolist(), strict=True)),
+        "control_rate_hz": run.servos.rate,
+    }
+
+
+def print_physics(run: PhysicalRun) -> None:
+    """Both outcomes beside each other."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    out, told = console(), run.kinematic
+    out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
+    size = "m and rad" if run.law.task.angular else "m"
+    table = Table("", "kinematic", "in MuJoCo", "", box=None, pad_edge=False)
+    reason = "" if run.reason == "none" else f" ({run.reason})"
+    table.add_row("outcome", str(told.outcome), f"[bold]{run.outcome}[/]{reason}", "")
+    table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), size)
+    table.add_row("took", number(float(told.time)), number(run.time[-1]), "s")
+    out.print(table)
+    facts = Table.grid(padding=(0, 2))
+    facts.add_row("hand paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
+    facts.add_row("hands apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
+    full = [f"{n} {s:.1%}" for n, s in zip(run.law.arm.joint_names, run.saturated, strict=True) if s > 0]
+    facts.add_row("motors at their effort", f"{escape(', '.join(full))} of the time" if full else "none")
+    out.print(facts)

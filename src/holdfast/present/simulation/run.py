@@ -1,0 +1,216 @@
+"""One run of the closed loop to look at: a figure, and an HTML page with the arm moving."""
+
+from __future__ import annotations
+
+from pathlib import Path as File
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from holdfast.caching import cached_property
+from holdfast.notice import says
+from holdfast.present.stick_figure import corners, projections
+from holdfast.provenance import versions
+from holdfast.report import figures, page
+from holdfast.report.animations import Motion, animation, shown_seconds
+from holdfast.report.motions import Panel, drawn_motion, motion_figure
+from holdfast.report.page import Block, Code, Page, Picture, Section, Table
+from holdfast.report.timelines import Line, Timeline, small_multiples
+from holdfast.simulation.runs import ENDS, Path, Reason, Runs
+from holdfast.words import number
+
+Array = NDArray[np.float64]
+
+SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn so far only
+_SAMPLES, _FRAMES = 1001, 201
+_STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
+
+
+class RunReport:
+    """One run and what is drawn of it: all up to where nothing more can be seen, or to 200/Ke.
+
+    Args:
+        runs: A single run, or many.
+        k: Which of them, from 0.
+    """
+
+    def __init__(self, runs: Runs, k: int = 0) -> None:
+        self.runs, self.k, self.arm = runs, k, runs.law.arm
+        self.unit = "cycles" if runs.cycles else "s"
+        self.size = "m and rad" if runs.law.task.angular else "m"
+        self._lock_time = np.atleast_2d(runs.lock_time)[k]
+
+    def _of(self, name: str) -> Array:
+        value = np.asarray(getattr(self.runs, name))
+        return np.asarray(value[self.k]) if self.runs.code.ndim else value
+
+    @cached_property
+    def least(self) -> float:
+        """Least error that the failed arm can have, as far as was found."""
+        return float(np.atleast_1d(self.runs.least_error())[self.k])
+
+    @property
+    def longest(self) -> float:
+        """S or cycles, of what is written and drawn at most."""
+        time = float(self._of("time"))
+        return time if self.runs.cycles else min(time, SHOWN / self.runs.law.gain)
+
+    @cached_property
+    def path(self) -> Path:
+        """The run, sampled."""
+        return self.runs.path(self.k, _SAMPLES, until=self.longest or None)
+
+    @cached_property
+    def seen(self) -> Path:
+        """As much of it as there is to see, sampled."""
+        whole = self.path
+        away = np.flatnonzero((np.abs(whole.q - whole.q[-1]) > _STILL).any(axis=1))
+        if not away.size:
+            return whole
+        end = 1.03 * whole.time[min(away[-1] + 1, len(whole.time) - 1)]
+        return self.runs.path(self.k, _SAMPLES, until=min(float(end), self.longest))
+
+    @property
+    def standing(self) -> list[str]:
+        """The joints that lock, and when."""
+        pairs = zip(self.arm.joint_names, self._lock_time, strict=True)
+        return [f"{name} at {t:g} {self.unit}" for name, t in pairs if np.isfinite(t)]
+
+    @property
+    def headline(self) -> str:
+        """How it ended, and whether joints passed their limits on the way: two facts."""
+        reason = int(self._of("reason"))
+        why = f": {Reason(reason).sentence}" if reason else ""
+        error = f"{number(float(self._of('error')))} {self.size}"
+        ended = f"The hand {ENDS[str(self._of('outcome'))]}{why}; its error at the end is {error}."
+        return f"{ended} {self.runs.limits_sentence(self.k)}".rstrip()
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The stick figure over time."""
+        seen, law = self.seen, self.runs.law
+        few = np.unique(np.linspace(0, len(seen.time) - 1, _FRAMES).astype(int))
+        chain = corners(self.arm, seen.q[few])
+        start = chain[0, -1]
+        linear = law.task.rows[:, :3]
+        into = linear.T @ linear if law.task.frame == "base" else np.eye(3)
+        target = self._of("target")
+        wanted = target[:3, 3] if target.shape == (4, 4) else target @ linear
+        goal = start + into @ (wanted - start)  # directions that the task leaves free stay as they are
+        names = np.array(self.arm.joint_names)
+        readings = []
+        for k in few:
+            locked = names[seen.locked[k]]
+            standing = f", locked: {', '.join(locked)}" if locked.size else ""
+            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {seen.error[k]:.3g} {self.size}{standing}")
+        rows = np.zeros((len(few), 1), dtype=bool)
+        return Motion(
+            time=seen.time[few],
+            chain=chain,
+            square=np.r_[False, self.arm.prismatic, False],
+            path=np.array([start, goal]),
+            readings=readings,
+            marked=np.hstack([rows, seen.locked[few], rows]),
+            goal=goal,
+        )
+
+    def panel(self) -> Panel:
+        """The error over time, with the locks."""
+        seen = self.seen
+        moments = []
+        for name, t in zip(self.arm.joint_names, self._lock_time, strict=True):
+            if t <= seen.time[-1]:
+                moments.append((float(t), float(np.interp(t, seen.time, seen.error)), f"{name} locks"))
+        level = (self.least, "least the failed arm can have") if self.least > 1e-6 else None
+        title = f"Ends {self._of('outcome')}" + ", past a joint limit" * bool(self._of("limits_passed").any())
+        return Panel(seen.time, seen.error, f"error of the hand, {self.size}", title, level, tuple(moments), log=True)
+
+    @property
+    def caption(self) -> str:
+        """What was computed."""
+        locked = ", ".join(self.standing) or "none"
+        return f"{self.arm.name}, {self.runs.law.label}, locked: {locked}; the controller does not know; one run"
+
+    def figure(self) -> Figure:
+        """The arm at start and end, the way of its tool, and the error over time."""
+        views = projections(self.arm, self.motion.chain)
+        return drawn_motion(self.motion, views, self.panel(), self.caption, self._xlabel)
+
+    @property
+    def _xlabel(self) -> str:
+        return "cycle" if self.runs.cycles else "time, s"
+
+    @says("drawing the motion")
+    def write(self, file: File, command: str = "") -> File:
+        """The run as one HTML file that needs nothing else.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        sections = [
+            Section("The motion", [self._animation()]),
+            Section("The error of the hand", [self._error()]),
+            Section("Joint positions", [self._joints()]),
+            Section("In numbers", self._numbers(command)),
+        ]
+        subtitle = f"{self.runs.law.describe()}; locked: {', '.join(self.standing) or 'no joint'}"
+        title = f"{self.arm.name} after a lock that its controller does not know of"
+        footer = "Written by holdfast. This file needs no network and no other file."
+        return page.write(Page(title, self.headline, sections, subtitle, footer=footer), file)
+
+    def _animation(self) -> Picture:
+        motion = self.motion
+        drawn = animation(motion, projections(self.arm, motion.chain), "motion", f"{self.arm.name} moving")
+        speed = (motion.time[-1] - motion.time[0]) / shown_seconds(motion.time)
+        unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as it is"
+        caption = (
+            "The arm with its joints (circles; squares slide; orange: locked), base (black square) and tool (orange diamond). "
+            f"Ring: the target; dashed: straight to it; blue: the way of the tool; grey: the middle and the end. Played {unit}."
+        )
+        if self.seen.time[-1] < 0.99 * float(self._of("time")):
+            caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; nothing more is seen to move."
+        return Picture(drawn, caption)
+
+    def _error(self) -> Picture:
+        seen = self.seen
+        travelled = np.linalg.norm(seen.x - seen.x[0], axis=1)
+        panels = [self.panel(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
+        figure = motion_figure(panels, self.caption, self._xlabel)
+        return Picture(figures.svg(figure, "error", "Error of the hand over time"), "Over time; the error on a log scale.")
+
+    def _joints(self) -> Picture:
+        panels = []
+        for k, joint in enumerate(self.arm.joints):
+            scale, unit = joint.shown
+            values = scale * self.seen.q[:, k]
+            lines = [Line(values, "position", "first")]
+            near = float(np.ptp(values)) + 0.1 * (1.0 if joint.prismatic else 100.0)
+            for limit in (joint.lower, joint.upper):
+                # A limit far away would only flatten the curve.
+                if np.isfinite(limit) and np.abs(values - scale * limit).min() < near:
+                    lines.append(Line(np.full(len(values), scale * limit), "limit", "compared"))
+            locked = " (locks)" if np.isfinite(self._lock_time[k]) else ""
+            panels.append(Timeline(lines, unit, f"{joint.name}{locked}"))
+        image = small_multiples(self.seen.time, panels, "Joint positions over time", self._xlabel)
+        return Picture(image, "Joint positions; dashed: a limit, where one is near.")
+
+    def _numbers(self, command: str) -> list[Block]:
+        size = self.size
+        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
+        rows = [
+            ("Error at the end", f"{number(float(self._of('error')))} {size}"),
+            ("Least that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),
+            ("Closest on the way", f"{number(float(self._of('closest')))} {size}"),
+            ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
+            ("Took", f"{number(float(self._of('time')))} {self.unit}"),
+            ("Law", self.runs.law.describe()),
+            ("Arm", self.arm.provenance),
+            ("Fingerprint of the arm", Markup("<code>{}</code>").format(self.arm.fingerprint)),
+            ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
+        ]
+        blocks: list[Block] = [Table([[a, b] for a, b in rows])]
+        if command:
+            blocks.append(Code(command, "The same run again:"))
+        return blocks

@@ -1,0 +1,5 @@
+"""Probabilities with their intervals."""
+
+from holdfast._lazy import offer
+
+offer(__name__)

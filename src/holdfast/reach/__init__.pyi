@@ -1,0 +1,4 @@
+from holdfast.reach.bounds import joint_bounds as joint_bounds
+from holdfast.reach.reachable import reachable_when_locked as reachable_when_locked
+from holdfast.reach.tolerance import TolerantWorkspace as TolerantWorkspace
+from holdfast.reach.tolerance import tolerant_workspace as tolerant_workspace

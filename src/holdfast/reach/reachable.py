@@ -1,0 +1,88 @@
+"""Whether a target is still within reach when a joint has locked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.arm.targets import target_poses
+from holdfast.arm.task import Task, as_task
+from holdfast.errors import InputError
+from holdfast.notice import says
+from holdfast.solvers.inverse_kinematics import Reach, solver
+
+
+@checked
+@says("looking for configurations with a locked joint")
+def reachable_when_locked(
+    arm: Arm,
+    target: ArrayLike,
+    joint: str | int,
+    at: ArrayLike,
+    task: str | Task | Sequence[str] = "pose",
+    seed: int = 0,
+    restarts: int = 100,
+    tolerance: float = 1e-6,
+) -> Reach:
+    """Whether the arm reaches a target with a joint locked at given values, within the limits of the others.
+
+    Args:
+        arm: The arm.
+        target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
+            (4, 4) or (N, 4, 4) tool poses in the world.
+        joint: The locked joint, by name or index from 0.
+        at: Where it stands, rad or m: one value, or (N,). One target goes with many values, and the other way round.
+        task: Rows of the pose that matter.
+        seed: Of the random starts.
+        restarts: Random starts per row before giving up.
+        tolerance: Largest error, m and rad.
+
+    Returns:
+        A :class:`holdfast.Reach`; ``success`` says where the target is reached, ``q`` in which configuration. Where it is not,
+        none was found, which proves nothing: :func:`holdfast.joint_bounds` looks more closely.
+
+    Raises:
+        InputError: Wrong shapes, no such joint, a value beyond the joint's limits, or options out of range.
+
+    Source: Goel et al. 2005: the target stays reachable if and only if the value lies in the range of the joint over the
+    self-motion manifold.
+    """
+    rows = as_task(arm, task)
+    k = arm.joint_index(joint)
+    poses, given = target_poses(rows, target)
+    angles = np.asarray(at, dtype=np.float64)
+    if angles.ndim > 1:
+        raise InputError(f"at has shape {angles.shape}; give one value, or (N,) of them")
+    if restarts < 1:
+        raise InputError(f"restarts is {restarts}; it must be 1 or more")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
+    low, high = arm.lower[k], arm.upper[k]
+    beyond = np.flatnonzero((np.atleast_1d(angles) < low) | (np.atleast_1d(angles) > high))
+    if beyond.size:
+        value = np.atleast_1d(angles)[beyond[0]]
+        raise InputError(
+            f"joint '{arm.joint_names[k]}' cannot be locked at {value:g} {arm.joints[k].unit}; its limits are {low:g} to "
+            f"{high:g}"
+        )
+    single_target = np.ndim(target) == (2 if given is None else 1)
+    counts = {1 if single_target else len(poses), 1 if angles.ndim == 0 else angles.size} - {1}
+    if len(counts) > 1:
+        raise InputError(f"there are {len(poses)} targets and {angles.size} values; give the same number, or one for all")
+    size = counts.pop() if counts else 1
+    engine = solver(arm, rows)
+    found = engine.solve_locked(
+        np.broadcast_to(poses, (size, 4, 4)),
+        np.full(size, k),
+        np.ascontiguousarray(np.broadcast_to(angles, (size,))),
+        np.random.SeedSequence(seed),
+        restarts,
+        engine.within(tolerance),
+    )
+    if single_target and angles.ndim == 0:
+        return Reach(*(getattr(found, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))
+    return found

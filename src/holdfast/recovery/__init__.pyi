@@ -1,0 +1,11 @@
+from holdfast.recovery.continuation import RestOfPath as RestOfPath
+from holdfast.recovery.goals import RowsGivenUp as RowsGivenUp
+from holdfast.recovery.recovery import Ending as Ending
+from holdfast.recovery.recovery import Leg as Leg
+from holdfast.recovery.recovery import Recovery as Recovery
+from holdfast.recovery.remainder import WhatIsLeft as WhatIsLeft
+from holdfast.recovery.search import recover as recover
+from holdfast.recovery.waypoints import Replay as Replay
+from holdfast.recovery.waypoints import check_waypoints as check_waypoints
+from holdfast.recovery.waypoints import read_waypoints as read_waypoints
+from holdfast.recovery.waypoints import write_waypoints as write_waypoints

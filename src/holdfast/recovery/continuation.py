@@ -1,0 +1,180 @@
+"""Whether the rest of a hand path can still be finished with joints standing, in one continuous motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import rotations
+from holdfast.paths.path import Path
+from holdfast.recovery.goals import RowsGivenUp, configurations_of
+from holdfast.recovery.routes import Metric, Space
+from holdfast.recovery.rows import RowSolver, preferred, subsets
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_SPACING = 0.01  # m or rad of the hand between samples
+_LEAST, _MOST = 20, 400  # samples
+_JUMP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
+_STARTS_PER_SET = 12
+
+
+@dataclass(frozen=True)
+class RestOfPath:
+    """What became of the rest of a hand path.
+
+    Attributes:
+        furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row.
+        share: (S,) samples of the path, 0 to 1.
+        found: (S,) True where a configuration of that pose was found at all, each sample on its own.
+        q: (S, n) the motion, without the rows given up if there are any; (0, n) if none was found; rad and m.
+        deviation: Largest error of the rows kept half-way between waypoints, m and rad.
+        given_up: Rows given up over the whole path, with the most that they miss on the way; None if all are kept.
+        starts: Configurations of the first pose from which the path was followed.
+        cut_off: Motions along the path exist, but no way to the beginning of any was found; ``q`` is then empty.
+    """
+
+    furthest: float
+    share: Array
+    found: Flags
+    q: Array
+    deviation: float
+    given_up: RowsGivenUp | None
+    starts: int
+    cut_off: bool = False
+
+    @property
+    def finished(self) -> bool:
+        """True if a continuous motion was found that keeps every row from beginning to end."""
+        return len(self.q) > 0 and self.given_up is None
+
+    @property
+    def first_lost(self) -> float | None:
+        """The first sample, 0 to 1, of which no configuration was found; None if one was found of all."""
+        lost = self.share[~self.found]
+        return float(lost[0]) if lost.size else None
+
+    def describe(self) -> str:
+        """One sentence for people."""
+        if self.finished:
+            return (
+                f"The rest of the hand path can be finished: {len(self.q)} waypoints, off the path by at most "
+                f"{self.deviation:.2g} (m and rad) between them."
+            )
+        if self.cut_off:
+            why = "motions along it exist, but no way from where the arm stands to the beginning of any was found"
+        elif self.first_lost is not None:
+            why = f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
+        else:
+            why = "each of its poses is reached on its own, but no continuous motion through all of them was found"
+        text = f"The rest of the hand path was not finished: {why}; the best motion gets to {100 * self.furthest:.1f} %."
+        if self.given_up is not None:
+            text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
+        return text
+
+
+def rest_of_path(
+    solver: RowSolver, space: Space, metric: Metric, path: Path, at: Array, starts: int, rng: np.random.Generator
+) -> tuple[RestOfPath, list[Array]]:
+    """Follow a path from configurations of its first pose; also every motion (S, n) found, the shortest first."""
+    share = _samples(path)
+    poses = path.pose(share)
+    found = np.array([_reached(solver, space, pose, at, rng) for pose in poses])
+    first = configurations_of(solver, space, metric, poses[0], at, starts, rng)
+    kept = np.ones((len(first), solver.rows.m))
+    q, last = _tracked(solver, space, poses, first, kept)
+    # A pose on the way is found where a motion passes it.
+    found |= np.arange(len(share)) <= last.max(initial=-1)
+    furthest = float(share[last.max()]) if len(last) else 0.0
+    made = RestOfPath(furthest, share, found, np.zeros((0, solver.arm.n)), 0.0, None, len(first))
+    whole = np.flatnonzero(last == len(share) - 1)
+    if whole.size:
+        motions = _by_length(metric, [q[:, k] for k in whole])
+        return _with(made, solver, path, motions[0], np.ones(solver.rows.m), None), motions
+    for size in range(1, solver.rows.m):
+        sets = subsets(solver.rows.m, size, [])
+        best = _without(solver, space, poses, at, sets, rng)
+        if best:
+            given_up, motion = best
+            mask = np.ones(solver.rows.m)
+            mask[list(given_up)] = 0.0
+            misses = np.abs(solver.errors(motion, poses)).max(axis=0)[list(given_up)]
+            names, units = ([x[i] for i in given_up] for x in (solver.rows.names, solver.rows.units))
+            rows = RowsGivenUp(tuple(names), tuple(misses.tolist()), tuple(units))
+            return _with(made, solver, path, motion, mask, rows), [motion]
+    return made, []
+
+
+def _samples(path: Path) -> Array:
+    coarse = path.pose(np.linspace(0, 1, 65))[:, :3, :3]
+    turns = rotations.to_vectors(coarse[1:] @ coarse[:-1].transpose(0, 2, 1))
+    turned = float(np.linalg.norm(turns, axis=1).sum()) if path.oriented else 0.0
+    count = int(np.clip(np.ceil(max(path.length, turned) / _SPACING), _LEAST, _MOST))
+    return np.unique(np.concatenate([np.linspace(0, 1, count + 1), path.bounds]))
+
+
+def _reached(solver: RowSolver, space: Space, pose: Array, at: Array, rng: np.random.Generator) -> bool:
+    begin = np.concatenate([at[None], solver.starts(15, at, space.free, rng)])
+    poses, kept = np.repeat(pose[None], len(begin), axis=0), np.ones((len(begin), solver.rows.m))
+    q = solver.run(begin, poses, kept, space.free)
+    good = solver.meets(q, poses, kept, space.free)
+    return bool(good.any() and space.clear(q[good]).any())
+
+
+def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Motions (S, R, n) from configurations (R, n) of the first pose, NaN once lost, and the last sample of each (R,)."""
+    q = np.full((len(poses), *first.shape), np.nan)
+    q[0] = first
+    last = np.zeros(len(first), dtype=np.int64)
+    alive = np.arange(len(first))
+    for k in range(1, len(poses)):
+        if not alive.size:
+            break
+        before = q[k - 1, alive]
+        target = np.repeat(poses[k][None], len(alive), axis=0)
+        after = solver.nearest(before, target, kept[alive], space.free)
+        far = np.abs(after - before).max(axis=1) > _JUMP
+        if far.any():  # rows that are given up must not pull the others onto another branch
+            after[far] = solver.run(before[far], target[far], kept[alive][far], space.free)
+        good = solver.meets(after, target, kept[alive], space.free) & (np.abs(after - before).max(axis=1) <= _JUMP)
+        some = np.flatnonzero(good)
+        good[some] = space.edges(before[some], after[some])
+        alive, after = alive[good], after[good]
+        q[k, alive], last[alive] = after, k
+    return q, last
+
+
+def _by_length(metric: Metric, motions: list[Array]) -> list[Array]:
+    return sorted(motions, key=lambda q: float(metric.along(q)[-1]))
+
+
+def _without(
+    solver: RowSolver, space: Space, poses: Array, at: Array, sets: list[tuple[int, ...]], rng: np.random.Generator
+) -> tuple[tuple[int, ...], Array] | None:
+    """The set of rows, of those preferred most, without which the path is followed, and the motion that misses least."""
+    begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
+    owner = np.repeat(np.arange(len(sets)), len(begin))
+    kept = np.ones((len(owner), solver.rows.m))
+    for row, k in zip(kept, owner, strict=True):
+        row[list(sets[k])] = 0.0
+    target = np.repeat(poses[:1], len(owner), axis=0)
+    first = solver.nearest(np.tile(begin, (len(sets), 1)), target, kept, space.free)
+    good = solver.meets(first, target, kept, space.free)
+    good[good] = space.clear(first[good])
+    q, last = _tracked(solver, space, poses, first[good], kept[good])
+    whole = np.flatnonzero(last == len(poses) - 1)
+    if not whole.size:
+        return None
+    missed = [float(np.linalg.norm(solver.errors(q[:, k], poses), axis=1).max()) for k in whole]
+    keys = [(*preferred(solver.rows, sets[owner[good][k]]), miss) for k, miss in zip(whole, missed, strict=True)]
+    best = whole[min(range(len(keys)), key=keys.__getitem__)]
+    return sets[owner[good][best]], q[:, best]
+
+
+def _with(made: RestOfPath, solver: RowSolver, path: Path, q: Array, mask: Array, given_up: RowsGivenUp | None) -> RestOfPath:
+    middle = path.pose((made.share[1:] + made.share[:-1]) / 2)
+    off = np.abs(solver.errors((q[1:] + q[:-1]) / 2, middle) * mask).max()
+    return replace(made, q=q, deviation=float(off), given_up=given_up)

@@ -1,0 +1,163 @@
+"""Where a failed arm may end: configurations of the goal, and the rows to give up if there is none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.recovery.routes import Metric, Space
+from holdfast.recovery.rows import RowSolver, preferred, subsets
+from holdfast.solvers.descent import descend
+
+Array = NDArray[np.float64]
+
+_MOST = 48  # configurations of a goal that are kept, the nearest ones
+_SLIDES = 25
+_SAME = 1e-4  # rad and m
+_STARTS_PER_SET = 96
+_POLISHED = 4  # of the best configurations of a set
+
+
+@dataclass(frozen=True)
+class RowsGivenUp:
+    """Rows without which the rest of the goal is met, none of which can be kept beside the others.
+
+    Attributes:
+        names: As people call them: ``about tool z``, ``x``, or a joint.
+        misses: (k,) by how much each misses, absolute, m or rad: at the configurations found at which their norm is least.
+        units: ``m`` or ``rad`` of each.
+    """
+
+    names: tuple[str, ...]
+    misses: tuple[float, ...]
+    units: tuple[str, ...]
+
+    def __str__(self) -> str:
+        parts = [
+            f"{name} by {miss:.4g} m" if unit == "m" else f"{name} by {np.rad2deg(miss):.4g} deg"
+            for name, miss, unit in zip(self.names, self.misses, self.units, strict=True)
+        ]
+        return ", ".join(parts)
+
+    def __add__(self, other: RowsGivenUp) -> RowsGivenUp:
+        return RowsGivenUp(self.names + other.names, self.misses + other.misses, self.units + other.units)
+
+
+@dataclass(frozen=True)
+class Relaxed:
+    """A set of rows to give up and configurations (K, n) that meet the others."""
+
+    rows: RowsGivenUp
+    q: Array
+
+
+def configurations_of(
+    solver: RowSolver, space: Space, metric: Metric, pose: Array, at: Array, starts: int, rng: np.random.Generator
+) -> Array:
+    """Configurations (K, n) that meet every row of a pose (4, 4), those on the way from ``at`` first; maybe none.
+
+    From random starts and from ``at``; each is then moved along the self-motion of the pose towards ``at``.
+    """
+    begin = np.concatenate([at[None], solver.starts(starts, at, space.free, rng)])
+    poses = np.repeat(pose[None], len(begin), axis=0)
+    kept = np.ones((len(begin), solver.rows.m))
+    q = solver.run(begin, poses, kept, space.free)
+    q = q[_good(solver, space, q, poses, kept)]
+    q = at + space.difference(q, at)
+    moving = np.arange(len(q))
+    for _ in range(_SLIDES):
+        some = q[moving]
+        trial = solver.run(some + 0.3 * space.difference(at, some), poses[moving], kept[moving], space.free, 20)
+        nearer = metric.length(trial - at) < metric.length(some - at) * (1 - 1e-6)
+        nearer &= _good(solver, space, trial, poses[moving], kept[moving])
+        q[moving[nearer]] = trial[nearer]
+        moving = moving[nearer]
+        if not moving.size:
+            break
+    return _distinct(q[np.argsort(metric.length(q - at), kind="stable")])
+
+
+def _good(solver: RowSolver, space: Space, q: Array, poses: Array, kept: Array) -> NDArray[np.bool_]:
+    good = solver.meets(q, poses, kept, space.free)
+    some = np.flatnonzero(good)
+    good[some] = space.clear(q[some])
+    return good
+
+
+def _distinct(q: Array) -> Array:
+    """The first of configurations that are the same, the nearest ones only."""
+    keep: list[int] = []
+    for k in range(len(q)):
+        if all(np.abs(q[k] - q[i]).max() > _SAME for i in keep):
+            keep.append(k)
+        if len(keep) == _MOST:
+            break
+    return q[keep]
+
+
+def rows_to_give_up(
+    solver: RowSolver, space: Space, metric: Metric, pose: Array, at: Array, rng: np.random.Generator
+) -> list[Relaxed]:
+    """Every minimal set of rows without which a pose is met, as far as found: few rows first, turns before positions."""
+    rows, found, minimal = solver.rows, [], list[tuple[int, ...]]()
+    for size in range(1, rows.m):
+        sets = subsets(rows.m, size, minimal)
+        if not sets:
+            break
+        begin = np.concatenate([at[None], solver.starts(_STARTS_PER_SET - 1, at, space.free, rng)])
+        owner = np.repeat(np.arange(len(sets)), len(begin))
+        kept = np.ones((len(sets), rows.m))
+        for one, given_up in zip(kept, sets, strict=True):
+            one[list(given_up)] = 0.0
+        poses = np.repeat(pose[None], len(owner), axis=0)
+        q = solver.nearest(np.tile(begin, (len(sets), 1)), poses, kept[owner], space.free)
+        good = _good(solver, space, q, poses, kept[owner])
+        missed = np.linalg.norm(solver.errors(q, poses), axis=1)
+        for k, given_up in enumerate(sets):
+            some = np.flatnonzero(good & (owner == k))
+            if not some.size:
+                continue
+            minimal.append(given_up)
+            lost = list(given_up)
+            some = some[np.argsort(missed[some], kind="stable")]
+            better = [_polished(solver, space, pose, q[i], lost) for i in some[:_POLISHED]]
+            ends = np.concatenate([np.stack(better), q[some]])
+            error = np.abs(solver.errors(ends, np.repeat(pose[None], len(ends), axis=0))[:, lost])
+            size = np.linalg.norm(error, axis=1)
+            near = size <= size.min() * (1 + 1e-3) + 1e-6
+            least = error[size.argmin()]
+            ends = at + space.difference(ends[near], at)
+            ends = _distinct(ends[np.argsort(metric.length(ends - at), kind="stable")])
+            names, units = ([x[i] for i in given_up] for x in (rows.names, rows.units))
+            found.append((given_up, Relaxed(RowsGivenUp(tuple(names), tuple(least.tolist()), tuple(units)), ends)))
+    found.sort(key=lambda x: (*preferred(rows, x[0]), float(np.linalg.norm(x[1].rows.misses))))
+    return [relaxed for _, relaxed in found]
+
+
+def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:
+    """From q (n,) where the other rows are met, the rows lost missed by as little as can be had next to it."""
+    arm, clearance = solver.arm, space.clearance
+    kept = [k for k in range(solver.rows.m) if k not in lost]
+
+    def errors(x: Array) -> Array:
+        return np.asarray(solver.errors(x[None], pose[None])[0])
+
+    def look(x: Array) -> tuple[float, Array, Array, Array]:
+        e, slopes = errors(x), solver.slopes(x, pose)
+        values, rows = e[kept], slopes[kept]
+        if clearance is not None:
+            values, rows = np.append(values, clearance(x) - space.margin), np.vstack([rows, clearance.gradient(x)])
+        return float(e[lost] @ e[lost]), 2 * e[lost] @ slopes[lost], values, rows
+
+    low, high = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)
+    with np.errstate(all="ignore"):
+        found = descend(look, q, low, high, len(kept))
+    if not np.isfinite(found).all():
+        return q
+    mask = np.ones((1, solver.rows.m))
+    mask[0, lost] = 0.0
+    back = solver.run(np.where(space.free, np.clip(found, low, high), q)[None], pose[None], mask, space.free)
+    nearer = np.linalg.norm(errors(back[0])[lost]) < np.linalg.norm(errors(q)[lost])
+    return np.asarray(back[0] if nearer and _good(solver, space, back, pose[None], mask)[0] else q)

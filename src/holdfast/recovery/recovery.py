@@ -1,0 +1,221 @@
+"""What came of a recovery."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.clearance.clearance import Clearance
+from holdfast.errors import HoldfastError
+from holdfast.recovery import waypoints as recover_waypoints
+from holdfast.recovery.continuation import RestOfPath
+from holdfast.recovery.goals import RowsGivenUp
+from holdfast.recovery.remainder import WhatIsLeft
+from holdfast.recovery.routes import MetricName
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+
+class Ending(IntEnum):
+    """How a recovery ends. Only ``HOME`` is success: everything that was asked for, nothing dropped."""
+
+    HOME = 0
+    HOME_WITH_ROWS_GIVEN_UP = 1
+    PATH_UNFINISHED = 2
+    NO_ROUTE_FOUND = 3
+    NOTHING_FOUND = 4
+    PROVED_UNREACHABLE = 5
+    START_OUTSIDE_LIMITS = 6
+    START_TOO_CLOSE = 7
+    LOCK_ELSEWHERE = 8
+
+    @property
+    def sentence(self) -> str:
+        """What it means and what to try."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Ending.HOME: "the whole goal is met, within limits, locks and clearance",
+    Ending.HOME_WITH_ROWS_GIVEN_UP: "the goal is NOT met as a whole: a motion was found to a configuration that gives rows up",
+    Ending.PATH_UNFINISHED: "the rest of the hand path is NOT finished; if a goal was given too, it is met",
+    Ending.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not prove that "
+    "there is none: give more tries",
+    Ending.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not prove that there "
+    "is none: give more starts",
+    Ending.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
+    Ending.START_OUTSIDE_LIMITS: "no motion: the arm stands outside its limits",
+    Ending.START_TOO_CLOSE: "no motion: where it stands the arm is closer to itself than the clearance that must be kept",
+    Ending.LOCK_ELSEWHERE: "no motion: a joint does not stand where it is said to be locked",
+}
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A part of the motion.
+
+    Attributes:
+        name: ``to the path``, ``along the path`` or ``to the goal``.
+        first, last: Of its waypoints.
+        length: Of the metric.
+        lower_bound: No way to any of the configurations found of its goal is shorter; more configurations may exist.
+        straight: It is one straight line in joint space.
+    """
+
+    name: str
+    first: int
+    last: int
+    length: float
+    lower_bound: float
+    straight: bool
+
+
+@dataclass(frozen=True)
+class Recovery:
+    """The answer to "my joint is stuck now".
+
+    Attributes:
+        arm: The arm.
+        locked: Where each locked joint stands, by name, rad or m.
+        at: (n,) where the arm stands, rad and m.
+        goal: What was asked for, for people.
+        goal_pose: (4, 4) of the hand, m, world; None if only a hand path was asked for.
+        task: Whose rows the hand must meet.
+        ending: :class:`holdfast.recovery.Ending`.
+        reason: What is in the way, a sentence; empty if nothing is.
+        q: (K, n) waypoints, rad and m, joints moving in straight lines between them; (0, n) if there is no motion.
+        legs: The parts of the motion, in order.
+        given_up: Rows of the goal that the motion gives up, with what they miss; None if it gives up none.
+        choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
+        proof: Why the goal cannot be reached, if that is proved; else None.
+        left: What is left of the workspace, if asked for.
+        rest: What became of the hand path, if one was given.
+        starts: Random starts of the search for configurations of the goal.
+        found: Configurations of the goal that were found and are clear.
+        metric: ``travel`` or ``time``.
+        unit: Of lengths: ``rad`` (1 m of a slide counts as 1 rad) or ``s``.
+        clearance: What was kept at least at ``margin``, or None.
+        margin: m.
+        seed: The same seed gives the same result.
+    """
+
+    arm: Arm
+    locked: dict[str, float]
+    at: Array
+    goal: str
+    goal_pose: Array | None
+    task: Task
+    ending: Ending
+    reason: str
+    q: Array
+    legs: tuple[Leg, ...]
+    given_up: RowsGivenUp | None
+    choices: tuple[RowsGivenUp, ...]
+    proof: str | None
+    left: WhatIsLeft | None
+    rest: RestOfPath | None
+    starts: int
+    found: int
+    metric: MetricName
+    unit: str
+    clearance: Clearance | None
+    margin: float
+    seed: int
+
+    @property
+    def ok(self) -> bool:
+        """True only if everything that was asked for is met."""
+        return self.ending == Ending.HOME
+
+    def require_ok(self) -> Recovery:
+        """Itself, or :class:`holdfast.HoldfastError` with the reason if anything was dropped."""
+        if not self.ok:
+            raise HoldfastError(f"recovery: {self.ending.sentence}{f' ({self.reason})' if self.reason else ''}")
+        return self
+
+    @property
+    def length(self) -> float:
+        """Of the whole motion, in ``unit``; 0 if there is none."""
+        return sum(leg.length for leg in self.legs)
+
+    @property
+    def lower_bound(self) -> float:
+        """Sum of the legs' lower bounds, in ``unit``: between the ends that were chosen nothing is shorter."""
+        return sum(leg.lower_bound for leg in self.legs)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the waypoints as CSV; see :func:`holdfast.recovery.read_waypoints`.
+
+        Raises:
+            StoreError: There is no motion, or the file cannot be written.
+        """
+        from holdfast.errors import StoreError
+
+        if not len(self.q):
+            raise StoreError(f"there are no waypoints to write: {self.ending.sentence}")
+        return recover_waypoints.write_waypoints(self.arm, self.q, path)
+
+    def check(self) -> recover_waypoints.Replay:
+        """Replay the waypoints in small steps; see :func:`holdfast.recovery.check_waypoints`.
+
+        Raises:
+            InputError: There is no motion.
+        """
+        stands: dict[str | int, float] = dict(self.locked.items())
+        return recover_waypoints.check_waypoints(self.arm, self.q, stands, self.clearance, self.margin)
+
+    def figure(self) -> Figure:
+        """The arm at the start, on the way and at the end, seen from the side and from above."""
+        from holdfast.present.recovery.figures import scene_figure
+
+        return scene_figure(self)
+
+    def map(self) -> Figure:
+        """What is left of the workspace as a map.
+
+        Raises:
+            InputError: That was not asked for, or nothing was reached.
+        """
+        from holdfast.present.recovery.figures import left_figure
+
+        return left_figure(self)
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        stands = ", ".join(
+            f"{name} at {value:.4g} m"
+            if self.arm.joints[self.arm.joint_index(name)].prismatic
+            else f"{name} at {np.rad2deg(value):.4g} deg"
+            for name, value in self.locked.items()
+        )
+        lines = [f"{self.arm.title}, locked: {stands}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
+        if self.reason:
+            lines.append(self.reason)
+        if self.given_up is not None:
+            lines.append(f"given up: {self.given_up}")
+        others = [str(c) for c in self.choices if self.given_up is None or not set(c.names) <= set(self.given_up.names)]
+        if others:
+            lines.append("other sets of rows that could be given up: " + "; ".join(others[:6]))
+        for leg in self.legs:
+            text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit}"
+            if leg.name != "along the path":
+                kind = "a straight line" if leg.straight else "the shortest way found"
+                least = leg.length <= leg.lower_bound * (1 + 1e-9)
+                bound = "no way" if least else f"lower bound {leg.lower_bound:.4g} {self.unit}"
+                text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if least else ''})"
+            lines.append(text)
+        if self.rest is not None:
+            lines.append(self.rest.describe())
+        if self.left is not None:
+            lines.append(self.left.describe())
+        return lines

@@ -1,0 +1,221 @@
+"""Configurations of a failed arm that meet chosen rows of a task: all of them, or all but those that are given up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+from typing import Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm import kinematics
+from holdfast.arm.configurations import finite_limits
+from holdfast.arm.model import Arm
+from holdfast.arm.scale import length_unit
+from holdfast.arm.task import Task
+from holdfast.caching import cached_property
+from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.loop import Loop
+from holdfast.kernels.program import SX
+from holdfast.kernels.recall import recalled
+from holdfast.solvers.inverse_kinematics import damped_step, pose_error
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Frame = Literal["base", "tool"]
+
+TOLERANCE = 1e-6  # m and rad, of every row that is kept; of an arm that is shorter than 1 m, lengths are as much nearer
+_STEPS = 60
+_LIGHT = 1e-3  # weight of a row that is given up while its error is made small: the kept rows yield to it by its square only
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The rows of a task as people give them up, one by one.
+
+    A full pose is the same six rows in any axes; here its position is along the world's axes and its orientation about the
+    tool's, where "the turn about the tool's z axis" is a row. Other tasks keep the axes they have.
+
+    Attributes:
+        names: One per row, for people: ``x``, ``about tool z``.
+        matrix: (m, 6) orthonormal rows of the error (linear; angular).
+        linear, angular: The axes of the two parts.
+    """
+
+    names: tuple[str, ...]
+    matrix: Array
+    linear: Frame
+    angular: Frame
+
+    @classmethod
+    def of(cls, task: Task) -> Rows:
+        """The rows of a task."""
+        matrix = np.eye(6) if task.invariant else task.rows
+        linear, angular = task.frame, "tool" if task.invariant else task.frame
+        names = [_name(row, k, linear, angular) for k, row in enumerate(matrix)]
+        return cls(tuple(names), matrix, "base" if task.invariant else linear, angular)
+
+    @property
+    def m(self) -> int:
+        """Number of rows."""
+        return len(self.matrix)
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """``rad`` of rows that turn, ``m`` of the others."""
+        return tuple("rad" if np.abs(row[:3]).max() == 0 else "m" for row in self.matrix)
+
+
+def _name(row: Array, k: int, linear: str, angular: str) -> str:
+    at = np.flatnonzero(np.abs(row) > 1e-12)
+    frame = "tool " if (linear if at[0] < 3 else angular) == "tool" else ""
+    if at.size == 1:
+        return f"{'' if at[0] < 3 else 'about '}{frame}{'xyzxyz'[at[0]]}"
+    if at.max() < 3 or at.min() >= 3:
+        part = row[:3] if at.max() < 3 else row[3:]
+        return f"{'along' if at.max() < 3 else 'about'} {frame}({', '.join(f'{x:.3g}' for x in part)})"
+    return f"row {k + 1}"
+
+
+def _log_slope(phi: SX) -> SX:
+    """(3, 3) ``A`` with ``d/dt log(R_d R') = -A(log(R_d R')) w`` for the angular velocity w of R in the world.
+
+    It is the inverse of the right Jacobian of SO(3), ``I + [phi]/2 + c [phi]^2`` with ``t = |phi|`` and
+    ``c = 1/t^2 - cot(t/2) / (2 t)``; a textbook formula, checked by finite differences.
+    """
+    square = ca.sumsqr(phi)
+    far = square > 1e-8
+    angle = ca.sqrt(ca.if_else(far, square, 1.0))
+    factor = ca.if_else(far, 1 / angle**2 - ca.cos(angle / 2) / (2 * angle * ca.sin(angle / 2)), 1 / 12)
+    cross = ca.skew(phi)
+    return ca.SX.eye(3) + cross / 2 + factor * (cross @ cross)
+
+
+class RowSolver:
+    """Damped least squares on weighted rows with some joints standing: one kernel for every set of rows and joints.
+
+    The Jacobian is the exact derivative of the error, also where rows that are given up leave a large one.
+    """
+
+    def __init__(self, arm: Arm, rows: Rows) -> None:
+        self.arm, self.rows = arm, rows
+        unit = length_unit(arm)
+        self._scale = np.where(np.array(rows.units) == "m", unit, 1.0)
+        self._tolerance = TOLERANCE / max(unit, 1.0)
+
+    @cached_property
+    def _symbols(self) -> tuple[SX, SX, SX, SX, SX]:
+        q, p, r = kinematics.joint_symbols(self.arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
+        return q, p, r, *self._error(q, p, r)
+
+    @cached_property
+    @recalled
+    def _loop(self) -> Loop:
+        arm = self.arm
+        q, p, r, error, slope = self._symbols
+        weights, free = ca.SX.sym("w", self.rows.m), ca.SX.sym("free", arm.n)
+        pull = ca.horzcat(*[weights * slope[:, k] * free[k] for k in range(arm.n)])
+        step, residual = damped_step(arm, q, weights * error, pull)
+        return Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], step, residual)
+
+    @cached_property
+    @recalled
+    def _errors(self) -> Kernel:
+        q, p, r, error, _ = self._symbols
+        return Kernel("errors of the rows", [q, p, r], [ca.densify(error)])
+
+    def _error(self, q: SX, p: SX, r: SX) -> tuple[SX, SX]:
+        """Error (m,) of the rows and its derivative (m, n), sign turned."""
+        rows, chain = self.rows, kinematics.chain(self.arm, q)
+        full = kinematics.jacobian_of(self.arm, chain, chain.position)
+        away, linear, spin = p - chain.position, full[:3, :], full[3:, :]
+        back = chain.rotation.T
+        parts, slopes = [away], [linear]
+        if rows.linear == "tool":
+            turned = [linear[:, k] + ca.cross(spin[:, k], away) for k in range(self.arm.n)]
+            parts, slopes = [back @ away], [back @ ca.horzcat(*turned)]
+        if np.abs(rows.matrix[:, 3:]).max() > 0:
+            turn = pose_error(chain.position, chain.rotation, p, r)[3:]
+            # In the tool's axes the error is that of R' R_d, whose derivative is that of the other side.
+            slope = _log_slope(turn) @ spin
+            if rows.angular == "tool":
+                turn = back @ turn
+                slope = _log_slope(-turn) @ (back @ spin)
+            parts.append(turn)
+            slopes.append(slope)
+        matrix = kinematics.constant(np.ascontiguousarray(rows.matrix[:, : 3 * len(parts)]))
+        return matrix @ ca.vertcat(*parts), matrix @ ca.vertcat(*slopes)
+
+    def errors(self, q: Array, poses: Array) -> Array:
+        """Signed error (N, m) of every row at q (N, n), m and rad."""
+        return self._errors.rows(q, poses[:, :3, 3], poses[:, :3, :3])
+
+    @cached_property
+    @recalled
+    def _slopes(self) -> Kernel:
+        q, p, r, _, slope = self._symbols
+        return Kernel("slopes of the rows", [q, p, r], [ca.densify(-slope)])
+
+    def slopes(self, q: Array, pose: Array) -> Array:
+        """Exact derivative (m, n) of :meth:`errors` at one q (n,) and pose (4, 4)."""
+        flat = self._slopes.rows(q[None], pose[None, :3, 3], pose[None, :3, :3])[0]
+        return np.asarray(flat.reshape(self.rows.m, self.arm.n))
+
+    def run(self, q: Array, poses: Array, weights: Array, free: Flags, steps: int = _STEPS) -> Array:
+        """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) standing."""
+        count = len(q)
+        parameters = np.concatenate(
+            [
+                poses[:, :3, 3],
+                poses[:, :3, :3].reshape(count, 9),
+                weights / self._scale,
+                np.broadcast_to(free, (count, self.arm.n)),
+            ],
+            axis=1,
+        )
+        return self._loop.run(q, parameters, (1e-2 * self._tolerance) ** 2, steps).state
+
+    def meets(self, q: Array, poses: Array, kept: Array, free: Flags) -> Flags:
+        """(N,) True where the joints that are free keep their limits and the rows kept (N, m) above 0 are within tolerance."""
+        inside = (((q >= self.arm.lower) & (q <= self.arm.upper)) | ~free).all(axis=1)
+        missed = np.abs(self.errors(q, poses) / self._scale * (kept > 0)).max(axis=1)
+        return np.asarray(inside & (missed <= self._tolerance))
+
+    def nearest(self, q: Array, poses: Array, kept: Array, free: Flags) -> Array:
+        """From starts q (N, n): the rows kept (N, m) met, and of the others as little error as can be had next to it."""
+        if (kept == 0).any():
+            q = self.run(q, poses, np.where(kept > 0, 1.0, _LIGHT), free)
+        return self.run(q, poses, kept, free)
+
+    def starts(self, count: int, at: Array, free: Flags, rng: np.random.Generator) -> Array:
+        """Random configurations (count, n), uniform within the limits, joints that are not free as in ``at``."""
+        low, high = finite_limits(self.arm)
+        return np.where(free, rng.uniform(low, high, (count, self.arm.n)), at)
+
+
+@lru_cache(maxsize=16)
+def _solver(
+    arm: Arm, matrix: tuple[tuple[float, ...], ...], names: tuple[str, ...], linear: Frame, angular: Frame
+) -> RowSolver:
+    return RowSolver(arm, Rows(names, np.array(matrix), linear, angular))
+
+
+def row_solver(arm: Arm, task: Task) -> RowSolver:
+    """The solver of an arm and the rows of a task, compiled once."""
+    rows = Rows.of(task)
+    return _solver(arm, tuple(map(tuple, rows.matrix.tolist())), rows.names, rows.linear, rows.angular)
+
+
+def subsets(m: int, size: int, without: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Sets of ``size`` of m rows that contain none of the sets ``without``."""
+    return [s for s in combinations(range(m), size) if not any(set(w) <= set(s) for w in without)]
+
+
+def preferred(rows: Rows, given_up: tuple[int, ...]) -> tuple[int, int, int]:
+    """Sorts sets of rows to give up: few first, then those that turn, of these the turn about the tool's z axis."""
+    lengths = sum(rows.units[k] == "m" for k in given_up)
+    spin = any(rows.names[k] in ("about tool z", "about z") for k in given_up)
+    return len(given_up), lengths, 0 if spin else 1

@@ -1,0 +1,164 @@
+"""Waypoints as CSV files, and a check that replays them through kinematics, limits and clearance.
+
+The first column is ``time_s`` (each straight piece at the velocity limit of its slowest joint, accelerations left aside) or,
+for an arm without velocity limits, ``travel_rad`` (length of the joints' motion so far, 1 m of a slide counted as 1 rad); the
+others are joints, ``joint1_rad`` or ``slide_m``. In between, joints move in a straight line.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.clearance.clearance import Clearance
+from holdfast.errors import InputError, StoreError
+from holdfast.files.output import writing
+from holdfast.paths.joint_table import joint_columns, read_joint_table
+
+Array = NDArray[np.float64]
+
+FIRST = ("time_s", "travel_rad")
+_FINE = 2e-3  # rad and m between configurations looked at
+_CHUNK = 100_000
+
+
+def parameter(arm: Arm, q: Array) -> tuple[str, Array]:
+    """Name and values (K,) of the first column for waypoints (K, n)."""
+    moved = np.abs(np.diff(q, axis=0))
+    speed = np.array([j.velocity for j in arm.joints])
+    moving = moved.max(axis=0, initial=0.0) > 0
+    if (np.isfinite(speed[moving]) & (speed[moving] > 0)).all():
+        steps = (moved[:, moving] / speed[moving]).max(axis=1, initial=0.0)
+        return FIRST[0], np.concatenate([[0.0], np.cumsum(steps)])[: len(q)]
+    return FIRST[1], np.concatenate([[0.0], np.cumsum(np.linalg.norm(moved, axis=1))])[: len(q)]
+
+
+def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
+    """Write waypoints (K, n), rad and m, with every digit.
+
+    Raises:
+        StoreError: The file cannot be written.
+    """
+    file = Path(path)
+    name, values = parameter(arm, q)
+    try:
+        with writing(file) as stream:
+            writer = csv.writer(stream)
+            writer.writerow([name, *joint_columns(arm)])
+            writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])
+    except OSError as error:
+        raise StoreError(f"cannot write waypoints '{file}': {error.strerror or error}; choose another path") from error
+    return file
+
+
+def read_waypoints(arm: Arm, path: str | Path) -> Array:
+    """Waypoints (K, n), rad and m, that :func:`write_waypoints` wrote; the first column is not needed.
+
+    Raises:
+        InputError: Unreadable, or a column, line or number that is missing or wrong; the message names it.
+    """
+    table, wanted = read_joint_table(arm, Path(path), "waypoints", FIRST[0]), joint_columns(arm)
+    odd = [name for name in table.head if name not in wanted and name not in FIRST]
+    if odd:
+        raise InputError(f"{table.title}: column '{odd[0]}' is not known; columns are {', '.join([FIRST[0], *wanted])}")
+    return table.numbers(wanted)
+
+
+@dataclass(frozen=True)
+class Replay:
+    """What a motion through waypoints does, looked at in small steps.
+
+    Attributes:
+        q: (K, n) the waypoints, rad and m.
+        poses: (K, 4, 4) of the hand at them, world, m.
+        looked_at: Configurations on the way that were looked at.
+        beyond_limits: Joints that leave their limits, by name, with the most by which they do, rad or m.
+        locks_moved: Joints that should stand and do not, by name, with the farthest from their angle, rad or m.
+        least_clearance: m; None if the clearance was not looked at.
+        margin: m, that was asked for.
+    """
+
+    q: Array
+    poses: Array
+    looked_at: int
+    beyond_limits: dict[str, float]
+    locks_moved: dict[str, float]
+    least_clearance: float | None
+    margin: float
+
+    @property
+    def ok(self) -> bool:
+        """True if limits, locks and clearance are kept."""
+        clear = self.least_clearance is None or self.least_clearance >= self.margin
+        return clear and not self.beyond_limits and not self.locks_moved
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
+        lines += [f"{name} leaves its limits by {miss:.4g}" for name, miss in self.beyond_limits.items()]
+        lines += [f"{name} should stand and moves {miss:.4g} away" for name, miss in self.locks_moved.items()]
+        if self.least_clearance is None:
+            lines.append("clearance was not looked at")
+        else:
+            verdict = "kept" if self.least_clearance >= self.margin else "NOT KEPT"
+            lines.append(f"least clearance {self.least_clearance:.4g} m (margin {self.margin:g} m): {verdict}")
+        if not self.beyond_limits and not self.locks_moved:
+            lines.append("limits and locks are kept")
+        return lines
+
+
+def check_waypoints(
+    arm: Arm,
+    q: ArrayLike,
+    locked: Mapping[str | int, float] | None = None,
+    clearance: Clearance | None = None,
+    margin: float = 0.0,
+) -> Replay:
+    """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by other code than planned them.
+
+    Args:
+        arm: The arm.
+        q: (K, n) waypoints, rad and m.
+        locked: Joints that should stand, by name or index from 0, and where, rad or m.
+        clearance: Looked at if given.
+        margin: m that it should keep.
+
+    Raises:
+        InputError: Waypoints that are none, or a joint that is not there.
+    """
+    a = np.atleast_2d(arm.check_configurations(q))
+    if not len(a) or not np.isfinite(a).all():
+        raise InputError("waypoints must be one configuration or more of finite numbers")
+    fine = _between(a)
+    beyond = np.maximum(np.maximum(arm.lower - fine, fine - arm.upper).max(axis=0), 0.0)
+    stands = {arm.joint_index(k): value for k, value in (locked or {}).items()}
+    moved = {k: float(np.abs(fine[:, k] - value).max()) for k, value in stands.items()}
+    least = None
+    if clearance is not None:
+        least = min(float(clearance(fine[i : i + _CHUNK]).min()) for i in range(0, len(fine), _CHUNK))
+    return Replay(
+        a,
+        arm.forward_kinematics(a),
+        len(fine),
+        {arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
+        {arm.joint_names[k]: miss for k, miss in moved.items() if miss > 1e-12},
+        least,
+        margin,
+    )
+
+
+def _between(q: Array) -> Array:
+    """Configurations along the way, the waypoints among them."""
+    parts = [q[:1]]
+    for a, b in pairwise(q):
+        count = max(int(np.ceil(float(np.abs(b - a).max()) / _FINE)), 1)
+        parts.append(a + (np.arange(1, count + 1) / count)[:, None] * (b - a))
+        parts[-1][-1] = b
+    return np.concatenate(parts)

@@ -1,0 +1,3 @@
+from holdfast.regions.region import Region as Region
+from holdfast.regions.region import rotation_from_rpy as rotation_from_rpy
+from holdfast.regions.region import rpy_from_rotation as rpy_from_rotation

@@ -1,0 +1,465 @@
+"""Regions: which poses matter, and how often."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.errors import InputError
+from holdfast.regions.pose_list import PoseList
+from holdfast.regions.weights import Density, check_weights
+
+Array = NDArray[np.float64]
+Sampling = Literal["random", "sobol"]
+Draw = Callable[[np.random.Generator, int], ArrayLike | tuple[ArrayLike, ArrayLike]]
+Weight = Callable[[Array], ArrayLike]
+
+_POSE_BLOCK = 1024
+_JOINT_BLOCK = 16384
+
+
+def rotation_from_rpy(rpy: ArrayLike) -> Array:
+    """Rotation matrices (..., 3, 3) from (roll, pitch, yaw), rad: ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+
+    This is the order of the paper's toolbox, *not* the one of URDF and ROS, ``Rz(yaw) Ry(pitch) Rx(roll)``: the two swap
+    the names of the first and the last angle. Convert at the edge by reversing the three numbers.
+
+    Source: Abdi et al. 2012, section V.B; see ``docs/conventions``.
+    """
+    from scipy.spatial.transform import Rotation
+
+    return np.asarray(Rotation.from_euler("ZYX", np.asarray(rpy, dtype=np.float64)).as_matrix())
+
+
+def rpy_from_rotation(rotation: ArrayLike) -> Array:
+    """One (roll, pitch, yaw) triple, rad, that gives the rotation; pitch within +-90 degrees."""
+    from scipy.spatial.transform import Rotation
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # at pitch +-90 degrees any one of the triples is fine
+        return np.asarray(Rotation.from_matrix(np.asarray(rotation)).as_euler("ZYX"))
+
+
+@dataclass(frozen=True)
+class Region:
+    """A distribution of poses (a box in position and angles, a list, a function) or of configurations (a box in the joints).
+
+    Use :meth:`box`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its own seed,
+    so that the k-th sample of a seed is the same whatever is computed before, beside or after it. Samples may have weights
+    where the robot works more; statistics are then of the weights.
+
+    Attributes:
+        kind: ``box``, ``joints``, ``poses`` (a list) or ``sampler`` (a function).
+        center, size: Of the box: (6,) position then roll, pitch, yaw; or (n,) joints. m and rad. Empty for the other kinds.
+        name: For reports.
+        weight: Of the samples (N, 6) of a box, or None if all count alike.
+        listed: The poses of a list.
+        draw: The function of a sampler, and whether it gives weights.
+    """
+
+    kind: Literal["box", "joints", "poses", "sampler"]
+    center: tuple[float, ...]
+    size: tuple[float, ...]
+    name: str = "region"
+    weight: Weight | None = None
+    listed: PoseList | None = None
+    draw: tuple[Draw, bool] | None = None
+
+    @classmethod
+    @checked
+    def box(
+        cls,
+        center: ArrayLike,
+        size: ArrayLike,
+        rpy_center: ArrayLike = (0.0, 0.0, 0.0),
+        rpy_size: ArrayLike = (0.0, 0.0, 0.0),
+        name: str = "region",
+        weight: Weight | Mapping[str, Sequence[Sequence[float]]] | None = None,
+    ) -> Region:
+        """Poses uniform in a box of positions and, independently, a box of angles; with weights if some count more.
+
+        Args:
+            center: (3,) middle in the world, m.
+            size: (3,) full edge lengths, m; a scalar is a cube.
+            rpy_center: (3,) middle of (roll, pitch, yaw), rad; ``R = Rz(roll) Ry(pitch) Rx(yaw)``.
+            rpy_size: (3,) full ranges, rad, or a scalar; angles are drawn about the centre by addition, so the pitch may
+                leave +-90 degrees.
+            name: For reports.
+            weight: How much a pose counts, 0 or more; only ratios matter. A function of samples (N, 6), x, y, z, roll,
+                pitch, yaw in m and rad, that gives (N,); a results folder cannot hold it. Or points by coordinate, which
+                it can: ``{"z": [(0.0, 1), (0.5, 3)]}`` is linear between the points and constant beyond them; several
+                coordinates are multiplied.
+
+        Raises:
+            InputError: Not three finite numbers, a negative size, or weights of neither kind.
+        """
+        parts = []
+        for what, value, scalar in (
+            ("center", center, False),
+            ("size", size, True),
+            ("rpy_center", rpy_center, False),
+            ("rpy_size", rpy_size, True),
+        ):
+            try:
+                a = np.asarray(value, dtype=np.float64)
+            except (TypeError, ValueError):
+                a = np.zeros(0)
+            if scalar and a.ndim == 0:
+                a = np.full(3, float(a))
+            if a.shape != (3,) or not np.isfinite(a).all():
+                raise InputError(f"region: {what} is {value!r}; it must be 3 finite numbers")
+            if scalar and (a < 0).any():
+                raise InputError(f"region: {what} is {a.tolist()}; sizes must not be negative")
+            parts.append(a)
+        middle, edges = np.r_[parts[0], parts[2]], np.r_[parts[1], parts[3]]
+        if weight is not None and not callable(weight):
+            if not isinstance(weight, Mapping):
+                raise InputError("region: weight must be a function of samples (N, 6), or points by coordinate")
+            weight = Density.of(weight)
+        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name, weight)
+
+    @classmethod
+    @checked
+    def from_poses(cls, poses: ArrayLike, weights: ArrayLike | None = None, name: str = "list of poses") -> Region:
+        """A list of poses: a recorded job, waypoints.
+
+        An assessment of as many poses as the list has (which is what it does if not told how many) uses each once, in
+        order and with its weight. Any other number is drawn from the list at random, with replacement and in proportion to
+        the weights; the poses drawn then count alike.
+
+        Args:
+            poses: (N, 4, 4) in the world, m.
+            weights: (N,) how much each counts, 0 or more; all alike if not given.
+            name: For reports.
+
+        Raises:
+            InputError: Poses that are not transforms, not finite or none, or weights that are not one per pose.
+        """
+        return cls("poses", (), (), name, listed=PoseList.of(poses, weights))
+
+    @classmethod
+    def sampler(cls, draw: Draw, name: str = "own sampler") -> Region:
+        """Poses drawn by a function of your own; a results folder cannot hold it.
+
+        Args:
+            draw: ``draw(generator, count)`` gives poses (count, 4, 4) in the world, m, or a pair of poses and weights
+                (count,), 0 or more. It must take all that is random from the ``numpy.random.Generator`` and keep nothing
+                from call to call: then the same seed gives the same poses.
+            name: For reports.
+
+        Raises:
+            InputError: What it draws (two poses, to try) is not that.
+        """
+        if not callable(draw):
+            raise InputError("region: a sampler must be a function draw(generator, count)")
+        found = draw(np.random.default_rng(0), 2)
+        region = cls("sampler", (), (), name, draw=(draw, isinstance(found, tuple)))
+        region._checked(found, 2)
+        return region
+
+    @classmethod
+    @checked
+    def joints(cls, lower: ArrayLike, upper: ArrayLike, name: str = "joint range") -> Region:
+        """Configurations uniform between (n,) lower and upper joint values, rad and m: no inverse kinematics.
+
+        Raises:
+            InputError: Limits that are infinite, upside down or of different length.
+        """
+        try:
+            low, high = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError("region of joints: lower and upper must be lists of numbers") from error
+        if low.ndim != 1 or low.shape != high.shape:
+            raise InputError(f"region of joints: lower has shape {low.shape} and upper {high.shape}; both must be (n,)")
+        if not (np.isfinite(low).all() and np.isfinite(high).all()):
+            raise InputError("region of joints: a limit is infinite; give finite ranges, for example -pi to pi")
+        if (low > high).any():
+            k = int(np.flatnonzero(low > high)[0])
+            raise InputError(f"region of joints: lower {low[k]:g} of joint {k + 1} is above upper {high[k]:g}; swap them")
+        return cls("joints", tuple(((low + high) / 2).tolist()), tuple((high - low).tolist()), name)
+
+    @classmethod
+    @checked
+    def around(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
+        """A region to begin with when none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
+
+        Angles range 90 degrees about the pose at ``q``; for an arm that moves in a plane, positions stay in that plane and
+        the angle is free. ``q`` is the middle of the joint ranges if not given.
+        """
+        from holdfast.arm.task import plane_normal
+
+        low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi / 2)
+        high = np.where(np.isfinite(arm.upper), arm.upper, np.pi / 2)
+        middle = (low + high) / 2 if q is None else arm.check_configurations(q)
+        if middle.ndim != 1 or not np.isfinite(middle).all():
+            raise InputError(f"q of '{arm.name}' must be one configuration of {arm.n} finite numbers")
+        pose = arm.forward_kinematics(middle)
+        reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
+        edge = share * max(reach, 1e-3)
+        angles = rpy_from_rotation(pose[:3, :3])
+        normal = plane_normal(arm)
+        if normal is not None and abs(normal[2]) > 1 - 1e-9:
+            return cls.box(pose[:3, 3], [edge, edge, 0.0], angles, [2 * np.pi, 0.0, 0.0], name="default region")
+        return cls.box(pose[:3, 3], edge, angles, np.pi / 2, name="default region")
+
+    # ---- sampling --------------------------------------------------------------------------------------------------
+
+    @property
+    def block(self) -> int:
+        """Samples per block: the unit that has its own seed."""
+        return _JOINT_BLOCK if self.kind == "joints" else _POSE_BLOCK
+
+    def weighted(self, count: int) -> bool:
+        """True if ``count`` samples carry weights: those drawn from a list in proportion to its weights do not."""
+        if self.listed is not None:
+            return self.listed.weights is not None and count == len(self.listed)
+        return self.weight is not None or (self.draw is not None and self.draw[1])
+
+    def blocks(self, first: int, seed: int, sampling: Sampling = "random", count: int | None = None) -> Iterator[Array]:
+        """Blocks of samples, in order, from block number ``first`` on.
+
+        A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), of a sampler the first
+        three rows of the pose and its weight (13,).
+
+        Args:
+            first: Number of the first block.
+            seed: Of the run.
+            sampling: ``random`` or ``sobol`` (scrambled low-discrepancy points; use a power of two of them).
+            count: Samples asked for in all; matters for a list only, see :meth:`from_poses`.
+        """
+        if self.draw is not None:
+            yield from self._drawn(first, seed)
+        elif self.listed is not None and count == len(self.listed):
+            for start in range(first * self.block, count, self.block):
+                yield np.arange(start, min(start + self.block, count), dtype=np.float64)[:, None]
+        elif self.listed is not None:
+            for unit in self._unit(first, seed, sampling, 1):
+                yield self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
+        else:
+            for unit in self._unit(first, seed, sampling, len(self.center)):
+                yield self._placed(unit)
+
+    def samples(
+        self, start: int, stop: int, block: int, seed: int, sampling: Sampling, count: int, out: Array | None = None
+    ) -> Array:
+        """Samples ``start`` up to ``stop`` of ``count``, at most a block of them, from the random numbers of one block.
+
+        Of a box also more of them, from those of the blocks after it.
+
+        Those of :meth:`blocks` if ``start`` is where that block begins. ``sobol`` points and poses of a list that has
+        ``count`` go by their number alone.
+
+        Args:
+            start: First sample.
+            stop: Sample after the last.
+            block: Number of the block whose seed is used.
+            seed: Of the run.
+            sampling: ``random`` or ``sobol``.
+            count: Samples in all.
+            out: Where those of a box are written, contiguous; None: a new array.
+        """
+        if self.listed is not None and count == len(self.listed):
+            return np.arange(start, stop, dtype=np.float64)[:, None]
+        if self.listed is None and self.draw is None:
+            return self._of_box(
+                np.empty((stop - start, len(self.center))) if out is None else out, start, block, seed, sampling
+            )
+        if sampling == "random":
+            return next(self.blocks(block, seed, sampling, count))[: stop - start]
+        assert self.listed is not None
+        unit = self._sobol(seed, 1, start).random(stop - start)
+        return self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
+
+    def _of_box(self, out: Array, start: int, block: int, seed: int, sampling: Sampling) -> Array:
+        """Write samples of a box from number ``start`` on, which is in a block, into ``out`` (N, w)."""
+        if sampling == "sobol":
+            out[:] = self._placed(self._sobol(seed, out.shape[1], start).random(len(out)))
+            return out
+        for k in range(0, len(out), self.block):
+            part = out[k : k + self.block]
+            self._generator(seed, block + k // self.block).random(out=part)
+            self._placed(part)
+        return out
+
+    def _placed(self, unit: Array) -> Array:
+        """Samples of a box from points (N, w) of the unit cube, which they replace if it is contiguous."""
+        size, low = np.array(self.size), np.array(self.center) - np.array(self.size) / 2
+        # Many samples side by side: numpy is half as fast on rows of a few numbers.
+        side = math.gcd(len(unit), 64)
+        many = unit.reshape(-1, side * unit.shape[1])
+        many *= np.tile(size, side)
+        many += np.tile(low, side)
+        return many.reshape(unit.shape)
+
+    @staticmethod
+    def _sobol(seed: int, width: int, start: int) -> Any:
+        """Scrambled low-discrepancy points (width,) from number ``start`` on."""
+        from scipy.stats import qmc
+
+        engine = qmc.Sobol(width, scramble=True, rng=np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))))
+        if start:
+            engine.fast_forward(start)
+        return engine
+
+    def _unit(self, number: int, seed: int, sampling: Sampling, width: int) -> Iterator[Array]:
+        """Blocks (block, width) uniform in the unit cube."""
+        engine = self._sobol(seed, width, number * self.block) if sampling == "sobol" else None
+        while True:
+            if engine is not None:
+                yield engine.random(self.block)
+            else:
+                yield self._generator(seed, number).random((self.block, width))
+            number += 1
+
+    def _drawn(self, number: int, seed: int) -> Iterator[Array]:
+        assert self.draw is not None
+        while True:
+            yield self._checked(self.draw[0](self._generator(seed, number), self.block), self.block)
+            number += 1
+
+    @staticmethod
+    def _generator(seed: int, number: int) -> np.random.Generator:
+        return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0, number)))
+
+    def _checked(self, found: ArrayLike | tuple[ArrayLike, ArrayLike], count: int) -> Array:
+        """What a sampler drew as samples (count, 13)."""
+        from holdfast.arm.poses import check_poses
+
+        assert self.draw is not None
+        what = f"region '{self.name}': its sampler"
+        if isinstance(found, tuple) != self.draw[1] or (isinstance(found, tuple) and len(found) != 2):
+            raise InputError(f"{what} must give poses, or always a pair of poses and weights")
+        poses, weights = found if isinstance(found, tuple) else (found, np.ones(count))
+        try:
+            t = check_poses(poses)
+        except (InputError, TypeError, ValueError) as error:
+            raise InputError(f"{what}: {error}") from error
+        if t.shape[0] != count or not np.isfinite(t).all():
+            raise InputError(f"{what} gave {len(t)} poses, asked were {count} of finite numbers")
+        return np.concatenate([t[:, :3].reshape(count, 12), check_weights(weights, count, what)[:, None]], axis=1)
+
+    def poses(self, samples: Array) -> Array:
+        """Poses (N, 4, 4) of samples (N, 6) of a box, (N, 1) of a list or (N, 13) of a sampler."""
+        if self.listed is not None:
+            return self.listed.poses(samples[:, 0].astype(np.int64))
+        t = np.zeros((len(samples), 4, 4))
+        t[:, 3, 3] = 1.0
+        if self.draw is not None:
+            t[:, :3] = samples[:, :12].reshape(-1, 3, 4)
+            return t
+        t[:, :3, 3] = samples[:, :3]
+        t[:, :3, :3] = rotation_from_rpy(samples[:, 3:])
+        return t
+
+    def weights(self, samples: Array) -> Array:
+        """Weights (N,) of samples, 1 where none are given."""
+        if self.listed is not None and self.listed.weights is not None:
+            return self.listed.weights[samples[:, 0].astype(np.int64)]
+        if self.draw is not None:
+            return np.asarray(samples[:, 12])
+        if self.weight is not None:
+            return check_weights(self.weight(samples), len(samples), f"region '{self.name}': its weight function")
+        return np.ones(len(samples))
+
+    @property
+    def heaviest(self) -> float:
+        """The largest weight that a sample can have; 0 where only a function of your own knows."""
+        if self.listed is not None and self.listed.weights is not None:
+            return float(self.listed.weights.max())
+        return self.weight.heaviest if isinstance(self.weight, Density) else 0.0
+
+    # ---- files -----------------------------------------------------------------------------------------------------
+
+    @property
+    def storable(self) -> bool:
+        """False for a function of your own, which a folder cannot hold."""
+        return self.draw is None and (self.weight is None or isinstance(self.weight, Density))
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON data of the region; complete if it is :attr:`storable`."""
+        if self.listed is not None:
+            return {"kind": self.kind, "name": self.name, **self.listed.to_dict()}
+        if self.draw is not None:
+            return {"kind": self.kind, "name": self.name}
+        found: dict[str, Any] = {"kind": self.kind, "center": list(self.center), "size": list(self.size), "name": self.name}
+        if self.weight is not None:
+            found["density"] = self.weight.to_dict() if isinstance(self.weight, Density) else "a function of your own"
+        return found
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Region:
+        """The region :meth:`to_dict` wrote."""
+        if data["kind"] == "poses":
+            return cls("poses", (), (), data["name"], listed=PoseList.from_dict(data))
+        if data["kind"] not in ("box", "joints"):
+            raise InputError(f"region: kind '{data['kind']}' is not known; use box, joints or poses")
+        weight = None
+        if "density" in data:
+            if not isinstance(data["density"], dict):
+                raise InputError(f"region: density is {data['density']!r}; it must be points by coordinate")
+            weight = Density.of(data["density"])
+        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"], weight)
+
+    @classmethod
+    @checked
+    def load(cls, path: str | Path) -> Region:
+        """A region from a YAML file; see ``docs/files``.
+
+        Raises:
+            InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+        """
+        from holdfast.regions.region_file import read
+
+        return read(path)
+
+    def describe(self) -> str:
+        """One sentence for people, degrees and metres."""
+        if self.kind == "joints":
+            return f"configurations uniform in a box of {len(self.center)} joints"
+        if self.listed is not None:
+            return f"a list of {len(self.listed):,} poses{', with weights' if self.listed.weights is not None else ''}"
+        if self.draw is not None:
+            return f"poses drawn by a function of your own{', with weights' if self.draw[1] else ''}"
+        own = "; weighted by a function of your own" if self.weight is not None else ""
+        weight = f"; {self.weight.describe()}" if isinstance(self.weight, Density) else own
+        c, s = np.round(self.center, 12), np.round(self.size, 12)
+        return (
+            f"positions in {s[0]:.3g} x {s[1]:.3g} x {s[2]:.3g} m about ({c[0]:.4g}, {c[1]:.4g}, {c[2]:.4g}) m; "
+            "roll, pitch, yaw in "
+            f"{np.rad2deg(s[3]):.4g} x {np.rad2deg(s[4]):.4g} x {np.rad2deg(s[5]):.4g} deg about "
+            f"({np.rad2deg(c[3]):.4g}, {np.rad2deg(c[4]):.4g}, {np.rad2deg(c[5]):.4g}) deg, R = Rz(roll) Ry(pitch) Rx(yaw)"
+            f"{weight}"
+        )
+
+
+def builtin_region(arm: str) -> Region | None:
+    """The region that a paper gives for a built-in arm.
+
+    Source: Abdi et al. 2012, section V.B, printed centre; the pose at the nominal configuration differs by 0.5 mm.
+    """
+    if arm != "pa10-9dof":
+        return None
+    quarter = np.pi / 2
+    return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
+
+
+def default_region(spec: str, arm: Arm) -> Region:
+    """The region of an arm for which none is given: the paper's for the paper's arm, else around its home.
+
+    Args:
+        spec: What the arm was called: a built-in name, or a file.
+        arm: The arm.
+    """
+    from holdfast import arms
+
+    known = builtin_region(spec)
+    return Region.around(arm, arms.about(spec).home if spec in arms.names() else None) if known is None else known

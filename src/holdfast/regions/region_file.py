@@ -1,0 +1,115 @@
+"""Region files: YAML, validated.
+
+.. code-block:: yaml
+
+    name: in front of the cell door
+    angles: deg            # unit of the angles below; rad if not given
+    box:
+      center: [0.968, 0, 0.041]      # m, in the world
+      size: 0.5                      # m, an edge or three
+      rpy_center: [0, 174, 0]        # roll, pitch, yaw: R = Rz(roll) Ry(pitch) Rx(yaw)
+      rpy_size: 90                   # full range, one or three
+
+In a box, ``density: {z: [[0.0, 1], [0.5, 3]]}`` makes poses count more where the robot works more: points of coordinate
+(x, y, z, m; roll, pitch, yaw, in the unit of the angles) and weight, linear between them; coordinates are multiplied.
+
+For configurations instead of poses, ``joints:`` with the lists ``lower`` and ``upper``, rad and m; for a list of poses,
+``poses: file.csv``, relative to the region file, a table with the header x,y,z,qx,qy,qz,qw and perhaps weight.
+"""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from holdfast.errors import InputError
+from holdfast.files.yaml import content
+from holdfast.regions.pose_list import PoseList
+from holdfast.regions.region import Region
+
+
+def read(path: str | Path) -> Region:
+    """The region in a file; see :meth:`holdfast.Region.load`."""
+    file = Path(path)
+    try:
+        data = content(file, "holdfast.regions.region_file", "box, joints or poses")
+    except InputError as error:
+        raise InputError(f"region file '{file}': {error}") from error
+    try:
+        model = _RegionFile.model_validate(data)
+    except ValidationError as error:
+        raise InputError(f"region file '{file}': {_first(error)}") from error
+    if [model.box, model.joints, model.poses].count(None) != 2:
+        raise InputError(f"region file '{file}' must hold either 'box:' or 'joints:' or 'poses:'")
+    if model.box is None and model.angles == "deg":
+        raise InputError(f"region file '{file}': 'angles: deg' goes with 'box:'; joint values are in rad and m")
+    name = model.name or file.stem
+    unit = np.pi / 180 if model.angles == "deg" else 1.0
+    try:
+        if model.box is not None:
+            b = model.box
+            size = np.broadcast_to(b.size, 3)
+            angles = np.multiply(b.rpy_center, unit), np.broadcast_to(b.rpy_size, 3) * unit
+            scale = {"roll": unit, "pitch": unit, "yaw": unit}
+            density = {c: [(x * scale.get(c, 1.0), w) for x, w in points] for c, points in (b.density or {}).items()}
+            return Region.box(b.center, size, *angles, name=name, weight=density or None)
+        if model.poses is not None:
+            return Region("poses", (), (), name, listed=PoseList.read(file.parent / model.poses))
+        assert model.joints is not None
+        return Region.joints(model.joints.lower, model.joints.upper, name=name)
+    except InputError as error:
+        raise InputError(f"region file '{file}': {error}") from error
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class _Box(_Strict):
+    center: tuple[float, float, float]
+    size: float | tuple[float, float, float]
+    rpy_center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rpy_size: float | tuple[float, float, float] = (0.0, 0.0, 0.0)
+    density: dict[str, list[tuple[float, float]]] | None = None
+
+
+class _Joints(_Strict):
+    lower: list[float]
+    upper: list[float]
+
+
+class _RegionFile(_Strict):
+    name: str | None = None
+    angles: Literal["deg", "rad"] = "rad"
+    box: _Box | None = None
+    joints: _Joints | None = None
+    poses: str | None = None
+
+
+def _first(error: ValidationError) -> str:
+    entry = error.errors()[0]
+    place = _place([x for x in entry["loc"] if x not in ("float", "tuple[float, float, float]")])
+    if entry["loc"][-1:] == ("float",) and isinstance(entry.get("input"), (list, tuple)):
+        return f"{place}: must be one number or 3, got {reprlib.repr(entry['input'])}"
+    if entry["type"] == "extra_forbidden":
+        known = _known_keys(entry["loc"][:-1])
+        return f"key '{place}' is not known; keys there are {', '.join(known)}"
+    if entry["type"] == "missing":
+        return f"key '{place}' is missing"
+    return f"{place}: {entry['msg'].lower()}, got {reprlib.repr(entry.get('input'))}"
+
+
+def _place(loc: Sequence[int | str]) -> str:
+    return ".".join(str(x) for x in loc)
+
+
+def _known_keys(loc: Sequence[int | str]) -> list[str]:
+    model: type[BaseModel] = _RegionFile
+    if loc:
+        model = _Box if loc[0] == "box" else _Joints
+    return list(model.model_fields)

@@ -1,0 +1,191 @@
+"""The closed loop of a controller that does not know that a joint has locked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.configurations import configurations
+from holdfast.arm.targets import target_poses
+from holdfast.control.law import Law
+from holdfast.errors import InputError
+from holdfast.notice import says
+from holdfast.simulation.batch import Setting, motion_of
+from holdfast.simulation.runs import Runs
+from holdfast.simulation.tableaus import CLASSIC
+
+Array = NDArray[np.float64]
+Method = Literal["adaptive", "rk4"]
+Locked = Sequence[str | int | tuple[str | int, float]] | NDArray[np.int64] | Array
+
+TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
+RADIUS = 0.1  # m
+TOLERANCE, LOOSEST, TIGHTEST = 1e-9, 1e-6, 1e-13
+
+
+@checked
+@says("simulating motions")
+def simulate(
+    law: Law,
+    q0: ArrayLike,
+    target: ArrayLike,
+    locked: Locked = (),
+    cycles: bool = False,
+    method: Method = "adaptive",
+    time_limit: float | None = None,
+    tolerance: float = TOLERANCE,
+    step: float | None = None,
+    radius: float = RADIUS,
+) -> Runs:
+    """What the arm does when joints lock and its controller goes on as if nothing had happened.
+
+    ``q' = mask G(q) Ke e(q)`` with mask 0 for locked joints, G the law's inverse at the true configuration with no column
+    removed, and e the error ``(p_d - p; log(R_d R'))`` of the task's rows in the world. Joint limits are not heeded, only
+    reported.
+
+    How a run ends (continuous time; speeds are norms of the healthy joints' rates as they would be without the speed limit,
+    which changes no path; times count likewise):
+
+    * at rest, where the speed falls below 1e-8 Ke: *converged* if the error is below 1e-5, *stuck* if not (rad, and m for an
+      arm of about 1 m: lengths count in units of the arm's own, its links end to end rounded to a power of two, so that an arm
+      and its copy in another size end alike);
+    * *moving*, if at the time limit the speed was never below 1e-3 Ke during the last 20 % of the time, and did not decay:
+      its greatest value in the last tenth is at least 0.99 of that in the tenth before; or if after 100,000 steps, before the
+      limit, it circles faster than that, and comes back to where it was, modulo whole turns, so nearly that until the limit it
+      would drift by less than a hundredth of the motion's extent;
+    * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
+      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with the hand
+      half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
+      as soon as it would not come to its end at the pace of its last 2,000 steps), *bad input*.
+
+    None of this looks at the steps that were taken, so that it does not depend on their size.
+
+    In cycles the command is held for a cycle and the arm follows the law in 10 explicit Euler sub-steps. A run has
+    *converged* when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other
+    the hand moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1 m); at the
+    limit it is *moving* or *undecided* as above.
+
+    Args:
+        law: The control law, with its arm, task, gain ``Ke`` and speed limit (per second, or per cycle).
+        q0: (n,) or (N, n) configurations at the start, rad and m.
+        target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
+            (4, 4) or (N, 4, 4) tool poses in the world.
+        locked: Joints, by name or index from 0, that stand from the start in every run; ``(joint, time)`` locks at that time,
+            s or cycles. Or for each run of its own, as an array: (N,) the index of one joint, -1 for none; or (N, n) the time
+            at which each joint locks, s or cycles, infinite for never.
+        cycles: Discrete control cycles in place of continuous time.
+        method: ``adaptive`` (DOP853, order 8) or ``rk4`` (classic Runge-Kutta, fixed step).
+        time_limit: s or cycles; 3000/Ke, or 1000 cycles, if not given.
+        tolerance: Of the adaptive method: the local error of a step, rad (and m), 1e-13 to 1e-6.
+        step: Of ``rk4``, s; 0.1/Ke if not given.
+        radius: Of the target in cycles, m (and rad).
+
+    Returns:
+        A :class:`holdfast.Runs`. A row with NaN is undecided; a single start with NaN raises.
+
+    Raises:
+        InputError: Wrong shapes, joints or options.
+
+    Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
+    """
+    start, single = configurations(law.arm, q0)
+    poses, rows_wanted = target_poses(law.task, target)
+    targets = poses if rows_wanted is None else rows_wanted
+    locks, shared = _locks(law, locked)
+    counts = {"q0": len(start), "target": len(targets), "locked": len(locks)}
+    rows = max(counts.values()) if min(counts.values()) else 0
+    for what, count in counts.items():
+        if count not in (1, rows):
+            raise InputError(f"{what} has {count} rows, another input has {rows}; give the same number, or one for all")
+    if method not in ("adaptive", "rk4"):
+        raise InputError(f"method '{method}' is not known; use adaptive or rk4")
+    if cycles and (method != "adaptive" or step is not None):
+        raise InputError("cycles have a method of their own; leave out method and step")
+    if step is not None and method != "rk4":
+        raise InputError("step belongs to method='rk4'; the adaptive method takes a tolerance")
+    limit = time_limit if time_limit is not None else CYCLE_LIMIT if cycles else TIME_LIMIT / law.gain
+    first = step if step is not None else 0.1 / law.gain
+    for what, value in (("time_limit", limit), ("step", first), ("radius", radius)):
+        if not (np.isfinite(value) and value > 0):
+            raise InputError(f"{what} is {value:g}; it must be a finite number above 0")
+    if not TIGHTEST <= tolerance <= LOOSEST:
+        raise InputError(f"tolerance is {tolerance:g}; it must be between {TIGHTEST:g} and {LOOSEST:g}, or rest cannot be told")
+    if first * law.gain > CLASSIC.longest:
+        raise InputError(
+            f"step is {first:g} s; above {CLASSIC.longest:g}/Ke, {CLASSIC.longest / law.gain:g} s, the method is not stable"
+        )
+    setting = Setting(float(limit), float(radius if cycles else tolerance), float(first))
+    runs = motion_of(law, "cycles" if cycles else method).run(
+        np.broadcast_to(start, (rows, law.arm.n)),
+        np.broadcast_to(targets, (rows, *targets.shape[1:])),
+        np.broadcast_to(locks, (rows, law.arm.n)),
+        setting,
+    )
+    if single and shared and np.ndim(target) == targets.ndim - 1:
+        arrays = {name: value[0] for name, value in vars(runs).items() if isinstance(value, np.ndarray)}
+        return replace(runs, **arrays)
+    return runs
+
+
+# ---- input -------------------------------------------------------------------------------------------------------
+
+
+def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
+    """When each joint locks (M, n), infinite for never; and whether that is the same for all runs."""
+    arm = law.arm
+    if isinstance(locked, np.ndarray):
+        if locked.ndim == 2:
+            return _lock_times(law, locked), False
+        if locked.ndim != 1 or not np.issubdtype(locked.dtype, np.integer):
+            raise InputError(
+                f"locked has shape {locked.shape} and type {locked.dtype}; an array holds one joint index for each run, (N,) "
+                f"whole numbers, -1 for none, or lock times, (N, {arm.n})"
+            )
+        wrong = np.flatnonzero((locked < -1) | (locked >= arm.n))
+        if wrong.size:
+            raise InputError(
+                f"locked[{wrong[0]}] is {locked[wrong[0]]}; '{arm.name}' has joints 0 to {arm.n - 1}, and -1 stands for none"
+            )
+        times = np.full((len(locked), arm.n), np.inf)
+        rows = np.flatnonzero(locked >= 0)
+        times[rows, locked[rows]] = 0.0
+        return times, False
+    if isinstance(locked, Mapping):
+        raise InputError(
+            f"locked is {dict(locked)!r}; a joint locks where it is, so give joints, or (joint, time) pairs, and "
+            "its angle in q0"
+        )
+    if isinstance(locked, (str, int)):
+        raise InputError(f"locked is {locked!r}; give a list, for example [{locked!r}]")
+    times = np.full((1, arm.n), np.inf)
+    for item in locked:
+        joint, time = item if isinstance(item, tuple) else (item, 0.0)
+        k = arm.joint_index(joint)
+        if not (np.isfinite(time) and time >= 0):
+            raise InputError(f"joint '{arm.joint_names[k]}' locks at {time:g}; the time must be a finite number of 0 or more")
+        if np.isfinite(times[0, k]):
+            raise InputError(f"locked names joint '{arm.joint_names[k]}' twice; a joint locks once")
+        times[0, k] = time
+    return times, True
+
+
+def _lock_times(law: Law, locked: NDArray[Any]) -> Array:
+    arm = law.arm
+    if locked.shape[1] != arm.n or not np.issubdtype(locked.dtype, np.number):
+        raise InputError(
+            f"locked has shape {locked.shape} and type {locked.dtype}; lock times are numbers (N, {arm.n}), one for each run "
+            "and joint"
+        )
+    times = np.array(locked, dtype=np.float64)
+    wrong = np.argwhere(~(times >= 0))
+    if wrong.size:
+        k, joint = wrong[0]
+        raise InputError(
+            f"locked[{k}, {joint}] is {times[k, joint]:g}; a lock time is 0 or more, and infinite for a joint that never locks"
+        )
+    return times

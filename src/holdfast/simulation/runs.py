@@ -1,0 +1,221 @@
+"""How the motions of a failed arm ended, with the evidence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arguments import checked
+from holdfast.errors import InputError
+from holdfast.notice import says
+
+if TYPE_CHECKING:
+    from holdfast.control.law import Law
+    from holdfast.simulation.batch import Motion, Setting
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+
+class Outcome(IntEnum):
+    """How one run ended."""
+
+    CONVERGED = 0
+    STUCK = 1
+    MOVING = 2
+    UNDECIDED = 3
+
+
+ENDS = {  # an outcome in a sentence about the hand
+    "converged": "arrives",
+    "stuck": "comes to rest elsewhere",
+    "moving": "never comes to rest",
+    "undecided": "is undecided",
+}
+
+
+class Reason(IntEnum):
+    """Why a run is undecided; ``NONE`` where it is decided."""
+
+    NONE = 0
+    SINGULAR = 1
+    SLOW = 2
+    STEPS = 3
+    BAD_INPUT = 4
+    HALF_TURN = 5
+
+    @property
+    def sentence(self) -> str:
+        """What it means and what to try."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Reason.NONE: "decided",
+    Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
+    Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet come to rest: give a longer time_limit",
+    Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
+    Reason.HALF_TURN: (
+        "the hand was caught half a turn from its target, where the shortest turn flips from one instant to the next and the "
+        "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
+        "orientation free"
+    ),
+    Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
+}
+
+
+@dataclass(frozen=True)
+class Path:
+    """One run over time.
+
+    Attributes:
+        time: (T,) s, or cycles.
+        q: (T, n) rad and m.
+        x: (T, 3) tool point in the world, m.
+        error: (T,) norm of the task's error, m and rad.
+        locked: (T, n) True where the joint stands.
+    """
+
+    time: Array
+    q: Array
+    x: Array
+    error: Array
+    locked: Flags
+
+
+@dataclass(frozen=True)
+class Runs:
+    """N runs of the closed loop, or one (then without the leading N).
+
+    Norms of errors put metres and radians of the task's rows side by side, as the law's own command does.
+
+    Attributes:
+        law: The law of the controller.
+        q0: (N, n) starts, rad and m.
+        target: (N, 4, 4), or (N, m) where it was given so.
+        lock_time: (N, n) when each joint locks, s or cycles; 0 from the start, infinite: never.
+        cycles: Time counts in control cycles.
+        code: (N,) :class:`holdfast.simulation.Outcome`.
+        reason: (N,) :class:`holdfast.simulation.Reason`.
+        q_final: (N, n) where the run ended, not wrapped.
+        x_final: Where the hand ended, in the form of ``target``.
+        error: (N,) norm of the task's error at the end.
+        closest: (N,) least norm of the error on the way.
+        path_length: (N,) m, of the tool point.
+        q_low, q_high: (N, n) least and greatest value of each joint on the way.
+        limits_passed: (N, n) True where a joint left its limits; the motion does not heed them.
+        time: (N,) s, or cycles, when it ended.
+    """
+
+    law: Law
+    q0: Array
+    target: Array
+    lock_time: Array
+    cycles: bool
+    code: NDArray[np.uint8]
+    reason: NDArray[np.uint8]
+    q_final: Array
+    x_final: Array
+    error: Array
+    closest: Array
+    path_length: Array
+    q_low: Array
+    q_high: Array
+    limits_passed: Flags
+    time: Array
+    _motion: Motion = field(repr=False, compare=False)
+    _setting: Setting = field(repr=False, compare=False)
+
+    def __len__(self) -> int:
+        return int(np.size(self.code))
+
+    @property
+    def outcome(self) -> NDArray[np.str_]:
+        """(N,) ``converged``, ``stuck``, ``moving`` or ``undecided``."""
+        return np.asarray(_NAMES[self.code])
+
+    def counts(self) -> dict[str, int]:
+        """How many runs ended in each way."""
+        found = np.bincount(np.atleast_1d(self.code), minlength=len(Outcome))
+        return {str(name): int(count) for name, count in zip(_NAMES, found, strict=True)}
+
+    @checked
+    @says("looking for the least errors")
+    def least_error(self, restarts: int = 24, seed: int = 0) -> Array:
+        """(N,) least norm of the task's error that each arm can have with its joints standing where they stood at the end.
+
+        Found by damped least squares over the healthy joints, from where the run ended and from random configurations, joint
+        limits left aside as in the run itself: an upper bound of the true least, never above the run's own end.
+
+        Raises:
+            InputError: Fewer than 0 restarts.
+        """
+        if restarts < 0:
+            raise InputError(f"restarts is {restarts}; it must be 0 or more")
+        least = self._motion.least_error(self, restarts, np.random.default_rng(seed))
+        return least if self.code.ndim else least[0]
+
+    @property
+    def excess_error(self) -> Array:
+        """(N,) error at the end minus :meth:`least_error`: 0 where the arm ends as close as it still could."""
+        return np.asarray(self.error - self.least_error())
+
+    @checked
+    def path(self, k: int = 0, samples: int = 400, until: float | None = None) -> Path:
+        """Run k again, sampled at equal times, each as exact as the run itself; in cycles, linear between the sub-steps.
+
+        Args:
+            k: Which run, from 0.
+            samples: How many.
+            until: Up to this time, s or cycles; the whole run if not given.
+
+        Raises:
+            InputError: No such run, one that had bad input, or fewer than 2 samples.
+        """
+        if not 0 <= k < len(self):
+            raise InputError(f"there is no run {k}; runs are 0 to {len(self) - 1}")
+        if samples < 2:
+            raise InputError(f"samples is {samples}; it must be 2 or more")
+        if np.atleast_1d(self.reason)[k] == Reason.BAD_INPUT:
+            raise InputError(f"run {k} has no path: {Reason.BAD_INPUT.sentence}")
+        return self._motion.path(self, k, samples, until)
+
+    def limits_sentence(self, k: int = 0) -> str:
+        """Whether the joints of run k stayed within their limits, for people; empty for an arm without limits.
+
+        It goes with the outcome and does not follow from it: the motion does not heed limits.
+        """
+        arm, low, high = self.law.arm, np.atleast_2d(self.q_low)[k], np.atleast_2d(self.q_high)[k]
+        if not np.isfinite([arm.lower, arm.upper]).any():
+            return ""
+        past = []
+        for joint, name, least, most in zip(arm.joints, arm.joint_names, low, high, strict=True):
+            factor, unit = joint.shown
+            for value, end, beyond in ((least, joint.lower, least < joint.lower), (most, joint.upper, most > joint.upper)):
+                if beyond:
+                    past.append(f"{name} goes to {factor * value:.4g} {unit} (limit {factor * end:.4g} {unit})")
+        if not past:
+            return "All joints stay within their limits."
+        return f"On the way {' and '.join(past)}: a real arm would stop there."
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        counts = self.counts()
+        lines = [
+            f"{len(self)} runs of {self.law.describe()} on '{self.law.arm.name}': "
+            + ", ".join(f"{count} {name}" for name, count in counts.items())
+        ]
+        past = np.atleast_2d(self.limits_passed).any(axis=1)
+        if past.any():
+            there = int((past & (np.atleast_1d(self.code) == Outcome.CONVERGED)).sum())
+            lines.append(f"{int(past.sum())} of them pass a joint limit on the way, {there} of these converge")
+        reasons = np.atleast_1d(self.reason)
+        lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in Reason if r and (reasons == r).any()]
+        return lines
+
+
+_NAMES = np.array([o.name.lower() for o in Outcome])

@@ -1,0 +1,260 @@
+"""The best motion of the joints along a path of the hand: dynamic programming over sampled self-motion manifolds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.errors import InputError
+from holdfast.notice import says
+from holdfast.solvers import joint_space
+from holdfast.solvers.self_motions import STARTS, SelfMotion, fibres
+from holdfast.status import Status, require_ok
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Objective = Callable[[Array], ArrayLike]
+
+
+@dataclass(frozen=True, eq=False)
+class FibrePath:
+    """Configurations along a path of T poses.
+
+    Attributes:
+        q: (T, n) rad and m, one configuration of each pose; joints that turn without limits run on beyond pi. NaN where
+            ``status`` is not OK.
+        value: (T,) of the objective at q.
+        global_value: (T,) the smallest value over all points of the pose's manifold, whether a path leads there or not.
+        global_q: (T, n) where that is.
+        gaps: (G,) every index t at which no continuous motion leads on from ``q[t]`` to pose t + 1: the best path for the
+            poses up to t ends there, and another begins behind it.
+        reach: (T - 1,) largest distance in joint space allowed from one pose to the next, rad (and m).
+        status: (T,) ``OK``, ``NOT_FOUND`` (no configuration of the pose was found), ``INFEASIBLE`` (the objective is NaN or
+            infinite at all of them) or ``BAD_INPUT``.
+    """
+
+    q: Array
+    value: Array
+    global_value: Array
+    global_q: Array
+    gaps: Index
+    reach: Array
+    status: NDArray[np.uint8]
+
+    @property
+    def continuous(self) -> bool:
+        """True if one motion leads along the whole path."""
+        return not self.gaps.size and bool((self.status == Status.OK).all())
+
+    def require_ok(self) -> FibrePath:
+        """Itself, or :class:`holdfast.HoldfastError` naming the first pose without a configuration."""
+        require_ok(self.status, "best path")
+        return self
+
+
+@says("looking for the best path")
+def best_path(
+    arm: Arm,
+    poses: ArrayLike,
+    objective_value: Objective,
+    task: str | Task | Sequence[str] = "pose",
+    spacing: float = 0.05,
+    rate_limit: ArrayLike | None = None,
+    cost: Literal["mean", "max"] = "mean",
+    motion: float = 1e-2,
+    seed: int = 0,
+    starts: int = STARTS,
+) -> FibrePath:
+    """The configurations along a path of poses whose objective is smallest, in mean or at its largest.
+
+    Global, up to the spacing and up to curves that no start of inverse kinematics found. Gradient projection follows one
+    minimum of the objective; this also finds a motion that gives way early to be better later.
+
+    Args:
+        arm: The arm.
+        poses: (T, 4, 4) in the world, T at least 2, close together.
+        objective_value: (N, n) configurations to (N,) values, smaller is better, for example a susceptibility. NaN forbids.
+        task: Rows of the poses that matter.
+        spacing: Of the points of each manifold, rad; see :func:`holdfast.solvers.fibres`.
+        rate_limit: Largest motion of each joint from one pose to the next (speed times time step), rad or m, one number or
+            (n,). The spacing comes on top, as the points are no finer. Without it the distance in joint space must be at
+            most 3 times the spacing and twice what the points of one manifold typically need to reach the next.
+        cost: ``mean`` of the values, or ``max``: the largest value as small as can be, and among those paths the best mean.
+        motion: Weight of the motion: a step as long as allowed costs this share of what the median of all values lies above the
+            smallest; half as long a step, a quarter.
+        seed: Of the starts.
+        starts: Of inverse kinematics per pose.
+
+    Returns:
+        A :class:`FibrePath`; where no continuous path exists it says so and does not jump.
+
+    Raises:
+        InputError: Fewer than 2 poses, an objective of the wrong shape, or options out of range.
+        TaskError: The arm has no redundancy for the task.
+    """
+    if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
+        raise InputError(f"poses have shape {np.shape(poses)}; a path needs (T, 4, 4) with T of 2 or more")
+    found = fibres(arm, poses, task, spacing, seed, starts, follow=True)
+    return best_path_over(arm, found, objective_value, rate_limit, cost, motion)
+
+
+def best_path_over(
+    arm: Arm,
+    found: Sequence[SelfMotion],
+    objective_value: Objective,
+    rate_limit: ArrayLike | None = None,
+    cost: Literal["mean", "max"] = "mean",
+    motion: float = 1e-2,
+) -> FibrePath:
+    """As :func:`best_path` for manifolds that are there already, so that several objectives can share them."""
+    if cost not in ("mean", "max"):
+        raise InputError(f"cost is '{cost}'; use 'mean' or 'max'")
+    if not (np.isfinite(motion) and motion >= 0):
+        raise InputError(f"motion is {motion:g}; it must be 0 or more")
+    limit = _limit(arm, rate_limit)
+    points = [f.q for f in found]
+    values = _values(objective_value, points)
+    steps = [_Step(arm, a, b, f.spacing, limit) for a, b, f in zip(points[:-1], points[1:], found, strict=False)]
+    best = [int(np.argmin(v)) if np.isfinite(v).any() else -1 for v in values]
+    smallest = np.array([v[k] if k >= 0 else np.nan for v, k in zip(values, best, strict=True)])
+    known = np.concatenate(values)[np.isfinite(np.concatenate(values))]
+    weight = motion * float(np.median(known) - known.min()) if known.size else 0.0
+    chosen, gaps = _choose(values, steps, weight, cost)
+    none = np.full(arm.n, np.nan)
+    q = np.array([p[k] if k >= 0 else none for p, k in zip(points, chosen, strict=True)])
+    global_q = np.array([p[k] if k >= 0 else none for p, k in zip(points, best, strict=True)])
+    value = np.array([v[k] if k >= 0 else np.nan for v, k in zip(values, chosen, strict=True)])
+    status = np.array([f.status for f in found], dtype=np.uint8)
+    status[(np.array(best) < 0) & (status == Status.OK)] = Status.INFEASIBLE
+    return FibrePath(
+        _continued(arm, q),
+        value,
+        smallest,
+        global_q,
+        np.array(gaps, dtype=np.int64),
+        np.array([s.reach for s in steps]),
+        status,
+    )
+
+
+class _Step:
+    """The moves that are allowed from the points of one manifold to those of the next.
+
+    Attributes:
+        reach: Largest distance.
+        source, target: (P,) the points of each allowed move.
+        size: (P,) its length, as a share of the reach.
+    """
+
+    def __init__(self, arm: Arm, a: Array, b: Array, spacing: float, limit: Array | None) -> None:
+        self.source = self.target = np.empty(0, dtype=np.int64)
+        self.size, self.reach = np.empty(0), np.nan
+        if not len(a) or not len(b):
+            return
+        if limit is None:
+            self.reach = 3 * spacing + 2 * float(np.median(joint_space.nearest(arm, b, a)[0]))
+        else:
+            self.reach = float(np.linalg.norm(limit + spacing))
+        there = joint_space.tree(arm, b)
+        pairs = joint_space.tree(arm, a).sparse_distance_matrix(there, self.reach, output_type="ndarray")
+        self.source, self.target = pairs["i"].astype(np.int64), pairs["j"].astype(np.int64)
+        self.size = pairs["v"] / self.reach
+        if limit is not None:
+            slow = np.abs(joint_space.difference(arm, b[self.target], a[self.source])) <= limit + spacing
+            keep = slow.all(axis=1)
+            self.source, self.target, self.size = self.source[keep], self.target[keep], self.size[keep]
+
+
+def _choose(values: list[Array], steps: list[_Step], weight: float, cost: str) -> tuple[list[int], list[int]]:
+    """Point chosen at each pose (-1: it has none), and the gaps."""
+    chosen: list[int] = [-1] * len(values)
+    gaps: list[int] = []
+    t = 0
+    while t < len(values):
+        if np.isfinite(values[t]).any():
+            end = _last_reached(values, steps, t)
+            here, moves = values[t : end + 1], steps[t:end]
+            if cost == "max":
+                top, _ = _cheapest(here, moves, np.maximum, 0.0)
+                here = [np.where(v <= top, v, np.inf) for v in here]
+            chosen[t : end + 1] = _cheapest(here, moves, np.add, weight)[1]
+            t = end
+        if t + 1 < len(values):
+            gaps.append(t)
+        t += 1
+    return chosen, gaps
+
+
+def _last_reached(values: list[Array], steps: list[_Step], start: int) -> int:
+    """The last pose to which some point of pose ``start`` leads."""
+    alive = np.isfinite(values[start])
+    for t in range(start, len(steps)):
+        after = np.zeros(values[t + 1].size, dtype=bool)
+        after[steps[t].target[alive[steps[t].source]]] = True
+        after &= np.isfinite(values[t + 1])
+        if not after.any():
+            return t
+        alive = after
+    return len(steps)
+
+
+def _cheapest(
+    values: list[Array], steps: list[_Step], join: Callable[[Array, Array], Array], weight: float
+) -> tuple[float, list[int]]:
+    """Smallest joined value of the paths from the first pose to the last, and the points of one that has it."""
+    total = values[0]
+    came: list[Index] = []
+    for value, step in zip(values[1:], steps, strict=True):
+        price = total[step.source] + weight * step.size**2
+        order = np.lexsort((price, step.target))
+        target, first = np.unique(step.target[order], return_index=True)
+        before = np.full(value.size, -1)
+        before[target] = step.source[order[first]]
+        total = np.full(value.size, np.inf)
+        total[target] = join(price[order[first]], value[target])
+        came.append(before)
+    k = int(np.argmin(total))
+    points = [k]
+    for before in reversed(came):
+        points.append(int(before[points[-1]]))
+    return float(total[k]), points[::-1]
+
+
+def _values(objective_value: Objective, points: list[Array]) -> list[Array]:
+    """Values at the points of each pose; infinite where the objective is NaN."""
+    every = np.concatenate(points)
+    value = np.asarray(objective_value(every), dtype=np.float64)
+    if value.shape != (len(every),):
+        raise InputError(
+            f"the objective gives shape {value.shape} for {len(every)} configurations; it must give one value each"
+        )
+    value = np.where(np.isnan(value), np.inf, value)
+    return np.split(value, np.cumsum([len(p) for p in points])[:-1])
+
+
+def _limit(arm: Arm, rate_limit: ArrayLike | None) -> Array | None:
+    if rate_limit is None:
+        return None
+    limit = np.asarray(rate_limit, dtype=np.float64)
+    if limit.shape not in ((), (arm.n,)) or not (np.isfinite(limit) & (limit > 0)).all():
+        raise InputError(
+            f"rate_limit is {limit.tolist()}; it must be one number or {arm.n}, above 0, rad or m from pose to pose"
+        )
+    return np.broadcast_to(limit, (arm.n,))
+
+
+def _continued(arm: Arm, q: Array) -> Array:
+    """Joints that turn without limits take the short way from one pose to the next, whatever the pi they pass."""
+    moved = np.nan_to_num(joint_space.difference(arm, q[1:], q[:-1]))
+    unbroken: NDArray[np.bool_] = np.asarray(np.isfinite(q).all(axis=1))
+    out = q.copy()
+    for t in range(1, len(q)):
+        if unbroken[t] and unbroken[t - 1]:
+            out[t] = np.where(joint_space.turning(arm), out[t - 1] + moved[t - 1], q[t])
+    return out

@@ -1,0 +1,1 @@
+"""The arm and what is drawn around it."""

@@ -1,0 +1,118 @@
+"""What a failure takes from the hand at one configuration: from the Jacobian alone, in plain NumPy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.indices.index import SINGULAR_RATIO
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Ellipsoid:
+    """Velocities of the tool point that joint rates of norm 1 give; Yoshikawa 1985.
+
+    Attributes:
+        axes: (3, 3) its principal axes as the columns of a rotation, world frame.
+        radii: (3,) m/s for rates of norm 1, in the order of the axes, largest first.
+    """
+
+    axes: Array
+    radii: Array
+
+
+@dataclass(frozen=True)
+class Loss:
+    """A direction of the task in which a failure takes speed away.
+
+    Attributes:
+        kept: Share of the healthy arm's speed that is left in this direction, 0 (lost) to 1, at rates of norm 1.
+        direction: (m,) unit vector of the task's rows: what the Jacobian's left vectors are made of.
+    """
+
+    kept: float
+    direction: Array
+
+    @property
+    def lost(self) -> bool:
+        """True if no motion that has a part in this direction is possible any more."""
+        return self.kept <= 1e-6
+
+
+def ellipsoid(j: Array, failed: Sequence[int] = ()) -> Ellipsoid:
+    """The manipulability ellipsoid of the tool point.
+
+    Args:
+        j: (3, n) linear rows of the Jacobian, world frame.
+        failed: Joints, from 0, that stand still.
+    """
+    u, sigma, _ = np.linalg.svd(without(j, failed), full_matrices=True)
+    radii = np.zeros(3)
+    radii[: sigma.size] = sigma
+    if np.linalg.det(u) < 0:
+        u = u * np.array([1.0, 1.0, -1.0])
+    return Ellipsoid(u, radii)
+
+
+def losses(j: Array, failed: Sequence[int]) -> list[Loss]:
+    """The directions in which locking joints takes most speed away, worst first; as many as joints fail, at most m.
+
+    With ``J = U S V'`` and W the failed joints' rows of V, the reduced Gram matrix is ``U S (I - W'W) S U'``: along
+    ``u = U S^-1 w`` with w a right singular vector of W, speeds shrink to ``sqrt(1 - sigma(W)^2)``, and across these
+    directions nothing changes. Of one joint k this share is its relative manipulability rho_k (Abdi et al. 2012, eq. (3)).
+    Directions that the healthy arm does not have either are left out.
+
+    Args:
+        j: (m, n) task Jacobian.
+        failed: Joints, from 0, that stand still.
+    """
+    if not len(failed):
+        return []
+    u, sigma, vt = np.linalg.svd(j, full_matrices=False)
+    rank = int((sigma > SINGULAR_RATIO * sigma[0]).sum()) if sigma.size and sigma[0] > 0 else 0
+    if rank == 0:
+        return []
+    w = vt[:rank, list(failed)].T  # (failed, rank)
+    _, share, right = np.linalg.svd(w, full_matrices=False)
+    # cos(asin(x)) loses digits near 1; the null space says the same without: 1 - s^2 = (1 - s)(1 + s).
+    kept = np.sqrt(np.clip((1 - share) * (1 + share), 0.0, 1.0))
+    out = []
+    for k, direction in zip(kept, right, strict=True):
+        along = u[:, :rank] @ (direction / sigma[:rank])
+        out.append(Loss(float(k), along / np.linalg.norm(along)))
+    return sorted(out, key=lambda loss: loss.kept)
+
+
+def manipulability_kept(found: Sequence[Loss]) -> float:
+    """``sqrt(det(Jf Jf') / det(J J'))`` of any failed set: the product of the shares; Abdi et al. 2012, eq. (3)."""
+    return float(np.prod([loss.kept for loss in found]))
+
+
+def null_directions(j: Array, failed: Sequence[int]) -> Array:
+    """Joint rates (r, n) of norm 1 that leave the hand's task velocity at 0, failed joints standing; orthonormal.
+
+    Args:
+        j: (m, n) task Jacobian.
+        failed: Joints, from 0, that stand still.
+    """
+    n = j.shape[1]
+    moving = [k for k in range(n) if k not in set(failed)]
+    if not moving:
+        return np.zeros((0, n))
+    _, sigma, vt = np.linalg.svd(j[:, moving], full_matrices=True)
+    rank = int((sigma > 1e-9 * max(float(sigma.max(initial=0.0)), 1e-300)).sum())
+    basis = np.zeros((len(moving) - rank, n))
+    basis[:, moving] = vt[rank:]
+    return basis
+
+
+def without(j: Array, failed: Sequence[int]) -> Array:
+    """The reduced Jacobian: columns of failed joints set to 0, so that its shape stays."""
+    out = np.array(j)
+    out[:, list(failed)] = 0.0
+    return out

@@ -1,0 +1,74 @@
+"""What a reader must know about the numbers of an analysis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from holdfast.teleop.analysis.groups import Cells, Groups
+from holdfast.teleop.analysis.observations import Observed
+from holdfast.words import counted
+
+
+def notes(
+    observed: Observed,
+    machine: Observed | None,
+    conditions: Sequence[int],
+    grouped: Groups,
+    cells: Cells,
+    left_out: Sequence[str],
+    normalise: str,
+) -> Iterator[str]:
+    """One sentence or two each."""
+    if observed.kind == "simulated":
+        yield "The operators are simulated: these numbers tell about the simulation, not about people."
+    if left_out:
+        yield f"{counted(len(left_out), 'subject')} left out of everything because of empty cells: {', '.join(left_out)}."
+    lost = observed.cause != ""
+    if lost.any():
+        where = ", ".join(
+            f"{int(lost[:, :, k].sum())} in scenario {c.scenario}"
+            for k, c in enumerate(observed.conditions)
+            if lost[:, :, k].any()
+        )
+        yield (
+            f"{counted(int(lost.sum()), 'trial')} of {lost.size:,} {'has' if lost.sum() == 1 else 'have'} no CPM "
+            f"({where}). Means are over the "
+            "trials that arrived, which flatters a law under which the hardest ones do not."
+        )
+    short = cells.tasks < grouped.sizes
+    if short.any():
+        fewest = int((grouped.sizes - cells.tasks).max())
+        yield (
+            f"{int(short.sum())} of {short.size} cell means are over fewer tasks than their group has, at most {fewest} fewer; "
+            "the table of cells counts the tasks of each."
+        )
+    unknown = [observed.tasks[t] for t in np.flatnonzero(~np.isfinite(grouped.difficulty))]
+    if unknown:
+        yield (
+            f"Task {', '.join(map(str, unknown))}: no difficulty is known, because the reference trial was not completed by "
+            f"{'the computer' if grouped.by == 'computer' else 'most operators'}; counted as the most difficult."
+        )
+    if grouped.by == "operators":
+        yield (
+            "Tasks are grouped by the operators' own CPM of the reference scenario. The effect of difficulty is "
+            "therefore built "
+            "in, and so is a part of the interaction: a task that went badly there by chance looks as if another law helped. "
+            "Grouping by the computer's CPM does not have this."
+        )
+    if len(set(grouped.sizes.tolist())) > 1:
+        yield f"The groups have {', '.join(map(str, grouped.sizes))} tasks: those left over went to the easiest groups."
+    if not observed.rated:
+        yield "Nobody rated a trial: CPM is the sum of eleven measures, without the operators' own."
+    yield (
+        "Each measure is divided in CPM by its largest value, which is that of one extreme trial. Levels of CPM compare within "
+        "this analysis only; ratios and single measures compare with others."
+    )
+    if machine is not None:
+        yield (
+            "CPM of operators and of the computer are divided by common largest measures."
+            if normalise == "together"
+            else "CPM of operators and of the computer are each divided by their own largest measures, and are "
+            "on different scales."
+        )

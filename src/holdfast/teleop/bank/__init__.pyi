@@ -1,0 +1,11 @@
+from holdfast.teleop.bank.selection import Binning as Binning
+from holdfast.teleop.bank.selection import Detour as Detour
+from holdfast.teleop.bank.selection import binning as binning
+from holdfast.teleop.bank.selection import can_be_steered as can_be_steered
+from holdfast.teleop.bank.selection import most_disorienting as most_disorienting
+from holdfast.teleop.bank.selection import select as select
+from holdfast.teleop.bank.selection import trapped as trapped
+from holdfast.teleop.bank.tasks import TaskBank as TaskBank
+from holdfast.teleop.bank.tasks import random_tasks as random_tasks
+from holdfast.teleop.bank.tasks import run as run
+from holdfast.teleop.bank.tasks import task_bank as task_bank

@@ -1,0 +1,5 @@
+"""The plan of an experiment: conditions, order, texts, the arm on the page."""
+
+from holdfast._lazy import offer
+
+offer(__name__)

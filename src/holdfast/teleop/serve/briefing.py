@@ -1,0 +1,99 @@
+"""What the page must know of the experiment: ``/study.json``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
+from holdfast.teleop.protocol.protocol import Protocol
+from holdfast.teleop.records.session import training_scenario
+from holdfast.teleop.serve.texts import Texts
+
+Array = NDArray[np.float64]
+
+FORMAT = 1
+_PARALLEL = 1e-9
+
+
+def study(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
+    """The experiment as JSON takes it; nothing in it tells the subject what is compared, not even the protocol's name.
+
+    Args:
+        protocol: Of the experiment.
+        texts: That the page shows.
+        tlx: Ask for the NASA task load index.
+    """
+    from holdfast.teleop.protocol.printed_arm import law_of  # it knows how /arm.js counts them
+
+    centre, reach = workspace(protocol.arm, protocol.rows)
+    training = protocol.training
+    return {
+        "format": FORMAT,
+        "joints": protocol.arm.n,
+        "axes": protocol.rows.m,
+        "rate": protocol.rate,
+        "stick": {"limit": protocol.stick.limit, "dead_zone": protocol.stick.dead_zone},
+        "radius": protocol.radius,
+        "cycle_limit": protocol.cycle_limit,
+        "rating": list(protocol.rating),
+        "training": {
+            "at_least": training.at_least,
+            "in_a_row": training.in_a_row,
+            "limit": training.limit,
+            "most": training.most,
+        },
+        "training_law": law_of(protocol)[training_scenario(protocol)],
+        "reach": reach,
+        "centre": centre,
+        "views": views(protocol),
+        "texts": dict(texts.strings),
+        "forms": list(texts.forms),
+        "tlx": tlx,
+    }
+
+
+def views(protocol: Protocol) -> list[dict[str, Any]]:
+    """The windows on the arm: each shows points of the base frame on two axes.
+
+    One for the two rows of a planar task; from above and from the side for a task of three rows.
+    """
+    rows = protocol.rows.rows[:, :3]
+    if len(rows) == 1:
+        other = np.eye(3)[int(np.argmin(np.abs(rows[0])))]
+        across = other - (other @ rows[0]) * rows[0] / (rows[0] @ rows[0])
+        pairs = [np.stack([rows[0], across])]
+    elif len(rows) == 2:
+        pairs = [rows]
+    else:
+        pairs = [rows[[0, 1]], rows[[0, 2]]]
+    return [{"label": ", ".join(_axis(row) for row in pair), "rows": pair.tolist()} for pair in pairs]
+
+
+def workspace(arm: Arm, task: Task) -> tuple[list[float], float | None]:
+    """Centre, m, and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first joint.
+
+    The radius is None for an arm that is not planar, or that has sliding joints. Joint limits play no part.
+    """
+    place, places, axes = arm.base, [], []
+    for joint in arm.joints:
+        place = place @ joint.origin
+        places.append(place[:3, 3])
+        axes.append(place[:3, :3] @ joint.axis)
+    centre = places[0].tolist()
+    rows = task.rows[:, :3]
+    if arm.prismatic.any() or len(rows) != 2:
+        return centre, None
+    normal = np.cross(*rows)
+    if np.abs(np.cross(axes, normal)).max() > _PARALLEL:
+        return centre, None
+    flat = np.array([*places, (place @ arm.tool)[:3, 3]]) @ rows.T
+    return centre, float(np.linalg.norm(np.diff(flat, axis=0), axis=1).sum())
+
+
+def _axis(row: Array) -> str:
+    k = int(np.argmax(np.abs(row)))
+    return ("" if row[k] > 0 else "-") + "xyz"[k]

@@ -1,0 +1,106 @@
+"""Numbers and words as people read them."""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+import numpy as np
+
+_ZERO = 1e-9
+
+
+class Probability(Protocol):
+    """A value with its confidence interval."""
+
+    @property
+    def value(self) -> float:
+        """The estimate."""
+
+    @property
+    def low(self) -> float:
+        """Lower end."""
+
+    @property
+    def high(self) -> float:
+        """Upper end."""
+
+    @property
+    def confidence(self) -> float:
+        """Of the interval, 0 to 1."""
+
+
+def number(x: float) -> str:
+    """Three digits or so, alike in a column of values of one kind; what is below 1e-9 is rounding and reads 0."""
+    if np.isnan(x):
+        return "–"
+    if np.isinf(x):
+        return "∞" if x > 0 else "−∞"
+    size = abs(x)
+    if size < _ZERO:
+        return "0"
+    if size < 1e-3 or size >= 1e7:
+        digits, exponent = f"{x:.1e}".split("e")
+        text = f"{digits}e{int(exponent)}"
+    else:
+        text = f"{x:.3f}" if size < 10 else f"{x:,.1f}" if size < 1000 else f"{x:,.0f}"
+    return text.replace("-", "−")
+
+
+def fixed(x: float, digits: int) -> str:
+    """So many decimals, and no minus in front of zeros."""
+    return f"{round(float(x), digits) + 0.0:.{digits}f}".replace("-", "−")
+
+
+def as_given(x: float) -> str:
+    """A number somebody chose, as it was chosen."""
+    return f"{x:.6g}".replace("-", "−")
+
+
+def percent(share: float) -> str:
+    """A share: one decimal, and 0 % or 100 % only if it is."""
+    value = 100 * share
+    if 0 < value < 0.05:
+        return "<0.1 %"
+    if 99.95 <= value < 100:
+        return ">99.9 %"
+    return f"{value:.0f} %" if value in (0, 100) else f"{value:.1f} %"
+
+
+def interval(p: Probability) -> str:
+    """``0.49 (0.47 to 0.51, 95 %)`` with as many digits as it deserves."""
+    half = max((p.high - p.low) / 2, 1e-6)
+    digits = int(np.clip(math.ceil(0.3 - math.log10(half)), 2, 6))
+    return f"{p.value:.{digits}f} ({p.low:.{digits}f} to {p.high:.{digits}f}, {100 * p.confidence:.4g} %)"
+
+
+def share(count: int, whole: int) -> str:
+    """A count with its share of the whole and the exact 95 % interval of that."""
+    if not whole:
+        return f"{count:,}"
+    from holdfast.probability.intervals import Interval
+
+    limits = Interval.of(count, whole)
+    low, high = (percent(round(x, 9)) for x in (limits.low, limits.high))
+    return f"{count:,} ({percent(count / whole)}, 95 % interval {low.removesuffix(' %')} to {high})"
+
+
+def on_one_line(text: str, most: int = 60) -> str:
+    """What can be printed of a text, on one line, shortened to ``most`` characters."""
+    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return line if len(line) <= most else line[: most - 1] + "…"
+
+
+def counted(count: int, noun: str) -> str:
+    """``1 pose``, ``2 poses``."""
+    return f"{count:,} {noun}" + ("" if count == 1 else "s")
+
+
+def article(word: str) -> str:
+    """``a`` or ``an``."""
+    return "an" if word[:1].lower() in "aeiou" else "a"
+
+
+def either(words: list[str]) -> str:
+    """``a, b or c``."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"

@@ -1,0 +1,91 @@
+"""Single points of failure by structure, against the rank of reduced Jacobians computed without the library."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import oracles
+from holdfast import arms
+from holdfast.assessment import Structure, explain, structure, structures
+
+SPATIAL = ["pose", "pointing", "position"]
+PLANAR = ["planar-pose", "planar"]
+
+
+def fatal_by_rank(arm, task) -> tuple[tuple[int, ...], bool]:
+    """Joints without which the Jacobian has no full row rank at any of 60 configurations, and whether the whole has none."""
+    q = np.random.default_rng(99).uniform(-3, 3, (60, arm.n))
+    j = oracles.task_jacobian(arm, q, task)
+
+    def deficient(matrix):
+        if matrix.shape[2] < matrix.shape[1]:
+            return True
+        s = np.linalg.svd(matrix, compute_uv=False)
+        return bool((s[:, -1] < 1e-9 * s[:, 0]).all())
+
+    return tuple(k for k in range(arm.n) if deficient(np.delete(j, k, axis=2))), deficient(j)
+
+
+@pytest.mark.parametrize("name", arms.names())
+def test_every_built_in_arm_against_ranks(name):
+    arm = arms.load(name)
+    found = structures(arm)
+    assert [s.task for s in found] == (PLANAR if name.startswith("planar") else SPATIAL)
+    for s in found:
+        fatal, never = fatal_by_rank(arm, s.task)
+        rows = {"pose": 6, "pointing": 5, "position": 3, "planar": 2, "planar-pose": 3}[s.task]
+        assert s.redundancy == arm.n - rows
+        assert s.fatal == fatal, (s, fatal)
+        if s.redundancy > 0:
+            assert s.never == never
+        assert s.survives == (not fatal and not never)
+
+
+@pytest.mark.parametrize(
+    ("name", "task", "fatal"),
+    [
+        ("pa10-7dof", "pose", (3,)),
+        ("pa10-7dof", "pointing", (3,)),
+        ("pa10-7dof", "position", ()),
+        ("iiwa14", "pose", (3,)),
+        ("iiwa14", "pointing", (3,)),
+        ("pa10-9dof", "pose", ()),
+        ("planar-3r", "planar", ()),
+        ("planar-3r", "planar-pose", (0, 1, 2)),
+        ("planar-2r", "planar", (0, 1)),
+        ("ur5", "pose", (0, 1, 2, 3, 4, 5)),
+    ],
+)
+def test_known_arms(name, task, fatal):
+    """Specification, section 7: without the elbow the PA10-7C is singular everywhere; two more joints help."""
+    assert structure(arms.load(name), task).fatal == fatal
+
+
+def test_a_random_arm_has_none_until_it_loses_its_redundancy(rng):
+    seven = oracles.random_arm(rng, types="RRRPRRR")
+    assert structure(seven, "pose") == Structure("pose", 1, (), False)
+    six = seven.__class__("six", seven.joints[:6])
+    assert structure(six, "pose") == Structure("pose", 0, tuple(range(6)), False)
+    assert structure(six, ["vx", "vy", "wz"]).survives
+
+
+def test_an_arm_that_can_never_do_the_task(planar4):
+    """Four joints in a plane for three positions in space."""
+    s = structure(planar4, "position")
+    assert s.never
+    assert not s.survives
+    assert "never" in explain(planar4, s, structures(planar4))
+    assert "planar" in explain(planar4, s, structures(planar4))
+
+
+def test_sentences_for_people():
+    arm = arms.load("pa10-7dof")
+    pose, pointing, position = structures(arm)
+    text = explain(arm, pose, [pose, pointing, position])
+    assert "joint4 (joint 4)" in text
+    assert text.endswith("position.")
+    assert "pointing" not in text
+    assert "No single joint" in explain(arm, position, [])
+    ur5 = arms.load("ur5")
+    assert "not redundant" in explain(ur5, structure(ur5, "pose"), structures(ur5))

@@ -1,0 +1,246 @@
+"""Control laws on the same motions, against runs one by one, closed forms and finely sampled paths."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast.arm.scale import length_unit
+from holdfast.present.convergence import law_comparison as compare_laws_report
+from holdfast.report import page
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
+
+LIMIT = 300.0  # 1/Ke
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return hf.arms.load("planar-3r")
+
+
+@pytest.fixture(scope="module")
+def motions(arm, generator):
+    return hf.point_to_point(arm, 30, seed=int(generator("laws").integers(1 << 30)))
+
+
+@pytest.fixture(scope="module")
+def laws(arm):
+    return [hf.control.pseudoinverse(arm, "planar"), hf.control.damped(arm, 0.3, "planar")]
+
+
+@pytest.fixture(scope="module")
+def compared(laws, motions):
+    return hf.compare_laws(laws, motions.q0, motions.target, time_limit=LIMIT)
+
+
+def test_every_case_is_a_simulation_of_its_own(compared, laws, motions):
+    for law in laws:
+        for failure in compared.failures:
+            case = compared.case(law.label, failure)
+            locked = [] if failure == "healthy" else [failure]
+            alone = hf.simulate(law, motions.q0, motions.target, locked, time_limit=LIMIT)
+            np.testing.assert_array_equal(case.code, alone.code)
+            np.testing.assert_array_equal(case.error, alone.error)
+            np.testing.assert_array_equal(case.past_limits, alone.limits_passed.any(axis=1))
+            np.testing.assert_allclose(case.excursion, (alone.q_high - alone.q_low).sum(axis=1))
+            assert case.share("stuck").value == pytest.approx(alone.counts()["stuck"] / 30)
+
+
+def test_least_errors_are_those_of_the_triangle(compared, motions):
+    """A locked joint leaves two links, which reach a ring: closed form."""
+    x, q = motions.target[:, :2, 3], motions.q0
+    for joint in range(3):
+        bent = np.abs(1 + np.exp(1j * q[:, joint]))
+        at = np.stack([np.cos(q[:, 0]), np.sin(q[:, 0])], axis=1) if joint == 0 else 0.0
+        first, second = [(1.0, 1.0), (bent, 1.0), (1.0, bent)][joint]
+        r = np.linalg.norm(x - at, axis=1)
+        least = np.maximum(np.maximum(r - (first + second), np.abs(first - second) - r), 0.0)
+        np.testing.assert_allclose(compared.least_error[1 + joint], least, atol=1e-5)
+        for name in compared.names:
+            case = compared.case(name, joint)
+            clear = np.abs(least - 1e-5) > 9e-6
+            np.testing.assert_array_equal(case.reachable[clear], (least <= 1e-5)[clear])
+            assert (case.excess >= 0).all()
+            assert not (case.ended("converged") & ~case.reachable).any()
+
+
+def test_the_healthy_pseudoinverse_costs_nothing_but_time(compared, motions):
+    """It goes straight, and its error falls as exp(-Ke t): closed form."""
+    cost = compared.healthy[0]
+    assert cost.deviation.max() < 1e-7
+    assert cost.angle.max() < 1e-6
+    expected = np.log(compared.way / (1e-3 * length_unit(compared.arm)))
+    np.testing.assert_allclose(cost.time, np.maximum(expected, 0.0), atol=1e-5)
+    np.testing.assert_allclose(compared.way, motions.distance, atol=1e-12)
+    case = compared.case("pseudoinverse")
+    np.testing.assert_allclose(case.path_ratio, 1.0, atol=1e-5)
+
+
+def test_the_cost_of_damping_is_that_of_the_path(compared, laws, motions):
+    """Against a finely sampled path of each run."""
+    law, cost = laws[1], compared.healthy[1]
+    runs = hf.simulate(law, motions.q0, motions.target, time_limit=LIMIT)
+    for k in range(4):
+        path = runs.path(k, 4000, until=40.0)
+        start, goal = path.x[0, :2], motions.target[k, :2, 3]
+        along = (goal - start) / np.linalg.norm(goal - start)
+        left = path.x[:, :2] - start
+        off = np.abs(left @ np.array([-along[1], along[0]])).max()
+        assert cost.deviation[k] <= off + 1e-9
+        assert cost.deviation[k] == pytest.approx(off, rel=0.05, abs=1e-4)
+        near = 1e-3 * length_unit(law.arm)
+        late = np.flatnonzero(path.error > near)
+        if late[-1] + 1 < len(path.time):
+            assert cost.time[k] == pytest.approx(path.time[late[-1] + 1], abs=0.05)
+        error = np.hstack([goal - path.x[:, :2]])
+        rates = law.velocity(path.q, error)
+        moved = np.einsum("nij,nj->ni", law.arm.jacobian(path.q)[:, :2], rates)
+        cosine = (moved * error).sum(axis=1) / np.linalg.norm(moved, axis=1) / np.linalg.norm(error, axis=1)
+        angle = np.arccos(np.clip(cosine, -1, 1))[path.error > near].max()
+        assert cost.angle[k] <= angle * (1 + 1e-3) + 1e-6
+        assert cost.angle[k] == pytest.approx(angle, rel=0.2, abs=0.02)
+
+
+def test_differences_are_paired(compared):
+    name = "damped:0.3"
+    for joint in compared.joints:
+        before, after = (compared.case(n, joint).ended("converged") for n in compared.names)
+        assert compared.gain(name, joint).value == pytest.approx(after.mean() - before.mean())
+        errors = [compared.case(n, joint).error for n in compared.names]
+        assert compared.change(name, "error", joint).value == pytest.approx((errors[1] - errors[0]).mean())
+    every = compared.gain(name)
+    assert every.value == pytest.approx(np.mean([compared.gain(name, j).value for j in compared.joints]))
+    assert every.low <= every.value <= every.high
+    low, high = compared.gain(name, undecided="against"), compared.gain(name, undecided="for")
+    assert low.value <= every.value <= high.value
+    same = compared.gain("pseudoinverse", 1, than="pseudoinverse", among_reachable=True)
+    assert (same.value, same.p_value) == (0, 1)
+    pooled = compared.share_any(name)
+    assert pooled.value == pytest.approx(np.mean([compared.case(name, j).ended("converged").mean() for j in compared.joints]))
+    assert pooled.low < pooled.value < pooled.high
+
+
+def test_the_table_holds_what_the_cases_hold(compared):
+    assert len(compared.table) == 2 * 4
+    for row in compared.table:
+        case = compared.case(row["law"], row["failure"])
+        assert sum(row[o] for o in ("converged", "stuck", "moving", "undecided")) == pytest.approx(1)
+        assert row["converged_low"] <= row["converged"] <= row["converged_high"]
+        assert row["error_50"] == pytest.approx(np.median(case.error))
+        assert row["converged_within_limits"] <= min(row["converged"], 1 - row["past_limits"] + 1e-12)
+    assert any("pseudoinverse" in line for line in compared.describe())
+
+
+def test_a_row_of_the_table_by_runs_of_scipy(compared, motions, arm):
+    """Outcomes, errors, ways and excursions with joint 2 locked, from an integrator and a law of its own."""
+    row = next(r for r in compared.table if r["law"] == compared.names[1] and r["failure"] == "joint2")
+    error, closest, ratio, excursion, past, least, there = (np.zeros(30) for _ in range(7))
+    for k, (q0, pose) in enumerate(zip(motions.q0, motions.target, strict=True)):
+        target = pose[:2, 3]
+        run = oracles.planar_run([1, 1, 1], 0.3, q0, target, 1, LIMIT, 1e-7)
+        at = run.sol(np.linspace(0, run.t[-1] ** 0.2, 4000) ** 5).T
+        hand = oracles.planar_hand([1, 1, 1], at)
+        far = np.linalg.norm(target - hand, axis=1)
+        error[k], closest[k], there[k] = far[-1], far.min(), run.t_events[0].size
+        ratio[k] = np.linalg.norm(np.diff(hand, axis=0), axis=1).sum() / far[0]
+        excursion[k] = np.ptp(at, axis=0).sum()
+        past[k] = ((at < arm.lower) | (at > arm.upper)).any()
+        middle, inner, outer = oracles.two_link_ring([1, 1, 1], 1, q0[1])
+        r = np.linalg.norm(target - middle)
+        least[k] = max(inner - r, r - outer, 0.0)
+    assert row["converged"] == pytest.approx(there.mean())
+    assert row["reachable"] == pytest.approx((least == 0).mean())
+    assert row["past_limits"] == pytest.approx(past.mean())
+    for level in (5, 25, 50, 75, 95):
+        assert row[f"error_{level:02d}"] == pytest.approx(np.quantile(error, level / 100), abs=1e-5)
+        assert row[f"excess_{level:02d}"] == pytest.approx(np.quantile(error - least, level / 100), abs=1e-5)
+    assert row["closest"] == pytest.approx(np.median(closest), abs=1e-5)
+    assert row["path_ratio"] == pytest.approx(np.median(ratio), rel=1e-3)
+    assert row["excursion"] == pytest.approx(np.median(excursion), rel=1e-3)
+    assert row["astray"] == pytest.approx(np.median(error[there == 0]), abs=1e-5)
+
+
+def test_the_report_is_well_formed_and_its_tables_can_be_read(compared, tmp_path):
+    html = compared.report(tmp_path / "r.html", "holdfast compare x", "some <motions>").read_text(encoding="utf-8")
+    check(html)
+    assert "some &lt;motions&gt;" in html
+    assert "95 %" in html
+    files = {}
+    for file in compared.save(tmp_path / "tables"):
+        with file.open(encoding="utf-8", newline="") as stream:
+            files[file.name] = len(list(csv.DictReader(stream)))
+    assert files == {
+        "outcomes.csv": 8,
+        "healthy.csv": 2,
+        "gains.csv": 4,
+        "runs.csv": 240,
+    }
+    with pytest.raises(hf.StoreError):
+        compared.save(tmp_path / "r.html")
+
+
+def test_nothing_failed_and_control_cycles(laws, motions):
+    limited = hf.control.pseudoinverse(laws[0].arm, "planar", speed_limit=0.05)
+    found = hf.compare_laws([limited], motions.q0[:4], motions.target[:4], locked=None, cycles=True)
+    case = found.case("pseudoinverse")
+    assert found.joints == ()
+    assert case.ended("converged").all()
+    # Straight on at 0.05 m per cycle until within 0.1 m, give or take a cycle for the Euler steps.
+    expected = np.ceil((found.way - 0.1) / 0.05)
+    assert (np.abs(found.healthy[0].time - expected) <= 1.5).all()
+    assert found.healthy[0].deviation.max() < 0.02
+    check(compare_html(found))
+    with pytest.raises(hf.InputError, match="no joint was locked"):
+        found.pooled("pseudoinverse", "error")
+
+
+def compare_html(found):
+    return page.render(compare_laws_report.build(found))
+
+
+def test_bad_rows_stay_theirs(laws, motions):
+    q0 = motions.q0[:3].copy()
+    q0[1, 0] = np.nan
+    found = hf.compare_laws({"a": laws[0]}, q0, motions.target[0], locked=["joint2"], time_limit=LIMIT)
+    case = found.case("a", "joint2")
+    assert case.ended("undecided")[1]
+    assert np.isfinite(case.error[[0, 2]]).all()
+    assert np.isnan(found.healthy[0].time[1])
+    check(compare_html(found))
+
+
+def test_targets_as_the_rows_of_the_task(laws, motions, compared):
+    found = hf.compare_laws(laws[:1], motions.q0[:5], motions.target[:5, :2, 3], locked=[1], time_limit=LIMIT)
+    np.testing.assert_allclose(found.way, compared.way[:5], atol=1e-12)
+    np.testing.assert_array_equal(found.case("pseudoinverse", 1).code, compared.case("pseudoinverse", 1).code[:5])
+    np.testing.assert_allclose(found.healthy[0].time, compared.healthy[0].time[:5], rtol=1e-6)
+
+
+def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
+    q0, target = motions.q0, motions.target
+    other = hf.control.damped(pa10_7, 0.1, "position")
+    for arguments, words in [
+        (([], q0, target), "no law to compare"),
+        (([laws[0], laws[0]], q0, target), "two laws are called 'pseudoinverse'"),
+        (([laws[0], other], q0, target), "of another arm or task"),
+        ((laws, q0[:3], target[:2]), "q0 has 3 rows and target 2"),
+        ((laws, q0, target, "all"), "locked is 'all'"),
+        ((laws, q0, target, [1, "joint2"]), "names a joint twice"),
+    ]:
+        with pytest.raises(hf.InputError, match=words):
+            hf.compare_laws(*arguments)
+    for call, words in [
+        (lambda: compared.case("magic"), "there is no law 'magic'"),
+        (lambda: compared.case("pseudoinverse", "elbow"), "'elbow' was not locked"),
+        (lambda: compared.case("pseudoinverse").share("lost"), "outcome 'lost'"),
+    ]:
+        with pytest.raises(hf.InputError, match=words):
+            call()
