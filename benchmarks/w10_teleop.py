@@ -104,8 +104,7 @@ def eleven(q: np.ndarray, x: np.ndarray, v: np.ndarray, a: np.ndarray, target: n
 
 def bank(chosen: argparse.Namespace) -> str:
     from holdfast import arms
-    from holdfast.teleop.bank import TaskBank, random_tasks, run
-    from holdfast.teleop.trials import SCENARIOS
+    from holdfast.teleop import SCENARIOS, TaskBank, random_tasks, run
 
     each, few = (20, 2) if chosen.quick else (400, 10)
     arm = arms.load("planar-3r")
@@ -162,9 +161,7 @@ def bank(chosen: argparse.Namespace) -> str:
 
 
 def experiment(chosen: argparse.Namespace) -> str:
-    from holdfast.teleop import simulate_experiment
-    from holdfast.teleop.protocol import read_protocol
-    from holdfast.teleop.records import Kind, replay
+    from holdfast.teleop import Kind, read_protocol, replay, simulate_experiment
 
     protocol = read_protocol()
     people = 2 if chosen.quick else 24
@@ -191,7 +188,7 @@ def experiment(chosen: argparse.Namespace) -> str:
 
 
 def one_cycle(chosen: argparse.Namespace) -> str:
-    from holdfast.teleop.protocol import read_protocol
+    from holdfast.teleop import read_protocol
 
     calls = 100 if chosen.quick else chosen.calls
     protocol = read_protocol()

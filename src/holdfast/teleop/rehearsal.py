@@ -33,7 +33,7 @@ def simulate_experiment(
     Args:
         folder: A new or empty folder.
         protocol: What is done.
-        operators: How many, drawn from :func:`holdfast.teleop.trials.population`, or who.
+        operators: How many, drawn from :func:`holdfast.teleop.population`, or who.
         seed: Of the people and of their noise.
         progress: Is told how far it is.
 

@@ -19,7 +19,7 @@ Rows = dict[str, NDArray[Any]]
 
 
 class BankJob(LawJob):
-    """Tasks as :func:`holdfast.teleop.bank.task_bank` makes them; a row is a task for each joint that fails.
+    """Tasks as :func:`holdfast.teleop.task_bank` makes them; a row is a task for each joint that fails.
 
     Attributes:
         plan: Arm, task, law, distance.

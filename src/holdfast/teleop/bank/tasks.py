@@ -128,12 +128,12 @@ def run(
         tasks: N tasks.
         operator: Who holds the stick; the computer if not given.
         scenarios: The S conditions.
-        stick: As :class:`holdfast.teleop.trials.Stick`; the paper's if not given.
+        stick: As :class:`holdfast.teleop.Stick`; the paper's if not given.
         rules: When a trial is over.
         task: Rows that the stick moves.
 
     Raises:
-        InputError, TaskError: As the laws and :func:`holdfast.teleop.trials.drive`.
+        InputError, TaskError: As the laws and :func:`holdfast.teleop.drive`.
     """
     plants = [Plant(s.make_law(arm, task)) for s in scenarios]
     hand = Stick() if stick is None else stick
@@ -164,7 +164,7 @@ def drive_tasks(
     stick: Stick | None,
     rules: Rules | None,
 ) -> Trials:
-    """As :func:`holdfast.teleop.trials.drive`, for N tasks under scenarios (N,), indices from 0; a plant for each scenario."""
+    """As :func:`holdfast.teleop.drive`, for N tasks under scenarios (N,), indices from 0; a plant for each scenario."""
     failed = np.array([s.failed for s in scenarios], dtype=bool)[scenario]
     return drive(plants, scenario, tasks.q0, tasks.target, tasks.healthy(failed), operator, stick, rules)
 
@@ -177,7 +177,7 @@ class TaskBank:
         tasks: The tasks.
         scenarios: The conditions.
         measures: (S, N, 11) M1 to M11; NaN where the hand did not arrive.
-        end: (S, N) :class:`holdfast.teleop.trials.End`.
+        end: (S, N) :class:`holdfast.teleop.End`.
         cpm: (S, N) combined performance measures; NaN where the hand did not arrive.
         normalisers: (11,) of the CPM: the largest measures of all these trials.
     """

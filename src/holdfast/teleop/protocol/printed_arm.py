@@ -47,7 +47,7 @@ def arm_module(protocol: Protocol) -> str:
         export function points(q, out);
 
     All arguments are ``Float64Array``, apart from ``law``: its number, see :func:`law_of`. ``cycle`` writes what
-    :meth:`holdfast.teleop.trials.Plant.cycle` gives: the configuration after a whole control cycle, then the tool point's
+    :meth:`holdfast.teleop.Plant.cycle` gives: the configuration after a whole control cycle, then the tool point's
     velocity at its beginning, m/cycle. ``position`` writes the task's rows of the tool point, m, and ``points`` the wire
     frame, three world coordinates each, m: the base (left out where the first joint sits at it), every joint, the tool point;
     so joint k, from 0, is marker ``markers - 1 - joints + k``. NaN or infinity in an argument makes everything NaN.

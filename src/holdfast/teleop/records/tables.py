@@ -67,7 +67,7 @@ def trial_table(records: Records, kinds: Sequence[Kind] = (Kind.TRIAL,)) -> pd.D
 
     Returns:
         A table with the columns that :func:`dictionary` describes; measures in the units of
-        :data:`holdfast.teleop.trials.MEASURES`.
+        :data:`holdfast.teleop.MEASURES`.
     """
     entries = [e for s in records.subjects() for kind in kinds for e in done(records.entries(s.code, kind))]
     subjects = {s.code: s for s in records.subjects()}

@@ -68,7 +68,7 @@ class Keeper:
         """Do a job when its turn comes; ``answer`` is called in the event loop with its result, or with its exception.
 
         A job that fails must leave nothing half done: jobs of several changes use
-        :meth:`holdfast.teleop.records.Records.together`.
+        :meth:`holdfast.teleop.Records.together`.
         """
         self._jobs.put((job, answer))
 

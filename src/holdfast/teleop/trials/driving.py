@@ -141,7 +141,7 @@ def drive(
         rules: When a trial is over.
 
     Returns:
-        The :class:`holdfast.teleop.trials.Trials`.
+        The :class:`holdfast.teleop.Trials`.
 
     Raises:
         InputError: Arrays that do not fit each other.

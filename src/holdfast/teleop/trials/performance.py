@@ -153,7 +153,7 @@ def cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
         normalisers: (k,) to use in place of the largest values, to put other trials on the same scale.
 
     Returns:
-        A :class:`holdfast.teleop.trials.CPM`.
+        A :class:`holdfast.teleop.CPM`.
 
     Raises:
         InputError: Negative measures, or another number of normalisers than of measures.

@@ -66,7 +66,7 @@ class Trials:
         q_end: (N, n) configuration when the trial ended.
         x_end: (N, m) tool point then.
         target: (N, m) centre of the target circle, m.
-        end: (N,) :class:`holdfast.teleop.trials.End`.
+        end: (N,) :class:`holdfast.teleop.End`.
     """
 
     velocity: Array
