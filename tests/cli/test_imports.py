@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from holdfast.cli.program import COMMANDS, program
+from holdfast.cli.program import COMMANDS, assembled
 
 # What is slow to import. The list of each command is exact: what it no longer loads is taken from it and stays away.
 HEAVY = {"scipy", "scipy.stats", "matplotlib", "jinja2", "xarray", "zarr", "pydantic", "mujoco"}
@@ -123,12 +123,12 @@ def test_the_library_waits_for_what_is_asked():
 
 
 def test_the_help_lists_every_command_in_its_order():
-    registered = [c.name or c.callback.__name__ for c in program().registered_commands]
-    groups = [g.name or g.typer_instance.info.name for g in program().registered_groups]
+    registered = [c.name or c.callback.__name__ for c in assembled().registered_commands]
+    groups = [g.name or g.typer_instance.info.name for g in assembled().registered_groups]
     assert sorted([*registered, *groups]) == sorted(COMMANDS)
     assert registered == [name for name in COMMANDS if name not in groups]
     for name in COMMANDS:
-        one = program(name)
+        one = assembled(name)
         assert name in [c.name or c.callback.__name__ for c in one.registered_commands] + [
             g.name or g.typer_instance.info.name for g in one.registered_groups
         ]

@@ -10,7 +10,7 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.indices import Opposite, susceptibility
-from holdfast.motion.events import Course, Curvature, events
+from holdfast.motion.events import Course, Curvature, find_events
 
 
 @pytest.fixture(scope="module")
@@ -143,7 +143,7 @@ def calm(torque):
 
 def told(torque, course, **options):
     settings = {"tracks": True, "wanted": None, "cap": "the cap"} | options
-    return {e.kind: e for e in events(torque, course, **settings)}
+    return {e.kind: e for e in find_events(torque, course, **settings)}
 
 
 def test_events_of_made_up_motions(torque, calm):

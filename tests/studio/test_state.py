@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 import holdfast as hf
-from holdfast.cli.program import program
+from holdfast.cli.program import assembled
 from holdfast.studio import State, serve, server
 from holdfast.studio.motions import read_motion
 
@@ -42,7 +42,7 @@ def opened(monkeypatch):
 
 
 def run(command):
-    result = CliRunner().invoke(program(), shlex.split(command)[1:], catch_exceptions=False)
+    result = CliRunner().invoke(assembled(), shlex.split(command)[1:], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return result.output
 
@@ -105,7 +105,7 @@ def test_defaults_are_the_home_of_the_arm_and_this_machine(opened):
 )
 def test_bad_input_is_one_sentence(options, sentence):
     with pytest.raises(hf.HoldfastError, match=re.escape(sentence)):
-        CliRunner().invoke(program(), ["studio", "panda", *shlex.split(options)], catch_exceptions=False)
+        CliRunner().invoke(assembled(), ["studio", "panda", *shlex.split(options)], catch_exceptions=False)
 
 
 def test_a_port_in_use_is_named():

@@ -14,7 +14,7 @@ from holdfast.errors import InputError
 Array = NDArray[np.float64]
 
 
-def configurations(arm: Arm, q: ArrayLike) -> tuple[Array, bool]:
+def as_configurations(arm: Arm, q: ArrayLike) -> tuple[Array, bool]:
     """``q`` as (N, n), and whether it was a single configuration, which must then be finite.
 
     Raises:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm import kinematics
-from holdfast.arm.configurations import configurations, finite_limits
+from holdfast.arm.configurations import as_configurations, finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
@@ -245,13 +245,13 @@ class Clearance:
         Raises:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         values = self._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
         return values[0] if single else values
 
     def by_pair(self, q: ArrayLike) -> Array:
         """The distance of every checked pair in m, (N, P) or (P,), in the order of ``pairs``."""
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         values = self._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
         return values[0] if single else values
 
@@ -260,7 +260,7 @@ class Clearance:
 
         It is -1 where q is not finite and if there is no pair to check.
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         closest = np.full(len(rows), -1, dtype=np.int64)
         if self.pairs:
             finite = np.isfinite(rows).all(axis=1)
@@ -273,7 +273,7 @@ class Clearance:
         Where two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two
         axes cross, which is a kink, and NaN where q is.
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         g = self._gradient_kernel.rows(rows) if self.pairs else np.repeat(_constant(rows, 0.0)[:, None], self.arm.n, axis=1)
         return g[0] if single else g
 

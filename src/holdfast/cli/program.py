@@ -39,7 +39,7 @@ COMMANDS = {  # the module of each, in the order of the help
 }
 
 
-def program(command: str | None = None) -> typer.Typer:
+def assembled(command: str | None = None) -> typer.Typer:
     """The program with all commands, or with those of the module that has ``command``: others would only cost time."""
     app = typer.Typer(
         name="holdfast",
@@ -76,7 +76,7 @@ def _root(
 def main() -> None:
     """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
     try:
-        code = program(*sys.argv[1:2])(standalone_mode=False)
+        code = assembled(*sys.argv[1:2])(standalone_mode=False)
     except HoldfastError as error:
         _fail(str(error))
     except TyperException as error:  # an unknown command or option, a missing argument

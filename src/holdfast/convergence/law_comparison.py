@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
-from holdfast.arm.configurations import configurations
+from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.scale import length_unit
@@ -398,7 +398,7 @@ def compare_laws(
         if law.arm is not arm or not law.task.same_rows(task):
             raise InputError(f"law '{name}' is of another arm or task than '{next(iter(named))}'; make both of the same")
     joints = _joints(arm, locked)
-    start, _ = configurations(arm, q0)
+    start, _ = as_configurations(arm, q0)
     goal = real_numbers(target, "target")
     if not goal.ndim:
         raise InputError(f"target is {target!r}; give ({task.m},) or (4, 4) numbers, or rows of them")

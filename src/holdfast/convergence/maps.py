@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm.configurations import configurations as as_configurations
-from holdfast.arm.configurations import without_idle_limits
+from holdfast.arm.configurations import as_configurations, without_idle_limits
 from holdfast.control.law import Law
 from holdfast.convergence.places import Places, picked_at, read_places
 from holdfast.errors import InputError

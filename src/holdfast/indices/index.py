@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm import kinematics
-from holdfast.arm.configurations import configurations
+from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
@@ -260,7 +260,7 @@ class Index(Labelled, Objective):
         return np.asarray(sigma[:, -1] <= SINGULAR_RATIO * sigma[:, 0])
 
     def _rows(self, q: ArrayLike) -> tuple[Array, bool]:
-        return configurations(self.arm, q)
+        return as_configurations(self.arm, q)
 
     @property
     def slug(self) -> str:

@@ -112,7 +112,7 @@ class Course:
     at_limit: dict[str, Flags]
 
 
-def events(objective: Objective, c: Course, tracks: bool, wanted: float | None, cap: str) -> tuple[Event, ...]:
+def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | None, cap: str) -> tuple[Event, ...]:
     """What happened, in order of time.
 
     Args:

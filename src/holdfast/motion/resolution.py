@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked_class
 from holdfast.arm import kinematics
-from holdfast.arm.configurations import configurations
+from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
@@ -271,7 +271,7 @@ class Resolution(Steps):
         Raises:
             InputError: A wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         a = rows[0] if single else rows
         t = np.asarray(twist, dtype=np.float64)
         if t.shape[-1:] != (6,) or t.ndim > 2 or (t.ndim == 2 and a.ndim == 2 and len(t) != len(a)):

@@ -17,7 +17,7 @@ from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
-from holdfast.motion.events import Course, Curvature, events
+from holdfast.motion.events import Course, Curvature, find_events
 from holdfast.motion.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.motion.resolution import Resolution, chosen_task
 from holdfast.motion.trajectory import Trajectory
@@ -131,7 +131,7 @@ def follow(
     joints, rates, shares = _integrate(law, path, start, (samples - 1) * substeps, step, limits, settle)
     course = _course(arm, objective, curvature, path.duration, joints, rates, shares, limits)
     limited = f"the rate cap of {cap:.4g} rad/s" if cap == rate_cap else f"the finest step of {_FARTHEST:g} rad"
-    happened = events(objective, course, method in TRACKING, keep, limited)
+    happened = find_events(objective, course, method in TRACKING, keep, limited)
     fastest = int(course.rate_norm.argmax())
     few = slice(None, None, substeps)
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)

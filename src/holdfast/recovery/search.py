@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
-from holdfast.arm.configurations import configurations
+from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
@@ -111,7 +111,7 @@ def recover(
         InputError: A joint, angle, goal or number that is none.
         TaskError: A task that is none.
     """
-    q, single = configurations(arm, at)
+    q, single = as_configurations(arm, at)
     if not single:
         raise InputError(f"at has shape {np.shape(at)}; give one configuration of {arm.n} numbers")
     for name, number, least in (("samples", samples, 0), ("starts", starts, 1), ("tries", tries, 0), ("seed", seed, 0)):

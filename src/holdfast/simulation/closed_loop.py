@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm.configurations import configurations
+from holdfast.arm.configurations import as_configurations
 from holdfast.arm.targets import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
@@ -93,7 +93,7 @@ def simulate(
 
     Source: Goel et al. 2005, eq. (3) to (7); Goel et al. 2003, section 4, for cycles. The rule is ours.
     """
-    start, single = configurations(law.arm, q0)
+    start, single = as_configurations(law.arm, q0)
     poses, rows_wanted = target_poses(law.task, target)
     targets = poses if rows_wanted is None else rows_wanted
     locks, shared = _locks(law, locked)

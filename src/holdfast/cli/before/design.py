@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from holdfast.designs.designs import Designs
 
 
-def design(
+def command(
     arm: ArmArgument,
     vary: Annotated[
         list[str],
@@ -161,4 +161,4 @@ def _print(found: Designs) -> None:
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(design)
+    app.command("design")(command)

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from holdfast.paths.timing import TimedPath
 
 
-def follow(
+def command(
     arm: ArmArgument,
     path: Annotated[
         Path, typer.Argument(metavar="PATH", help="Path file of the hand (YAML): line, arc or poses.", show_default=False)
@@ -289,4 +289,4 @@ def _print_slowness(result: Trajectory, bound: float, slowness: list[SlowMotion]
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(follow)
+    app.command("follow")(command)

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from holdfast.indices.index import Index
 
 
-def index(
+def command(
     arm: ArmArgument,
     q: QOption,
     index: IndexOption = "relative-manipulability",
@@ -121,4 +121,4 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(index)
+    app.command("index")(command)

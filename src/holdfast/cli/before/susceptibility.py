@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
-def susceptibility(
+def command(
     arm: ArmArgument,
     q: QOption,
     measure: Annotated[str, typer.Option("--measure", help=f"{SUSCEPTIBILITIES.usage}.")] = "torque",
@@ -129,4 +129,4 @@ def _print(measure: Susceptibility, configurations: Array, results: list[dict[st
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(susceptibility)
+    app.command("susceptibility")(command)

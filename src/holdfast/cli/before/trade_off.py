@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 ALLOWED = "0 0.05 0.1 0.15 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"
 
 
-def trade_off(
+def command(
     arm: ArmArgument,
     task: TaskOption = None,
     samples: Annotated[int, typer.Option("--samples", help="Random configurations and directions.")] = 2000,
@@ -110,4 +110,4 @@ def _print(curve: TradeOff, plot: Path | None) -> None:
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command("trade-off")(trade_off)
+    app.command("trade-off")(command)

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 NOT_MET = 3  # exit code: it worked, and the answer is that not everything asked for is met
 
 
-def recover(
+def command(
     arm: ArmArgument,
     lock: Annotated[
         list[str] | None,
@@ -380,4 +380,4 @@ def _print(result: Recovery, files: list[Path]) -> None:
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(recover)
+    app.command("recover")(command)

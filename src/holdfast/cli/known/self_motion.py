@@ -50,7 +50,7 @@ TargetOption = Annotated[
 ]
 
 
-def self_motion(
+def command(
     arm: ArmArgument,
     target: TargetOption = None,
     pose: PoseOption = None,
@@ -304,5 +304,5 @@ def _print_region(region: TolerantWorkspace, plot: Path | None) -> None:
 
 def add(app: typer.Typer) -> None:
     """Register the commands."""
-    app.command("self-motion")(self_motion)
+    app.command("self-motion")(command)
     app.command("tolerant-workspace")(tolerant_workspace)

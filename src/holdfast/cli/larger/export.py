@@ -25,7 +25,7 @@ from holdfast.errors import InputError
 LANGUAGES = ("c",)
 
 
-def export(
+def command(
     arm: ArmArgument,
     out: Annotated[Path, typer.Option("--out", help="Folder for the files; made if it is not there.", show_default=False)],
     law: LawOption = "failure-tolerant",
@@ -64,4 +64,4 @@ def export(
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(export)
+    app.command("export")(command)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from holdfast.arm.model import Arm, Joint
 
 
-def arms(json_: JsonOption = False) -> None:
+def command(json_: JsonOption = False) -> None:
     """List the built-in arms.
 
     Example: holdfast arms
@@ -143,5 +143,5 @@ def _position(joint: Joint, value: float) -> str:
 
 def add(app: typer.Typer) -> None:
     """Register the commands."""
-    app.command()(arms)
+    app.command("arms")(command)
     app.command()(describe)

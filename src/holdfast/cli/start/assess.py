@@ -52,7 +52,7 @@ FailureRateOption = Annotated[
 ]
 
 
-def assess(
+def command(
     arm: Annotated[
         list[str],
         typer.Argument(
@@ -309,5 +309,5 @@ def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
 
 def add(app: typer.Typer) -> None:
     """Register the commands."""
-    app.command()(assess)
+    app.command("assess")(command)
     app.command()(report)

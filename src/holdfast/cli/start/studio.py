@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 PORT = 8123
 
 
-def studio(
+def command(
     arm: ArmArgument,
     port: Annotated[int, typer.Option("--port", help="Of the page; 0: any that is free.")] = PORT,
     host: Annotated[
@@ -210,4 +210,4 @@ def read_state(
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(studio)
+    app.command("studio")(command)

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from holdfast.simulation.runs import Runs
 
 
-def simulate(
+def command(
     arm: ArmArgument,
     start: Annotated[
         str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
@@ -228,4 +228,4 @@ def _write(runs: Runs, path: MotionPath, file: Path) -> None:
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(simulate)
+    app.command("simulate")(command)

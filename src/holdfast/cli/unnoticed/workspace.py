@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from holdfast.convergence.targets import TargetMeasures
 
 
-def workspace(
+def command(
     arm: ArmArgument,
     target: Annotated[
         str,
@@ -273,4 +273,4 @@ def _map(laws: list[Law], options: dict[str, Any], out: Path | None, json_: bool
 
 def add(app: typer.Typer) -> None:
     """Register the command."""
-    app.command()(workspace)
+    app.command("workspace")(command)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm import kinematics
-from holdfast.arm.configurations import configurations
+from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
@@ -197,7 +197,7 @@ class Susceptibility(Labelled, Objective):
         Raises:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         n = self.arm.n
         out = self._values.rows(rows)
         value, by_joint = out[:, 0].copy(), out[:, 1 : n + 1].copy()
@@ -215,19 +215,19 @@ class Susceptibility(Labelled, Objective):
 
     def __call__(self, q: ArrayLike) -> Array:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         value = self._values.rows(rows, first=1)[:, 0]
         return value[0] if single else value
 
     def by_joint(self, q: ArrayLike) -> Array:
         """The measure f of each joint, signed, (N, n) or (n,), in :attr:`joint_unit`."""
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         f = self._values.rows(rows)[:, 1 : self.arm.n + 1].copy()
         return f[0] if single else f
 
     def gradient(self, q: ArrayLike) -> Array:
         """Exact gradient of ``f' W f``, (N, n) or (n,), per rad and m; eq. (3). NaN where q or the value is."""
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         g = self._gradient.rows(rows)
         return g[0] if single else g
 
@@ -236,7 +236,7 @@ class Susceptibility(Labelled, Objective):
 
         The row of a degenerate joint is 0.
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         slopes = self._jacobian.rows(rows).reshape(-1, self.arm.n, self.arm.n)
         return slopes[0] if single else slopes
 
@@ -276,7 +276,7 @@ class Together:
         Raises:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
-        rows, single = configurations(self.arm, q)
+        rows, single = as_configurations(self.arm, q)
         out = self._kernel.rows(rows)
         k = len(self.measures)
         values = np.ascontiguousarray(out[:, :k])
