@@ -327,7 +327,7 @@ def test_one_arm_is_as_if_there_were_no_comparison(ask, flat):
 def test_tools_and_arms_are_compared(cli, tmp_path):
     out = tmp_path / "all"
     urdf = tmp_path / "my arm.urdf"
-    data_folder = Path(hf.__file__).parent / "arm" / "data"
+    data_folder = Path(hf.__file__).parent / "arms" / "data"
     urdf.write_bytes((data_folder / "xarm7.urdf").read_bytes())
     arguments = ("assess", "panda", urdf, "--task", "position", "--poses", 12, "--restarts", 5)
     tools = ("--tool", "short=0,0,0.1,0,0,0", "--tool", "bent=0 0.02 0.1 90 0 0")

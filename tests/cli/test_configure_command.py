@@ -18,7 +18,7 @@ from holdfast.indices import relative_manipulability
 
 HOME = "0 -45 0 -135 0 90 45"
 IN_RADIANS = "0 -0.8 0 -2.4 0 1.6 0.8"
-URDF = Path(hf.__file__).parent / "arm" / "data" / "xarm7.urdf"
+URDF = Path(hf.__file__).parent / "arms" / "data" / "xarm7.urdf"
 
 
 def same(a, b, q):
