@@ -37,7 +37,7 @@ def opened(monkeypatch):
         ready("http://127.0.0.1:1")
         return Page()
 
-    monkeypatch.setattr("holdfast.studio.serve", fake)
+    monkeypatch.setattr("holdfast.studio.server.serve", fake)
     return calls
 
 
