@@ -26,6 +26,7 @@ from holdfast.notice import says
 from holdfast.probability.distribution import Distribution, Interval
 from holdfast.probability.intervals import check_confidence
 from holdfast.regions.region import Region, Sampling
+from holdfast.result import Result
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,7 +39,7 @@ _CHUNK_BLOCKS = 8
 
 
 @dataclass(frozen=True)
-class Assessment:
+class Assessment(Result):
     """What :func:`assess` found.
 
     Attributes:
@@ -324,9 +325,8 @@ class Assessment:
         Raises:
             StoreError: The file cannot be written.
         """
-        from holdfast.present.assessment.page import write
-
-        return write(self, Path(path), threshold)
+        written: Path = self._presented("write", Path(path), threshold)
+        return written
 
 
 @checked
