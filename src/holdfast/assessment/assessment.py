@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
 ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 _CHUNK_BLOCKS = 8

@@ -8,5 +8,9 @@ PRESENTERS = {
     "ConvergenceDesigns": "holdfast.present.designs.convergence",
     "Designs": "holdfast.present.designs.page",
     "LawComparison": "holdfast.present.convergence.law_comparison",
+    "PhysicalRun": "holdfast.present.physics.run",
+    "Recovery": "holdfast.present.recovery.figures",
+    "TargetMeasures": "holdfast.present.convergence.targets",
+    "TradeOff": "holdfast.present.control.trade_offs",
     "Trajectory": "holdfast.present.motion.trajectory",
 }
