@@ -16,7 +16,9 @@ import pytest
 from tools.house.ratchet import source
 from tools.house.rules import published
 
+from holdfast.present import PRESENTERS
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
+from holdfast.result import Result
 
 METHODS = ("report", "save", "figures", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
 RESULTS = {
@@ -138,6 +140,13 @@ def test_every_function_returns_what_is_in_a_list():
 def test_a_result_has_what_is_listed(name):
     result, _ = public()[name]
     assert [method for method in METHODS if callable(getattr(result, method, None))] == RESULTS[name].split()
+
+
+@pytest.mark.parametrize("name", PRESENTERS)
+def test_a_presenter_is_there_and_its_class_is_a_result(name):
+    import_module(PRESENTERS[name])
+    (result,) = [public()[each][0] for each in RESULTS if each.rpartition(".")[2] == name]
+    assert issubclass(result, Result)
 
 
 @pytest.mark.parametrize("name", VALUES)

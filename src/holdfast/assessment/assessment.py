@@ -26,19 +26,21 @@ from holdfast.notice import says
 from holdfast.probability.distribution import Distribution, Interval
 from holdfast.probability.intervals import check_confidence
 from holdfast.regions.region import Region, Sampling
+from holdfast.result import Result
 
 if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
 
+EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
 ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 _CHUNK_BLOCKS = 8
 
 
 @dataclass(frozen=True)
-class Assessment:
+class Assessment(Result):
     """What :func:`assess` found.
 
     Attributes:
@@ -324,9 +326,8 @@ class Assessment:
         Raises:
             StoreError: The file cannot be written.
         """
-        from holdfast.present.assessment.page import write
-
-        return write(self, Path(path), threshold)
+        written: Path = self._presented("write", Path(path), threshold)
+        return written
 
 
 @checked

@@ -19,10 +19,11 @@ from holdfast.failures import failure_sets
 from holdfast.notice import says
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
+from holdfast.result import Result
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Result):
     """Assessments of one region with one index and equally many poses; see :func:`compare`.
 
     Attributes:
@@ -174,9 +175,8 @@ class Comparison:
         Raises:
             StoreError: The file cannot be written; what was there is as it was.
         """
-        from holdfast.present.assessment.comparison import write
-
-        return write(self, Path(path))
+        written: Path = self._presented("write", Path(path))
+        return written
 
 
 @checked

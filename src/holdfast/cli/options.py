@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import math
 import re
-from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -28,8 +25,6 @@ from holdfast.written import read_numbers as read_numbers
 from holdfast.written import read_task as read_task
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.indices.objective import Objective
@@ -301,48 +296,3 @@ def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
 def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:
     """Names of the joints of which q (n,) is beyond a limit."""
     return [j.name for j, x in zip(arm.joints, q, strict=True) if not j.lower <= x <= j.upper]
-
-
-def plain(value: Any) -> Any:
-    """JSON types of NumPy ones; infinity and NaN become null, which JSON has."""
-    if isinstance(value, dict):
-        return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(v) for v in value]
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
-
-
-def print_json(data: Any) -> None:
-    """One JSON document on stdout."""
-    typer.echo(json.dumps(plain(data), indent=2))
-
-
-def number(value: float | np.floating[Any], digits: int = 4) -> str:
-    """A value for a table; rounding noise about 0 is 0."""
-    value = float(value)
-    if not math.isfinite(value):
-        return "infinite" if math.isinf(value) else "none"
-    return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
-
-
-def print_written(out: Console, files: Iterable[Path | None]) -> None:
-    """Say which files were written."""
-    from rich.markup import escape
-
-    for file in files:
-        if file is not None:
-            out.print(f"written: {escape(str(file))}", soft_wrap=True)
-
-
-def console() -> Console:
-    """Where tables for people go; wide when no terminal says how wide it is, so that names are not cut."""
-    from rich.console import Console
-
-    wide = Console(highlight=False)
-    return wide if wide.is_terminal else Console(highlight=False, width=140)

@@ -22,6 +22,7 @@ from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
 from holdfast.notice import working
+from holdfast.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +35,7 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
 @dataclass(frozen=True, eq=False)
-class TradeOff:
+class TradeOff(Result):
     """Peak velocity errors against the allowed pre-failure error e, E values of it and N samples.
 
     Attributes:
@@ -78,38 +79,12 @@ class TradeOff:
 
     def figure(self) -> Figure:
         """Median and quantile bands of the post-failure gain and of what it costs the healthy arm."""
-        from matplotlib.figure import Figure
-
-        from holdfast.report import figures
-
-        with figures.style():
-            figure = Figure(figsize=(figures.WIDTH, 3.9))
-            gain, price = figure.subplots(1, 2)
-            self.draw(gain, price)
-            figures.legend_below(figure, price, 4)
-            return figures.finished(figure)
+        figure: Figure = self._presented("figure")
+        return figure
 
     def draw(self, gain: Axes, price: Axes) -> None:
         """The two panels of :meth:`figure`, into axes that are there."""
-        from holdfast.report import figures
-
-        named = figures.plain(f"{self.arm.name}, {self.task.name}", 30)
-        panels = zip(
-            (gain, price),
-            ("gain", "healthy_error"),
-            ("peak velocity error after a failure,\nrelative to the pseudoinverse", "velocity error of the healthy arm"),
-            (f"{named}: what the failed arm gains", f"What the healthy arm pays, {len(self.gain):,} samples"),
-            strict=True,
-        )
-        for axes, of, ylabel, title in panels:
-            q05, q25, q50, q75, q95 = self.quantiles(of)
-            axes.fill_between(self.allowed, q05, q95, color=figures.SKY, alpha=0.4, linewidth=0, label="5 to 95 %")
-            axes.fill_between(self.allowed, q25, q75, color=figures.SKY, linewidth=0, label="25 to 75 %")
-            axes.plot(self.allowed, q50, color=figures.BLUE, linewidth=1.9, label="median")
-            axes.set(xlabel="allowed pre-failure error (of the commanded speed)", ylabel=ylabel, xlim=(0, self.allowed[-1]))
-            axes.set_ylim(0, 1.02)
-            axes.set_title(title)
-        price.plot(self.allowed, self.allowed, color=figures.ORANGE, linestyle=(0, (4.5, 2)), label="all that is allowed")
+        self._presented("draw", gain, price)
 
 
 @checked

@@ -21,6 +21,7 @@ from holdfast.convergence.detours import HealthyCost, healthy_cost
 from holdfast.errors import InputError
 from holdfast.notice import says, working
 from holdfast.probability.intervals import Difference, Interval
+from holdfast.result import Result
 from holdfast.simulation.batch import ARRIVES
 from holdfast.simulation.closed_loop import RADIUS, TOLERANCE, simulate
 from holdfast.simulation.runs import Outcome, Reason, Runs
@@ -92,7 +93,7 @@ class Case:
 
 
 @dataclass(frozen=True, eq=False)
-class LawComparison:
+class LawComparison(Result):
     """Laws on the same N motions; see :func:`compare_laws`.
 
     Attributes:
@@ -326,9 +327,8 @@ class LawComparison:
         Raises:
             StoreError: It cannot be written.
         """
-        from holdfast.present.convergence import law_comparison as compare_laws_report
-
-        return compare_laws_report.write(self, Path(path), command, about)
+        written: Path = self._presented("write", Path(path), command, about)
+        return written
 
     @says("writing the results")
     def save(self, folder: str | Path) -> list[Path]:
@@ -337,9 +337,8 @@ class LawComparison:
         Raises:
             StoreError: They cannot be written.
         """
-        from holdfast.present.convergence import law_comparison as compare_laws_report
-
-        return compare_laws_report.save(self, Path(folder))
+        files: list[Path] = self._presented("save", Path(folder))
+        return files
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -18,8 +18,8 @@ from holdfast.convergence.origins import analysed, mean_intervals, mean_over
 from holdfast.convergence.places import Places, read_places
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
-from holdfast.present.convergence.places import measure_maps
 from holdfast.probability.intervals import check_confidence
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ STARTS, POINTS = 20, 2
 
 
 @dataclass(frozen=True, eq=False)
-class TargetMeasures:
+class TargetMeasures(Result):
     """Measures of T targets over the same S starts; the last of the n + 1 columns is for an arbitrary joint.
 
     Attributes:
@@ -93,8 +93,6 @@ class TargetMeasures:
         Raises:
             StoreError: The folder cannot be written.
         """
-        from holdfast.report.figures import save_png
-
         names = (*self.law.arm.joint_names, "any")
         columns: list[str] = list(ENDS)
         values: list[NDArray[Any]] = [self.ends]
@@ -103,18 +101,13 @@ class TargetMeasures:
             columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
         facts: dict[str, Any] = {"arm": self.law.arm.title, "law": self.law.describe(), "starts": len(self.starts)}
         files = save_places(folder, "targets", self.targets, columns, values, facts)
-        for name, figure in self.figures().items():
-            files.append(save_png(figure, Path(folder) / f"targets-{name}.png", 130))
-        return files
+        maps: list[Path] = self._presented("save_maps", Path(folder))
+        return files + maps
 
     def figures(self) -> dict[str, Any]:
         """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
-        about = (
-            f"{self.law.arm.name}, {self.law.name}: each place is a target, its value the mean over {len(self.starts)} starts; "
-            "grey: no value"
-        )
-        count = int(self.ends.sum())
-        return measure_maps(self.law, self.targets, self.measures, about, f"{count} failures" if count else "")
+        maps: dict[str, Any] = self._presented("figures")
+        return maps
 
 
 @checked

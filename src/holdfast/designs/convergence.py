@@ -27,6 +27,7 @@ from holdfast.errors import InputError, StoreError
 from holdfast.notice import says
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.registry import LAWS
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -39,7 +40,7 @@ _FRESH = 8  # times as many targets in the check of a sampled search
 
 
 @dataclass(frozen=True, eq=False)
-class ConvergenceDesigns:
+class ConvergenceDesigns(Result):
     """Designs of an arm by how surely they arrive after an unidentified lock; the given arm is design 0.
 
     Attributes:
@@ -163,9 +164,8 @@ class ConvergenceDesigns:
         Raises:
             StoreError: The file cannot be written; what was there is as it was.
         """
-        from holdfast.present.designs.convergence import write
-
-        return write(self, path)
+        written: Path = self._presented("write", path)
+        return written
 
 
 @checked

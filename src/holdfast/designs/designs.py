@@ -20,6 +20,7 @@ from holdfast.notice import says
 from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
@@ -52,7 +53,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Designs:
+class Designs(Result):
     """What :func:`holdfast.design` found: D designs, the given arm first.
 
     Attributes:
@@ -121,9 +122,8 @@ class Designs:
         Raises:
             StoreError: The file cannot be written; what was there is as it was.
         """
-        from holdfast.present.designs.page import write
-
-        return write(self, path)
+        written: Path = self._presented("write", path)
+        return written
 
     @says("writing the results")
     def save(self, folder: str | Path) -> list[Path]:
@@ -135,15 +135,8 @@ class Designs:
         Raises:
             StoreError: A file cannot be written.
         """
-        from holdfast.present.commands import region_file
-        from holdfast.present.designs.page import ARM_FILE, arm_file
-
         place = Path(folder)
-        texts = {ARM_FILE: arm_file(self), "designs.csv": self._table()}
-        if self.region.storable:
-            texts["region.yaml"] = region_file(self.region) + "\n"
-            if self.region.listed is not None:
-                texts["poses.csv"] = self.region.listed.table()
+        texts: dict[str, str] = self._presented("files", self._table())
         try:
             place.mkdir(parents=True, exist_ok=True)
             for name, text in texts.items():

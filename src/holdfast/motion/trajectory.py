@@ -18,6 +18,7 @@ from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.motion.slowness import SlowMotion, slow_enough
 from holdfast.notice import says
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
@@ -42,7 +43,7 @@ class Event:
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Result):
     """Joints along a path of the hand, T samples.
 
     Attributes:
@@ -209,9 +210,8 @@ class Trajectory:
             StoreError: The file cannot be written; what was there is as it was.
             ArmError: A torque_bound for an arm without inertial data.
         """
-        from holdfast.present.motion import trajectory as trajectory_report
-
-        return trajectory_report.write(self, Path(path), command, torque_bound)
+        written: Path = self._presented("write", Path(path), command, torque_bound)
+        return written
 
     def slowness(self, bound: float) -> list[SlowMotion]:
         """How slow each joint asks the motion to be, n of them: see :func:`holdfast.motion.slow_enough`.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.physics.servos import Servos
+from holdfast.result import Result
 from holdfast.simulation.runs import Path, Runs
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ FULL = 0.999  # of the effort: a motor at its limit
 
 
 @dataclass(frozen=True, eq=False)
-class PhysicalRun:
+class PhysicalRun(Result):
     """One run of :func:`holdfast.simulate_physics`, T control cycles.
 
     Attributes:
@@ -90,19 +91,19 @@ class PhysicalRun:
     @property
     def tracking_error(self) -> Array:
         """(n,) largest distance of each joint from its reference while it was healthy, rad or m."""
-        return np.asarray(np.where(self._locked, 0.0, np.abs(self.q - self.reference)).max(axis=0, initial=0.0))
+        return np.asarray(np.where(self.locked, 0.0, np.abs(self.q - self.reference)).max(axis=0, initial=0.0))
 
     @property
     def saturated(self) -> Array:
         """(n,) share of the time for which the motor of each joint was at its effort while the joint was healthy."""
         effort = np.array([joint.effort for joint in self.law.arm.joints])
-        healthy = ~self._locked
+        healthy = ~self.locked
         full = healthy & (np.abs(self.torque) >= FULL * effort)
         return np.asarray(full.sum(axis=0) / np.maximum(healthy.sum(axis=0), 1))
 
     @cached_property
-    def _locked(self) -> NDArray[np.bool_]:
-        """(T, n)."""
+    def locked(self) -> NDArray[np.bool_]:
+        """(T, n) True where a joint is locked."""
         return np.asarray(self.time[:, None] >= self.kinematic.lock_time - 1e-9)
 
     def describe(self) -> list[str]:
@@ -119,42 +120,8 @@ class PhysicalRun:
 
     def figure(self) -> Figure:
         """Both hand paths in the two world axes along which they are longest, errors and tracking errors over time."""
-        from matplotlib.figure import Figure
-
-        from holdfast.report import figures
-
-        told, arm = self.kinematic_path, self.law.arm
-        spread = np.ptp(np.vstack([self.x, told.x]), axis=0)
-        a, b = sorted(np.argsort(spread)[-2:])
-        with figures.style():
-            figure = Figure(figsize=(1.25 * figures.WIDTH, 4.1))
-            path, error, lag = figure.subplots(1, 3)
-            path.plot(told.x[:, a], told.x[:, b], color=figures.SKY, linewidth=4.5, label="kinematic")
-            path.plot(self.x[:, a], self.x[:, b], color=figures.BLUE, linewidth=1.4, label="in MuJoCo")
-            path.plot(*self.x[0, [a, b]], "o", color=figures.INK, markersize=4, label="start")
-            path.plot(
-                *told.x[-1, [a, b]], "s", color=figures.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end"
-            )
-            path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the hand")
-            path.set_aspect("equal", adjustable="datalim")
-            size = "m and rad" if self.law.task.angular else "m"
-            error.plot(told.time, told.error, color=figures.SKY, linewidth=4.5)
-            error.plot(self.time, self.error, color=figures.BLUE, linewidth=1.4)
-            error.set(xlabel="time, s", ylabel=f"error of the hand, {size}", title="Error", ylim=(0, None))
-            healthy = np.where(self._locked, 0.0, np.abs(self.q - self.reference)).max(axis=1)
-            unit = "m or rad" if arm.prismatic.any() else "rad"
-            lag.plot(self.time, np.maximum(healthy, 1e-9), color=figures.BLUE, linewidth=1.2)
-            lag.set(xlabel="time, s", ylabel=f"largest servo error of a healthy joint, {unit}", title="Servos", yscale="log")
-            for axes in (error, lag):
-                axes.set_xlim(0, max(float(self.time[-1]), 1e-3))
-            locked = [name for name, t in zip(arm.joint_names, self.kinematic.lock_time, strict=True) if np.isfinite(t)]
-            caption = (
-                f"{arm.name}, {self.law.name}, locked: {', '.join(locked) or 'none'}; one run. "
-                f"Kinematic: {self.kinematic.outcome}; in MuJoCo, {self.servos.describe()}: {self.outcome}"
-            )
-            figures.legend_below(figure, path, 4)
-            figure.suptitle(figures.plain(caption, 200), fontsize=9, color=figures.SOFT)
-            return figures.finished(figure)
+        figure: Figure = self._presented("figure")
+        return figure
 
 
 def _even(points: Array) -> Array:

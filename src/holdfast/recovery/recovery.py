@@ -19,6 +19,7 @@ from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
 from holdfast.recovery.routes import MetricName
+from holdfast.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,7 +82,7 @@ class Leg:
 
 
 @dataclass(frozen=True)
-class Recovery:
+class Recovery(Result):
     """The answer to "my joint is stuck now".
 
     Attributes:
@@ -176,9 +177,8 @@ class Recovery:
 
     def figure(self) -> Figure:
         """The arm at the start, on the way and at the end, seen from the side and from above."""
-        from holdfast.present.recovery.figures import scene_figure
-
-        return scene_figure(self)
+        figure: Figure = self._presented("scene_figure")
+        return figure
 
     def map(self) -> Figure:
         """What is left of the workspace as a map.
@@ -186,9 +186,8 @@ class Recovery:
         Raises:
             InputError: That was not asked for, or nothing was reached.
         """
-        from holdfast.present.recovery.figures import left_figure
-
-        return left_figure(self)
+        figure: Figure = self._presented("left_figure")
+        return figure
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -17,10 +17,6 @@ from holdfast.cli.options import (
     LengthOption,
     SeedOption,
     TipOption,
-    console,
-    number,
-    print_json,
-    print_written,
     read_arm,
     read_failures,
     read_task,
@@ -28,6 +24,7 @@ from holdfast.cli.options import (
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.assess import read_region
 from holdfast.errors import InputError
+from holdfast.present.printing import console, number, print_json, print_written
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from holdfast.arm.task import Task
-from holdfast.cli.options import console, print_json, print_written
 from holdfast.cli.progress import progress_bar
 from holdfast.control.law import Law
 from holdfast.designs.convergence import design_for_convergence
 from holdfast.designs.space import DesignSpace
+from holdfast.present.printing import console, print_json, print_written
 from holdfast.registry import LAWS
 
 

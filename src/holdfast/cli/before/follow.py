@@ -21,17 +21,14 @@ from holdfast.cli.options import (
     PayloadOption,
     TipOption,
     check_unit_of_places,
-    console,
-    number,
     placed,
-    print_json,
-    print_written,
     read_arm,
     read_configuration,
     read_objective,
     read_task,
 )
 from holdfast.errors import InputError, StoreError
+from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm

@@ -19,15 +19,13 @@ from holdfast.cli.options import (
     QOption,
     TaskOption,
     TipOption,
-    console,
-    number,
     outside_limits,
-    print_json,
     read_arm,
     read_configuration,
     read_failures,
     read_task,
 )
+from holdfast.present.printing import console, number, print_json
 from holdfast.status import Status
 
 if TYPE_CHECKING:

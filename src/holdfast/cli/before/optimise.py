@@ -10,16 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import (
-    CapsulesOption,
-    ClearanceOption,
-    MarginOption,
-    RadiusOption,
-    check_clearance,
-    read_clearance,
-    shape_summary,
-    shape_text,
-)
+from holdfast.cli.clearance import CapsulesOption, ClearanceOption, MarginOption, RadiusOption, check_clearance, read_clearance
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
@@ -32,12 +23,8 @@ from holdfast.cli.options import (
     TaskOption,
     TipOption,
     check_unit_of_places,
-    console,
-    number,
     outside_limits,
     placed,
-    print_json,
-    print_written,
     read_arm,
     read_configuration,
     read_objective,
@@ -46,6 +33,8 @@ from holdfast.cli.options import (
 )
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files.output import writing
+from holdfast.present.clearance.shape import shape_summary, shape_text
+from holdfast.present.printing import console, number, print_json, print_written
 from holdfast.status import Status
 
 if TYPE_CHECKING:

@@ -18,15 +18,13 @@ from holdfast.cli.options import (
     PayloadOption,
     QOption,
     TipOption,
-    console,
-    number,
     outside_limits,
     placed,
-    print_json,
     read_arm,
     read_configuration,
     read_weights,
 )
+from holdfast.present.printing import console, number, print_json
 from holdfast.registry import SUSCEPTIBILITIES
 
 if TYPE_CHECKING:

@@ -15,12 +15,11 @@ from holdfast.cli.options import (
     JsonOption,
     TaskOption,
     TipOption,
-    console,
-    print_json,
     read_arm,
     read_numbers,
     read_task,
 )
+from holdfast.present.printing import console, print_json
 
 if TYPE_CHECKING:
     from holdfast.control.trade_offs import TradeOff

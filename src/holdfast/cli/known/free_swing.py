@@ -14,16 +14,13 @@ from holdfast.cli.options import (
     HoldOption,
     JsonOption,
     TipOption,
-    console,
-    number,
-    print_json,
-    print_written,
     read_arm,
     read_configuration,
     read_joint,
 )
 from holdfast.errors import StoreError
 from holdfast.files.output import writing
+from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
     from holdfast.physics.swing import FreeSwing

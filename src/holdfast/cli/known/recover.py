@@ -9,16 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import (
-    CapsulesOption,
-    ClearanceOption,
-    MarginOption,
-    RadiusOption,
-    check_clearance,
-    read_clearance,
-    shape_summary,
-    shape_text,
-)
+from holdfast.cli.clearance import CapsulesOption, ClearanceOption, MarginOption, RadiusOption, check_clearance, read_clearance
 from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
@@ -27,11 +18,6 @@ from holdfast.cli.options import (
     JsonOption,
     TipOption,
     check_unit_of_places,
-    console,
-    number,
-    plain,
-    print_json,
-    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -42,6 +28,8 @@ from holdfast.cli.options import (
 from holdfast.errors import InputError, StoreError
 from holdfast.files.output import replaced
 from holdfast.grammar import is_number
+from holdfast.present.clearance.shape import shape_summary, shape_text
+from holdfast.present.printing import console, number, plain, print_json, print_written
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm

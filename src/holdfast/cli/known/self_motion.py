@@ -19,10 +19,6 @@ from holdfast.cli.options import (
     SeedOption,
     TaskOption,
     TipOption,
-    console,
-    number,
-    print_json,
-    print_written,
     read_arm,
     read_joint,
     read_numbers,
@@ -32,6 +28,7 @@ from holdfast.cli.options import (
 )
 from holdfast.errors import InputError, StoreError
 from holdfast.files.output import writing
+from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm, Joint

@@ -8,19 +8,9 @@ from typing import Annotated
 import typer
 
 from holdfast.cli.laws import LawOption, read_law
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    HoldOption,
-    JsonOption,
-    TaskOption,
-    TipOption,
-    console,
-    print_json,
-    read_arm,
-    read_task,
-)
+from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TaskOption, TipOption, read_arm, read_task
 from holdfast.errors import InputError
+from holdfast.present.printing import console, print_json
 
 LANGUAGES = ("c",)
 

@@ -10,19 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from holdfast.cli.options import (
-    BasesOption,
-    HoldsOption,
-    JsonOption,
-    NamesOption,
-    TipsOption,
-    console,
-    each_arm,
-    print_json,
-)
+from holdfast.cli.options import BasesOption, HoldsOption, JsonOption, NamesOption, TipsOption, each_arm
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
 from holdfast.notice import working
+from holdfast.present.printing import console, print_json
 
 if TYPE_CHECKING:
     from holdfast.engine.study import Study

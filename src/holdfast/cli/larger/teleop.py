@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from holdfast.cli.larger import teleop_serve, teleop_tasks
-from holdfast.cli.options import console
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files import reading
+from holdfast.present.printing import console
 
 if TYPE_CHECKING:
     from holdfast.teleop.protocol.protocol import Protocol

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.options import JsonOption, console, number, print_json, read_arm, read_task
+from holdfast.cli.options import JsonOption, read_arm, read_task
 from holdfast.errors import StoreError
 from holdfast.files.output import replaced
+from holdfast.present.printing import console, number, print_json
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

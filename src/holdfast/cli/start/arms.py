@@ -6,17 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from holdfast.cli.options import (
-    ArmArgument,
-    BaseOption,
-    HoldOption,
-    JsonOption,
-    TipOption,
-    console,
-    number,
-    print_json,
-    read_arm,
-)
+from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
+from holdfast.present.printing import console, number, print_json
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm, Joint

@@ -22,7 +22,6 @@ from holdfast.cli.options import (
     NamesOption,
     TipsOption,
     each_arm,
-    print_json,
     read_by_joint,
     read_failures,
     read_task,
@@ -33,6 +32,7 @@ from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.files.output import replaced
 from holdfast.present.assessment.console import comparison_summary, print_assessment, print_comparison, summary
+from holdfast.present.printing import print_json
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm

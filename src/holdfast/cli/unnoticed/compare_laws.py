@@ -17,10 +17,6 @@ from holdfast.cli.options import (
     JsonOption,
     TaskOption,
     TipOption,
-    console,
-    number,
-    print_json,
-    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -29,6 +25,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
+from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm

@@ -18,10 +18,6 @@ from holdfast.cli.options import (
     JsonOption,
     TaskOption,
     TipOption,
-    console,
-    number,
-    print_json,
-    print_written,
     read_arm,
     read_configuration,
     read_joint,
@@ -32,6 +28,7 @@ from holdfast.cli.options import (
 from holdfast.errors import InputError, StoreError
 from holdfast.files.output import writing
 from holdfast.present.physics.console import physics_data, print_physics, run_physics
+from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm

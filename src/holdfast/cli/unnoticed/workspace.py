@@ -16,16 +16,13 @@ from holdfast.cli.options import (
     JsonOption,
     TaskOption,
     TipOption,
-    console,
-    number,
-    print_json,
-    print_written,
     read_arm,
     read_target,
     read_task,
 )
 from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError
+from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -8,8 +8,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from holdfast.cli.clearance import shape_summary, shape_text
-from holdfast.cli.options import console, number
+from holdfast.present.clearance.shape import shape_summary, shape_text
+from holdfast.present.printing import console, number
 
 if TYPE_CHECKING:
     from holdfast.assessment.assessment import Assessment

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from holdfast.arm import rotations
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task
-from holdfast.assessment.assessment import ZERO, Assessment
+from holdfast.assessment.assessment import EMPTY, ZERO, Assessment
 from holdfast.assessment.rows import provenance
 from holdfast.assessment.single_points import Structure, structure, structures
 from holdfast.assessment.upgrade import sample
@@ -26,7 +26,6 @@ from holdfast.words import article, as_given, either, interval, number, percent,
 
 Array = NDArray[np.float64]
 
-EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
 _MOST_DOTS = 20_000
 
 

@@ -17,7 +17,7 @@ from holdfast.designs.choice import SAME, farther
 from holdfast.designs.designs import Checked, Designs
 from holdfast.designs.space import DesignSpace, Parameter
 from holdfast.failures import failure_sets
-from holdfast.present.commands import failures_option, region_files, task_option
+from holdfast.present.commands import failures_option, region_file, region_files, task_option
 from holdfast.present.designs.figures import arms_figure, front_figure
 from holdfast.probability.intervals import Interval
 from holdfast.report import figures, page
@@ -296,6 +296,16 @@ def arm_file(d: Designs) -> str:
     """The best arm as a file that every command takes."""
     arm = d.arm(d.best)
     return table_text(d.space.table_of(d.values[d.best]), arm.name, arm.gravity, arm.source)
+
+
+def files(d: Designs, table: str) -> dict[str, str]:
+    """Names and texts of what lies beside the report: the best arm, the designs, and the region if it can be stored."""
+    texts = {ARM_FILE: arm_file(d), "designs.csv": table}
+    if d.region.storable:
+        texts["region.yaml"] = region_file(d.region) + "\n"
+        if d.region.listed is not None:
+            texts["poses.csv"] = d.region.listed.table()
+    return texts
 
 
 def _file(d: Designs) -> list[Block]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.cli.options import console, number
 from holdfast.errors import InputError
+from holdfast.present.printing import console, number
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from holdfast.errors import InputError
 from holdfast.present.teleop import figures
 from holdfast.present.teleop.examples import example_blocks
-from holdfast.present.teleop.tables import ABOUT
+from holdfast.present.teleop.tables import ABOUT, write_tables
 from holdfast.report import page
 from holdfast.report.figures import svg
 from holdfast.report.page import Block, Callout, Cell, Page, Picture, Section, Table, Text
@@ -33,13 +33,14 @@ _SMALL = 1e-4
 
 def write(
     analysis: Analysis,
-    path: Path,
+    folder: Path,
     protocol: Protocol | None = None,
     paths: Paths | None = None,
     show: Sequence[int] | None = None,
 ) -> Path:
-    """Write the report as one HTML file; see :meth:`holdfast.teleop.analysis.Analysis.write`."""
-    return page.write(build(analysis, protocol, paths, show), path)
+    """Write the tables and the report as one HTML file; see :meth:`holdfast.teleop.analysis.Analysis.write`."""
+    write_tables(analysis, folder)
+    return page.write(build(analysis, protocol, paths, show), folder / "report.html")
 
 
 def build(

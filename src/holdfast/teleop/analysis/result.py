@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.errors import InputError
 from holdfast.notice import says
+from holdfast.result import Result
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import Cells, Groups
 from holdfast.teleop.analysis.mixed_model import Mixed
@@ -29,7 +30,7 @@ Paths = Callable[[str | None, int, int], Array | None]
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis:
+class Analysis(Result):
     """An experiment analysed: :func:`holdfast.teleop.analysis.analyse` makes it.
 
     Attributes:
@@ -158,9 +159,5 @@ class Analysis:
             StoreError: The folder or a file cannot be written.
             InputError: A task to show that there is not.
         """
-        from holdfast.present.teleop.page import write
-        from holdfast.present.teleop.tables import write_tables
-
-        target = Path(folder)
-        write_tables(self, target)
-        return write(self, target / "report.html", protocol, paths, show)
+        report: Path = self._presented("write", Path(folder), protocol, paths, show)
+        return report
