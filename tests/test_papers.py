@@ -10,7 +10,7 @@ from papers.english1998 import measures, planar
 from papers.english1998.planar import Borders, Planar
 from papers.goel2003 import laws
 from papers.goel2003.peak_error import PeakError, golden
-from papers.goel2005 import three_links, two_links
+from papers.goel2005 import three_links, two_link_motion, two_links
 from papers.numbers import beside
 from papers.seven_dof import __main__ as seven_dof
 from papers.seven_dof import study
@@ -97,15 +97,15 @@ def test_differences_are_told():
 
 
 def test_the_four_targets_of_the_two_link_arm():
-    found = [two_links.ended(case) for case in two_links.CASES]
+    found = [two_link_motion.ended(case) for case in two_link_motion.CASES]
     assert [str(f.run.outcome) for f in found] == ["converged", "stuck", "stuck", "moving"]
     assert two_links.period(found[-1]) == pytest.approx(2 * np.pi / np.sqrt(3), rel=1e-5)
     for f in found[:3]:
         assert f.angle == pytest.approx(f.case.angle, abs=1e-4)
     # (15) is row 2 of the inverse Jacobian times the error
-    x, angle = two_links.target(1.7, 50), 0.8
+    x, angle = two_link_motion.target(1.7, 50), 0.8
     j = np.array([[-np.sin(angle), -np.sin(angle)], [1 + np.cos(angle), np.cos(angle)]])
-    assert two_links.rate(angle, x) == pytest.approx(np.linalg.solve(j, x - two_links.hand(angle))[1])
+    assert two_link_motion.rate(angle, x) == pytest.approx(np.linalg.solve(j, x - two_link_motion.hand(angle))[1])
 
 
 @pytest.mark.parametrize("joint", [0, 1, 2])

@@ -5,39 +5,25 @@ No person took part. The simulated operators were made before their statistics w
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.teleop.analysis import Analysis, analyse
+from holdfast.teleop.analysis import Analysis
 from holdfast.teleop.bank.selection import Binning, binning
 from holdfast.teleop.bank.tasks import TaskBank, task_bank
-from holdfast.teleop.protocol.protocol import Protocol, read_protocol
-from holdfast.teleop.records.check import replay
-from holdfast.teleop.records.entries import Kind
-from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.tables import computer_table, hand_paths, trial_table
-from holdfast.teleop.rehearsal import simulate_experiment
 from papers.claims import Claim, Verdict
+from papers.goel2003.simulated_operators import SEED, SUBJECTS, Study, study
 from papers.part import Part
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
-
-    from holdfast.teleop.analysis.result import Paths
 
 Array = NDArray[np.float64]
 
 SEEDS = range(8)
 BANK = 1  # the seed of the bank that the tasks of the shipped protocol are from
-SUBJECTS, SEED = 24, 1
 BINS = 22  # cells that the paper fills
 
 # The paper's statistics: means of CPM, differences pseudoinverse - failure-tolerant, F, t and r.
@@ -125,83 +111,6 @@ def bank_table() -> list[str]:
 
 
 # ---- the experiment --------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class Study:
-    """The experiment with simulated operators.
-
-    Attributes:
-        protocol: The shipped one.
-        table: A row for each trial.
-        analysis: Tasks grouped by the operators' CPM3, as the paper probably did.
-        by_computer: Grouped by the computer's.
-        training: (P,) training tasks of each operator.
-        differs: Trials that replay differently.
-        recorded: Trials recorded.
-        paths: Where the hand was, of the tasks that are drawn.
-    """
-
-    protocol: Protocol
-    table: DataFrame
-    analysis: Analysis
-    by_computer: Analysis
-    training: NDArray[np.int64]
-    differs: int
-    recorded: int
-    paths: Paths
-
-    def end(self, task: int, scenario: int) -> str:
-        """How the operators' trials ended, in words."""
-        mine = self.table[(self.table["task"] == task) & (self.table["scenario"] == scenario)]
-        arrived = int((mine["end"] == "arrived").sum())
-        return f"{arrived} of {len(mine)}"
-
-
-@cache
-def study() -> Study:
-    """Run it, replay it, analyse it."""
-    protocol = read_protocol()
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, SEED) as records,
-    ):
-        again = replay(records)
-        table, machine = trial_table(records), computer_table(protocol)
-        found = analyse(table, machine)
-        counts = [len(records.entries(s.code, Kind.TRAINING)) for s in records.subjects()]
-        paths = _kept(records, found)
-    return Study(
-        protocol,
-        table,
-        found,
-        analyse(table, machine, difficulty="computer"),
-        np.array(counts),
-        len(again.differs),
-        len(again.entries),
-        paths,
-    )
-
-
-def shown(a: Analysis) -> dict[str, int]:
-    """The middle task, by number, of each group: those that Figs 5 to 7 show."""
-    from holdfast.present.teleop.page import middle_tasks
-
-    return dict(zip(a.groups.names, middle_tasks(a), strict=True))
-
-
-def _kept(records: Records, a: Analysis) -> Paths:
-    """The paths of the tasks that are drawn, without the records."""
-    from holdfast.teleop.analysis.tables import median_operator
-
-    path = hand_paths(records)
-    kept: dict[tuple[str | None, int, int], Array | None] = {}
-    for task in shown(a).values():
-        k = median_operator(a.observed, a.observed.tasks.index(task), a.observed.index(a.conditions[0].scenario))
-        for who in (None, *([] if k is None else [a.observed.subjects[k]])):
-            for c in a.observed.conditions:
-                kept[who, task, c.scenario] = path(who, task, c.scenario)
-    return lambda who, task, scenario: kept.get((who, task, scenario))
 
 
 def differences(a: Analysis) -> dict[str, tuple[float, float]]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,9 +17,7 @@ from holdfast.teleop.analysis.observations import NAMES
 from holdfast.teleop.analysis.tables import median_operator
 from holdfast.teleop.bank.selection import Binning
 from holdfast.teleop.bank.tasks import TaskBank
-
-if TYPE_CHECKING:
-    from papers.goel2003.experiment import Study
+from papers.goel2003.simulated_operators import Study, shown
 
 _SCALES = {
     "anticipated": "anticipated: CPM3 of the computer",
@@ -31,8 +28,6 @@ _SCALES = {
 
 def draw(s: Study, made: TaskBank, cells: Binning, folder: Path) -> dict[str, str]:
     """Save all figures; their names and titles."""
-    from papers.goel2003.experiment import shown
-
     a = s.analysis
     save_png(_bank(s, made, cells), folder / "figure-2.png", 110)
     save_png(_difficulty(a), folder / "figure-3.png", 110)

@@ -13,7 +13,7 @@ import holdfast as hf
 from holdfast.report.figures import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
 
 if TYPE_CHECKING:
-    from papers.goel2003.laws import TwoMinima
+    from papers.goel2003.peak_error import TwoMinima
 
 
 def two_minima(found: TwoMinima, path: Path) -> None:

@@ -14,7 +14,7 @@ from holdfast.arm.task import as_task
 from holdfast.control import FailureTolerant, trade_off
 from holdfast.probability.intervals import Interval
 from papers.claims import Claim, Verdict
-from papers.goel2003.peak_error import PeakError
+from papers.goel2003.peak_error import PeakError, TwoMinima
 from papers.numbers import beside
 from papers.part import Part
 
@@ -121,15 +121,6 @@ def _row(task: str, degrees: ArrayLike, u: ArrayLike, expected: list[float]) -> 
         beside(float(np.degrees(told.peak_angular_deviation)), expected[-1], 3),
     ]
     return " | ".join(cells)
-
-
-@dataclass(frozen=True)
-class TwoMinima:
-    """The specification's counterexample: PKE, and where a golden section and the law end (damping and PKE)."""
-
-    error: PeakError
-    golden: tuple[float, float]
-    law: tuple[float, float]
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,6 +82,15 @@ class PeakError:
             found = golden(lambda x, r=rows: self(x, r), low, high, 60)  # type: ignore[misc]
             least[rows] = np.minimum(values.min(axis=1), self(found, rows))
         return least, count
+
+
+@dataclass(frozen=True)
+class TwoMinima:
+    """The specification's counterexample: PKE, and where a golden section and the law end (damping and PKE)."""
+
+    error: PeakError
+    golden: tuple[float, float]
+    law: tuple[float, float]
 
 
 def golden(function: Callable[[Array], Array], low: Array, high: Array, steps: int) -> Array:

@@ -13,7 +13,7 @@ from matplotlib.patches import Circle
 from holdfast.report.figures import BLUE, FAINT, INK, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, save_png, style
 from papers.goel2005 import drawing
 from papers.goel2005.drawing import point
-from papers.goel2005.two_links import START, Ended, hand, rate, target, wrapped
+from papers.goel2005.two_link_motion import START, Ended, hand, rate, target, wrapped
 
 GREEN = "#007a5e"
 

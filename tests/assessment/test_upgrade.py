@@ -10,7 +10,6 @@ from scipy.stats import binomtest
 
 import holdfast as hf
 import oracles
-from holdfast.assessment.upgrade import upgrades
 from holdfast.probability.distribution import Distribution
 from holdfast.regions.region import builtin_region
 
@@ -138,4 +137,4 @@ def test_what_cannot_be_said(run, pa10):
         run.upgrades(float("nan"))
     with pytest.raises(hf.InputError, match="'elbow'"):
         run.if_never_fails("elbow")
-    assert upgrades(run, 0.2, False, 0.8)[0].confidence == 0.8
+    assert run.upgrades(0.2, confidence=0.8)[0].confidence == 0.8

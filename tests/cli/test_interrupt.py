@@ -37,7 +37,7 @@ sys.meta_path.insert(0, Interrupted())
 # Ctrl-C while the main thread is not in Python, and another thread computes on.
 BUSY = """
 import concurrent.futures, hashlib, os, signal, threading
-from holdfast.simulate import closed_loop as place
+from holdfast.simulation import closed_loop as place
 def long(): hashlib.pbkdf2_hmac("sha256", b"", b"", {rounds})
 def simulate(*_, **__):
     concurrent.futures.ThreadPoolExecutor().submit(long)
@@ -47,7 +47,7 @@ place.simulate = simulate
 """
 DESTRUCTOR = """
 import os, signal, time
-from holdfast.simulate import closed_loop as place
+from holdfast.simulation import closed_loop as place
 class Last:
     def __del__(self): os.kill(os.getpid(), signal.SIGINT); time.sleep(1)
 def simulate(*_, **__):

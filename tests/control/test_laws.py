@@ -129,7 +129,7 @@ def test_by_name(planar4):
         assert law.name in repr(law)
         assert law.source
     assert by_name("failure-tolerant", planar4, task="planar", pre_failure_error=0.2).pre_failure_error == 0.2
-    with pytest.raises(InputError, match=r"'pinv' is not known; use one of failure-tolerant, pseudoinverse, "):
+    with pytest.raises(InputError, match=r"'pinv' is not known; use one of pseudoinverse, weighted, damped, "):
         by_name("pinv", planar4)
     with pytest.raises(InputError, match=r"'damped' needs damping, .*, above 0; write damped:DAMPING"):
         by_name("damped", planar4, task="planar")

@@ -7,7 +7,7 @@ import sys
 import tomllib
 
 import pytest
-from tools.house import ratchet, rules, words
+from tools.house import picture, ratchet, rules, words
 from tools.house.imports import circles, graph, read
 
 
@@ -232,3 +232,13 @@ def test_the_command_line():
     done = subprocess.run(run, capture_output=True, text=True, cwd=ratchet.ROOT)
     assert done.returncode == 2
     assert "--tighten" in done.stdout
+
+
+def test_arrows_that_others_imply_or_that_point_up_are_left_out():
+    imports = {"x.a.f": {"x.b.g", "x.c.h"}, "x.b.g": {"x.c.h"}, "x.c.h": {"x.a.f"}, "x": {"x.a.f"}}
+    assert picture.arrows(imports, ["a", "b", "c"]) == {("a", "b"), ("b", "c")}
+
+
+def test_contributing_shows_the_packages_as_they_are():
+    page = picture.PAGE.read_text(encoding="utf-8")
+    assert page == picture.put(page, picture.picture()), "run `python -m tools.house --picture`"

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast import solvers as solve
 from holdfast.arm.poses import pose_numbers
 from holdfast.arm.task import as_task
+from holdfast.solvers import optimum
 from holdfast.studio import State
 from holdfast.studio.compute import best_worst
 from holdfast.studio.motions import law_motions
@@ -38,7 +38,7 @@ def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objecti
     def found(arm, pose, wanted, **_):
         return SimpleNamespace(q=middle, value=float(index(middle)), success=True)
 
-    monkeypatch.setattr(solve, "optimise", found)
+    monkeypatch.setattr(optimum, "optimise", found)
     for q, place in ((low, 1), (high, 0)):
         extremes = best_worst(machine, state(machine, q, objective=objective), lambda *_: None)
         best, worst, here = extremes.values

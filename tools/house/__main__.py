@@ -1,14 +1,18 @@
-"""Command line: ``python -m tools.house [--tighten]``; exit code 1 if the lists do not say what there is."""
+"""Command line: ``python -m tools.house [--tighten | --picture]``; exit code 1 if the lists do not say what there is."""
 
 from __future__ import annotations
 
 import sys
 
+from tools.house import picture
 from tools.house.ratchet import Lists, counted
 
 
 def main(arguments: list[str]) -> int:
     """Print the counts and what is new or gone."""
+    if arguments == ["--picture"]:
+        picture.write()
+        return 0
     if arguments not in ([], ["--tighten"]):
         print(__doc__)
         return 2

@@ -17,7 +17,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.assessment.plan import Plan, Rows, make_plan
 from holdfast.assessment.rows import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
-from holdfast.assessment.upgrade import Upgrade, if_never_fails, upgrades
+from holdfast.assessment.upgrade import Sample, Upgrade, if_never_fails, sample, upgrades
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Store
 from holdfast.errors import InputError, StoreError
@@ -233,7 +233,7 @@ class Assessment(Result):
         Raises:
             InputError: No such joint, no failure would be left, the rows were not kept, or the run was not optimised.
         """
-        return if_never_fails(self, joint, optimised)
+        return if_never_fails(self.index, self.arm.joint_index(joint), self._sample(optimised))
 
     @checked
     def upgrades(self, threshold: float | None = None, optimised: bool = False, confidence: float = 0.95) -> list[Upgrade]:
@@ -248,7 +248,12 @@ class Assessment(Result):
             InputError: The threshold is not finite, the rows were not kept, or the run was not optimised.
         """
         check_confidence(confidence)
-        return upgrades(self, self.default_threshold() if threshold is None else threshold, optimised, confidence)
+        least = self.default_threshold() if threshold is None else threshold
+        return upgrades(self.index, self.of(optimised), self._sample(optimised), least, confidence)
+
+    def _sample(self, optimised: bool) -> Sample:
+        self.of(optimised)  # says so where the run was not optimised
+        return sample(self.index, self.columns, optimised)
 
     # ---- rows, files -----------------------------------------------------------------------------------------------
 

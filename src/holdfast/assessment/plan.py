@@ -169,8 +169,8 @@ class Plan:
         )
 
     @classmethod
-    def stored(cls, store: Store, poses: int) -> Plan:
-        """The plan of a results folder of ``poses`` poses.
+    def stored(cls, store: Store, poses: int, rows: bool = True) -> Plan:
+        """The plan of a results folder of ``poses`` poses, with a row of all columns for each of them or without ``rows``.
 
         Raises:
             StoreError: It is not the plan of an assessment.
@@ -182,7 +182,7 @@ class Plan:
         except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
             reason = f"lacks {error}" if isinstance(error, KeyError) else f"cannot be read ({reprlib.repr(str(error))})"
             raise StoreError(f"'{store.path}' is damaged: its plan {reason}; start the run again in a new folder") from error
-        wanted = {c.name: c.dims for c in plan.columns()}
+        wanted = {c.name: c.dims for c in plan.columns()} if rows else {}
         lacking = wanted.keys() - {c.name for c in store.columns} - {"lock_angle"}  # of which older folders know nothing
         if lacking:
             raise StoreError(

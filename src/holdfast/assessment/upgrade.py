@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +14,6 @@ from holdfast.indices.index import Index
 from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Interval
 from holdfast.status import Status
-
-if TYPE_CHECKING:
-    from holdfast.assessment.assessment import Assessment
 
 Array = NDArray[np.float64]
 
@@ -66,16 +64,11 @@ class Sample:
     weight: Array | None
 
 
-def sample(a: Assessment, optimised: bool) -> Sample:
-    """The rows of a run.
+def sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> Sample:
+    """The rows of a run by its columns.
 
     At the best configurations the values after each failure are not stored but computed again, which costs less than reading.
-
-    Raises:
-        InputError: The rows were not kept, or the run was not optimised.
     """
-    a.of(optimised)
-    columns = a.columns
     status = columns["status"][:]
     keep = np.flatnonzero(status != Status.NOT_COMPUTED)
     reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
@@ -87,43 +80,39 @@ def sample(a: Assessment, optimised: bool) -> Sample:
     before = "optimised_" if optimised else ""
     q = columns[f"{before}q"][:][keep]
     if optimised:
-        by_failure = np.full((len(keep), len(a.index.failures)), np.nan)
-        by_failure[reached] = a.index.by_joint(q[reached])
+        by_failure = np.full((len(keep), len(index.failures)), np.nan)
+        by_failure[reached] = index.by_joint(q[reached])
     else:
         by_failure = columns["by_failure"][:][keep]
     value, worst = columns[f"{before}index"][:][keep], columns[f"{before}worst"][:][keep].astype(np.int64)
     return Sample(keep, reached, q, value, by_failure, worst, weight)
 
 
-def if_never_fails(a: Assessment, joint: str | int, optimised: bool) -> Distribution:
+def if_never_fails(index: Index, k: int, s: Sample) -> Distribution:
     """See :meth:`Assessment.if_never_fails`."""
-    k = a.arm.joint_index(joint)
-    left = _remaining(a.index, k)
+    left = _remaining(index, k)
     if not left:
         raise InputError(
-            f"every failure considered is one of '{a.arm.joint_names[k]}', so nothing could fail; assess with more failures"
+            f"every failure considered is one of '{index.arm.joint_names[k]}', so nothing could fail; assess with more failures"
         )
-    s = sample(a, optimised)
     values = s.by_failure[s.reached][:, left]
-    worst = values.min(axis=1) if a.index.better == "larger" else values.max(axis=1)
+    worst = values.min(axis=1) if index.better == "larger" else values.max(axis=1)
     weights = () if s.weight is None else (s.weight[s.reached], s.weight[~s.reached])
     lost, singular = int((~s.reached).sum()), int((s.worst[s.reached] < 0).sum())
-    return Distribution.of(worst, a.index.better, lost, singular, *weights)
+    return Distribution.of(worst, index.better, lost, singular, *weights)
 
 
-def upgrades(a: Assessment, threshold: float, optimised: bool, confidence: float) -> list[Upgrade]:
+def upgrades(index: Index, d: Distribution, s: Sample, threshold: float, confidence: float) -> list[Upgrade]:
     """See :meth:`Assessment.upgrades`."""
     if not np.isfinite(threshold):
         raise InputError(f"threshold is {threshold:g}; it must be a finite number")
-    d, index = a.of(optimised), a.index
     larger = index.better == "larger"
     now = d.interval(at_least=threshold) if larger else d.interval(at_most=threshold)
-    s = sample(a, optimised)
     value = np.where(s.reached[:, None], s.by_failure, 0.0 if larger else np.inf)
     meets = value >= threshold if larger else value <= threshold
     fails = ~meets.all(axis=1)
     found = []
-    for k, name in enumerate(a.arm.joint_names):
+    for k, name in enumerate(index.arm.joint_names):
         left = _remaining(index, k)
         if not left or len(left) == len(index.failures):
             continue  # nothing would be left to fail, or nothing would change

@@ -22,14 +22,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.errors import ArmError
+from holdfast.errors import ArmError, InputError
+
+if TYPE_CHECKING:
+    from holdfast.clearance.capsule_file import Entry
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -151,7 +154,10 @@ class Capsules:
         """
         from holdfast.clearance.capsule_file import read
 
-        return read(Path(path), arm)
+        try:
+            return cls.from_dict(read(Path(path)), arm)
+        except (ArmError, InputError) as error:
+            raise ArmError(f"capsule file '{Path(path)}': {error}") from error
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], arm: Arm) -> Capsules:
@@ -162,7 +168,17 @@ class Capsules:
         """
         from holdfast.clearance.capsule_file import parse
 
-        return parse(data, arm)
+        told = parse(data)
+        named = {_link(arm, name, "links"): (name, entries) for name, entries in (told.links or {}).items()}
+        parts: list[Capsule] = []
+        for link in range(BASE, arm.n):
+            if link in named:
+                name, entries = named[link]
+                parts += [_part(link, e, told.radius, f"links.{name}[{k}]") for k, e in enumerate(entries)]
+            elif told.radius is not None:
+                parts += along_link(arm, link, told.radius)
+        pairs = [(_link(arm, a, f"ignore[{k}]"), _link(arm, b, f"ignore[{k}]")) for k, (a, b) in enumerate(told.ignore)]
+        return cls(tuple(parts), tuple(pairs))
 
     def to_dict(self, arm: Arm) -> dict[str, Any]:
         """Everything as JSON types, links by name: a file's keys and values."""
@@ -178,7 +194,24 @@ def link_name(arm: Arm, link: int) -> str:
     return "base" if link == BASE else arm.joint_names[link]
 
 
-def as_point(values: list[float] | Array) -> Point:
+def _link(arm: Arm, name: str, place: str) -> int:
+    if name == "base":
+        if name in arm.joint_names:
+            raise ArmError(f"{place}: 'base' is the base here, but '{arm.name}' also has a joint 'base'; rename the joint")
+        return BASE
+    if name not in arm.joint_names:
+        raise ArmError(f"{place}: '{arm.name}' has no link '{name}'; its links are base, {', '.join(arm.joint_names)}")
+    return arm.joint_names.index(name)
+
+
+def _part(link: int, entry: Entry, radius: float | None, place: str) -> Capsule:
+    own = radius if entry.radius is None else entry.radius
+    if own is None:
+        raise ArmError(f"{place}.radius: it is missing; give it here or for the whole file")
+    return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), own)
+
+
+def _point(values: list[float] | Array) -> Point:
     """Three plain numbers."""
     x, y, z = (float(v) for v in values)
     return x, y, z
@@ -193,6 +226,6 @@ def along_link(arm: Arm, link: int, radius: float) -> list[Capsule]:
     """The capsule of :meth:`Capsules.along` for one link, if it has one."""
     end = _ends(arm)[link + 1]
     if np.linalg.norm(end) >= _POINT:
-        return [Capsule(link, (0.0, 0.0, 0.0), as_point(end), radius)]
+        return [Capsule(link, (0.0, 0.0, 0.0), _point(end), radius)]
     slides = link != BASE and arm.joints[link].prismatic
     return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius)] if slides else []

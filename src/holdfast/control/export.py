@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import casadi as ca
 import numpy as np
@@ -12,14 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task
 from holdfast.errors import InputError, StoreError
 from holdfast.files.output import replaced
+from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled_data
 from holdfast.notice import says
 from holdfast.provenance import versions
-
-if TYPE_CHECKING:
-    from holdfast.control.law import Law
 
 Array = NDArray[np.float64]
 CASES, TRIES = 5, 1000
@@ -30,6 +30,17 @@ _KEYWORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
 return short signed sizeof static struct switch typedef union unsigned void volatile while main
 """
+
+
+class _Law(Protocol):
+    """What is written down of a :class:`holdfast.control.Law`."""
+
+    arm: Arm
+    task: Task
+
+    def jacobian(self, q: SX) -> SX: ...
+    def outputs(self, q: SX, v: SX) -> dict[str, SX]: ...
+    def phrase(self) -> str: ...
 
 
 def check_name(name: str) -> str:
@@ -44,7 +55,7 @@ def check_name(name: str) -> str:
 
 
 @recalled_data
-def c_files(law: Law, name: str) -> dict[str, str]:
+def c_files(law: _Law, name: str) -> dict[str, str]:
     """Text of ``NAME.c``, ``NAME.h``, ``NAME_example.c`` and ``NAME_test.c``; see :meth:`holdfast.control.Law.export_c`."""
     check_name(name)
     q, v = kinematics.joint_symbols(law.arm), ca.SX.sym("v", law.task.m)
@@ -59,12 +70,12 @@ def c_files(law: Law, name: str) -> dict[str, str]:
     }
 
 
-def _signature(law: Law, name: str, function: ca.Function) -> str:
+def _signature(law: _Law, name: str, function: ca.Function) -> str:
     arguments = [f"const double q[{law.arm.n}]", f"const double v[{law.task.m}]", f"double rates[{law.arm.n}]"]
     return f"int {name}({', '.join(arguments + [f'double *{x}' for x in function.name_out()[1:]])})"
 
 
-def _source(law: Law, name: str, function: ca.Function) -> str:
+def _source(law: _Law, name: str, function: ca.Function) -> str:
     n, m, others = law.arm.n, law.task.m, function.name_out()[1:]
     generator = ca.CodeGenerator(f"{name}.c", {"with_export": False, "casadi_int": "int"})
     generator.add(function)
@@ -102,7 +113,7 @@ int {name}_check_joints(const char *const names[], int count) {{
 """
 
 
-def _header(law: Law, name: str, function: ca.Function) -> str:
+def _header(law: _Law, name: str, function: ca.Function) -> str:
     guard = f"{name.upper()}_H"
     return f"""#ifndef {guard}
 #define {guard}
@@ -133,7 +144,7 @@ int {name}_check_joints(const char *const names[], int count);
 """
 
 
-def _example(law: Law, name: str, function: ca.Function) -> str:
+def _example(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
     start = law.arm.states.get("home", np.mean(finite_limits(law.arm), axis=0))
     names = ", ".join(_quoted(x) for x in law.arm.joint_names)
@@ -172,7 +183,7 @@ int main(void) {{
 """
 
 
-def _test(law: Law, name: str, function: ca.Function) -> str:
+def _test(law: _Law, name: str, function: ca.Function) -> str:
     n, m = law.arm.n, law.task.m
     cases = _cases(law, function)
     nulls = ", 0" * (function.n_out() - 1)
@@ -221,7 +232,7 @@ int main(void) {{
 """
 
 
-def _cases(law: Law, function: ca.Function) -> list[tuple[Array, Array, Array]]:
+def _cases(law: _Law, function: ca.Function) -> list[tuple[Array, Array, Array]]:
     """Configurations away from singular ones, commands, and the rates that holdfast gives them."""
     rng, found = np.random.default_rng(0), []
     jacobian = ca.Function("jacobian", [q := kinematics.joint_symbols(law.arm)], [law.jacobian(q)])
@@ -256,7 +267,7 @@ def _quoted(text: str) -> str:
 
 
 @says("writing down the law")
-def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Path]:
+def write(law: _Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Path]:
     """Write all four files.
 
     Raises:
@@ -276,7 +287,7 @@ def write(law: Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Pa
     return source, header, example, test
 
 
-def _about(law: Law, name: str, others: list[str]) -> str:
+def _about(law: _Law, name: str, others: list[str]) -> str:
     units = ", ".join(f"{j.name} [{j.unit}]" for j in law.arm.joints)
     lines = [
         f"{name}: {law.phrase()}, for the arm {law.arm.title}.",

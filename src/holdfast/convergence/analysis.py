@@ -16,7 +16,7 @@ from holdfast.convergence.measures import NAMES, Arcs, Flags, Index, Measures, a
 from holdfast.convergence.places import Places, configurations_at, in_a_plane, picked_at, read_places
 from holdfast.convergence.slow_endings import arriving
 from holdfast.engine.store import Column
-from holdfast.equilibria.points import stationary
+from holdfast.equilibria.search import stationary
 from holdfast.errors import InputError, TaskError
 from holdfast.reach.bounds import joint_bounds
 from holdfast.simulation.closed_loop import simulate

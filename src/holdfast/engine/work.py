@@ -5,32 +5,46 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
 from holdfast.engine.job import Cell
 from holdfast.engine.journal import Entry
+from holdfast.engine.makers import Made
 from holdfast.engine.runner import Runner, Stop, Task
 from holdfast.engine.store import Store
 from holdfast.errors import HoldfastError
-
-if TYPE_CHECKING:
-    from holdfast.engine.study import Study
 
 Progress = Callable[[int, int, float | None], None]
 """Called with the chunks done, the chunks in all, and the seconds that are probably left."""
 
 
+class _Study(Protocol):
+    """The folder that a run reads and writes; see :class:`holdfast.engine.Study`."""
+
+    made: Made
+
+    @property
+    def seed(self) -> int: ...
+    @property
+    def begun(self) -> frozenset[int]: ...
+    def folder(self, cell: int) -> Path: ...
+    def store(self, cell: int) -> Store: ...
+    def entries(self, cell: int) -> dict[int, Entry]: ...
+    def note_begun(self, cell: int) -> None: ...
+
+
 class Work:
     """One run of a study."""
 
-    def __init__(self, study: Study, cells: Sequence[Cell], progress: Progress | None) -> None:
+    def __init__(self, study: _Study, cells: Sequence[Cell], progress: Progress | None) -> None:
         self._study, self._cells, self._progress = study, cells, progress
         self._missing: dict[int, list[int]] = {}
         self._stores: dict[int, Store] = {}
         self._left: dict[int, int] = {}
-        self._numbers: list[dict[str, Any]] = study.makers
+        self._numbers: list[dict[str, Any]] = study.made.makers
         self._begun = set(study.begun)
         self._problems: dict[str, HoldfastError] = {}
 
@@ -96,7 +110,7 @@ class Work:
             self._stores[k] = Store.create(folder, cell.plan, cell.job.columns(), *cell.stored, journal=True)
         if made not in self._numbers:
             self._study.made.number(made)
-            self._numbers = self._study.makers
+            self._numbers = self._study.made.makers
         self._stores[k].write(task.chunk.number, columns, seconds, self._numbers.index(made))
         if k not in self._begun:
             self._study.note_begun(k)

@@ -6,7 +6,7 @@ from holdfast.equilibria.curves import Segment as Segment
 from holdfast.equilibria.limit_cycles import Orbit as Orbit
 from holdfast.equilibria.limit_cycles import orbit as orbit
 from holdfast.equilibria.points import RestPoints as RestPoints
-from holdfast.equilibria.points import stationary as stationary
+from holdfast.equilibria.search import stationary as stationary
 from holdfast.equilibria.stability import Kind as Kind
 from holdfast.equilibria.stability import Linearisation as Linearisation
 from holdfast.equilibria.stability import linearisation as linearisation

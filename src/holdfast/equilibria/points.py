@@ -4,22 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.arm.targets import target_pose
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds, attracts, kinds
 from holdfast.equilibria.system import RestSystem, distinct, idle_joints, wrapped
 from holdfast.errors import InputError
-from holdfast.notice import Progress, told, working
-
-if TYPE_CHECKING:
-    from holdfast.equilibria.curves import Curves
+from holdfast.notice import Progress, told
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -114,52 +108,6 @@ class RestPoints:
     def _subset(self, rows: Flags | NDArray[np.intp]) -> RestPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
-
-
-@overload
-def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> RestPoints: ...
-@overload
-def stationary(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
-@checked
-def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0) -> RestPoints | Curves:
-    """Where the arm can come to rest while its controller does not know that joints have locked.
-
-    With ``at``, all points of rest that were found for these values of the locked joints: solutions, where the target is
-    reached, and erroneous ones, where only locked joints are commanded. They are looked for from random starts, until three
-    waves of 256 starts bring nothing new. Without it, for one locked joint, the curves that the erroneous points make as that
-    joint's value changes are traced; see :class:`holdfast.equilibria.Curves`.
-
-    The speed limit of the law is left out, as it changes no path, and so are the joint limits, which the law does not heed.
-
-    Args:
-        law: The control law, with its arm, task and gain.
-        target: (m,) for tasks without angular rows, or a tool pose (4, 4).
-        locked: A joint by name or index from 0, or several.
-        at: Where each stands, rad (or m).
-        seed: Of the starts.
-
-    Returns:
-        :class:`holdfast.equilibria.RestPoints`, or :class:`holdfast.equilibria.Curves` without ``at``.
-
-    Raises:
-        InputError: Wrong shapes, joints or values.
-
-    Source: Goel et al. 2005, Theorem 1 as corrected, eq. (18) to (22). Looking for all points is ours.
-    """
-    joints = read_joints(law.arm, locked)
-    pose = target_pose(law.task, target)
-    if at is None:
-        if len(joints) != 1:
-            raise InputError(f"locked names {len(joints)} joints; curves over the locked value are those of one, or give at")
-        from holdfast.equilibria.tracing import trace
-
-        with working("tracing stationary points") as advance:
-            return trace(law, pose, joints[0], seed, advance=advance)
-    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
-    if values.shape != (len(joints),) or not np.isfinite(values).all():
-        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
-    with working("looking for stationary points") as advance:
-        return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed), advance)
 
 
 def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -143,9 +143,7 @@ class Path:
         Raises:
             InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
         """
-        from holdfast.paths.path_file import read
-
-        return read(file)[0]
+        return in_file(file)[0]
 
     def _place(self, s: Array) -> tuple[NDArray[np.intp], Array]:
         """Leg (N,) and u (N,) from 0 to 1 on it, of s (N,)."""
@@ -335,3 +333,19 @@ def _share(s: ArrayLike) -> Array:
     if ((a < -1e-9) | (a > 1 + 1e-9)).any():
         raise InputError(f"s is {float(np.nanmin(a)):g} to {float(np.nanmax(a)):g}; it must lie from 0 to 1")
     return np.asarray(np.clip(a, 0.0, 1.0))
+
+
+def in_file(file: str | pathlib.Path) -> tuple[Path, dict[str, float] | None, bool]:
+    """The path in a file, the arguments of its timing if it has one, and whether to stop at corners.
+
+    Raises:
+        InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+    """
+    from holdfast.paths.path_file import read
+
+    shape, given, timing, stop = read(named := pathlib.Path(file))
+    make: dict[str, Callable[..., Path]] = {"line": line, "arc": arc, "sequence": sequence}
+    try:
+        return make[shape](**given), timing, stop
+    except InputError as error:
+        raise InputError(f"path file '{named}': {error}") from error

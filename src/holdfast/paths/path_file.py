@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import csv
 import pathlib
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,27 +38,25 @@ from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.yaml import Four, Number, Strict, Three, content, sentence
-from holdfast.paths.path import Path, arc, line, sequence
-from holdfast.paths.timing import Trapezoid
 
 Array = NDArray[np.float64]
 
+Shape = Literal["line", "arc", "sequence"]
 POSITION, ORIENTATION = ("x", "y", "z"), ("qx", "qy", "qz", "qw")
 
 
-def read(file: str | pathlib.Path) -> tuple[Path, Trapezoid | None, bool]:
-    """The path in a file, its timing if it has one, and whether to stop at corners.
+def read(path: pathlib.Path) -> tuple[Shape, dict[str, Any], dict[str, float] | None, bool]:
+    """The shape of the path in a file and its arguments; those of its timing, if it has one; whether to stop at corners.
 
     Raises:
         InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
     """
-    path = pathlib.Path(file)
     try:
         model = _PathFile.model_validate(content(path, "holdfast.paths.path_file", "line, arc or poses"))
         timing = model.timing
         if timing is None:
-            return _path(model, path), None, False
-        return _path(model, path), Trapezoid(timing.duration, timing.accelerate, timing.decelerate), timing.stop
+            return *_path(model, path), None, False
+        return *_path(model, path), timing.model_dump(exclude={"stop"}), timing.stop
     except ValidationError as error:
         raise InputError(f"path file '{path}': {sentence(error, _PathFile, TAGS)}") from error
     except InputError as error:
@@ -111,23 +109,25 @@ class _PathFile(Strict):
     timing: _Timing | None = None
 
 
-def _path(model: _PathFile, file: pathlib.Path) -> Path:
+def _path(model: _PathFile, file: pathlib.Path) -> tuple[Shape, dict[str, Any]]:
     unit = np.pi / 180 if model.angles == "deg" else 1.0
     name = model.name or file.stem
     if sum(x is not None for x in (model.line, model.arc, model.poses)) != 1:
         raise InputError("it must hold one of 'line:', 'arc:' and 'poses:'")
     if model.line is not None:
-        return line(_pose(model.line.start, unit, "line.from"), _pose(model.line.to, unit, "line.to"), name)
+        first, last = _pose(model.line.start, unit, "line.from"), _pose(model.line.to, unit, "line.to")
+        return "line", {"start": first, "end": last, "name": name}
     if model.arc is not None:
         a = model.arc
         via, end = (None if p is None else _pose(p, unit, f"arc.{key}") for key, p in (("via", a.via), ("to", a.to)))
         angle = None if a.angle is None else a.angle * unit
         start = _pose(a.start, unit, "arc.from")
-        return arc(start, via, end, center=a.center, axis=a.axis, angle=angle, turning=a.turning, name=name)
+        given = {"start": start, "via": via, "end": end, "center": a.center, "axis": a.axis, "angle": angle}
+        return "arc", {**given, "turning": a.turning, "name": name}
     if isinstance(model.poses, str):
-        return sequence(pose_table(file.parent / model.poses), name)
+        return "sequence", {"poses": pose_table(file.parent / model.poses), "name": name}
     assert model.poses is not None
-    return sequence([_pose(p, unit, f"poses[{k}]") for k, p in enumerate(model.poses)], name)
+    return "sequence", {"poses": [_pose(p, unit, f"poses[{k}]") for k, p in enumerate(model.poses)], "name": name}
 
 
 def _pose(pose: _Pose, unit: float, place: str) -> Array:

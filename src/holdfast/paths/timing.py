@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked, checked_class, real_numbers
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
+from holdfast.paths import path as paths
 from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
@@ -232,9 +233,7 @@ class TimedPath:
         Raises:
             InputError: Unreadable, without timing, or a key that is unknown, missing or wrong; the message names it.
         """
-        from holdfast.paths.path_file import read
-
-        path, timing, stop = read(file)
+        path, timing, stop = in_file(file)
         if timing is None:
             raise InputError(f"path file '{file}' has no timing; add for example 'timing: {{duration: 10}}'")
         return cls(path, timing, stop)
@@ -244,6 +243,19 @@ class TimedPath:
 
     def _column(self, of: Callable[[Array], Array], t: Array) -> Array:
         return np.asarray(of(np.atleast_1d(t))).reshape((*t.shape, 1))
+
+
+def in_file(file: str | pathlib.Path) -> tuple[Path, Trapezoid | None, bool]:
+    """The path in a file, its timing if it has one, and whether to stop at corners.
+
+    Raises:
+        InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
+    """
+    path, timing, stop = paths.in_file(file)
+    try:
+        return path, None if timing is None else Trapezoid(**timing), stop
+    except InputError as error:
+        raise InputError(f"path file '{pathlib.Path(file)}': {error}") from error
 
 
 def _kept(t: Array, value: Array) -> Array:

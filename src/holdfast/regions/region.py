@@ -419,7 +419,13 @@ class Region:
         """
         from holdfast.regions.region_file import read
 
-        return read(path)
+        kind, given = read(file := Path(path))
+        try:
+            if kind == "poses":
+                return cls(kind, (), (), **given)
+            return cls.box(**given) if kind == "box" else cls.joints(**given)
+        except InputError as error:
+            raise InputError(f"region file '{file}': {error}") from error
 
     def describe(self) -> str:
         """One sentence for people, degrees and metres."""

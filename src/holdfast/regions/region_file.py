@@ -22,7 +22,7 @@ from __future__ import annotations
 import reprlib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
@@ -30,12 +30,10 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from holdfast.errors import InputError
 from holdfast.files.yaml import content
 from holdfast.regions.pose_list import PoseList
-from holdfast.regions.region import Region
 
 
-def read(path: str | Path) -> Region:
-    """The region in a file; see :meth:`holdfast.Region.load`."""
-    file = Path(path)
+def read(file: Path) -> tuple[Literal["box", "joints", "poses"], dict[str, Any]]:
+    """The kind of region in a file, and the arguments that make it; see :meth:`holdfast.Region.load`."""
     try:
         data = content(file, "holdfast.regions.region_file", "box, joints or poses")
     except InputError as error:
@@ -50,20 +48,20 @@ def read(path: str | Path) -> Region:
         raise InputError(f"region file '{file}': 'angles: deg' goes with 'box:'; joint values are in rad and m")
     name = model.name or file.stem
     unit = np.pi / 180 if model.angles == "deg" else 1.0
-    try:
-        if model.box is not None:
-            b = model.box
-            size = np.broadcast_to(b.size, 3)
-            angles = np.multiply(b.rpy_center, unit), np.broadcast_to(b.rpy_size, 3) * unit
-            scale = {"roll": unit, "pitch": unit, "yaw": unit}
-            density = {c: [(x * scale.get(c, 1.0), w) for x, w in points] for c, points in (b.density or {}).items()}
-            return Region.box(b.center, size, *angles, name=name, weight=density or None)
-        if model.poses is not None:
-            return Region("poses", (), (), name, listed=PoseList.read(file.parent / model.poses))
-        assert model.joints is not None
-        return Region.joints(model.joints.lower, model.joints.upper, name=name)
-    except InputError as error:
-        raise InputError(f"region file '{file}': {error}") from error
+    if model.box is not None:
+        b = model.box
+        scale = {"roll": unit, "pitch": unit, "yaw": unit}
+        density = {c: [(x * scale.get(c, 1.0), w) for x, w in points] for c, points in (b.density or {}).items()}
+        size, turn = np.broadcast_to(b.size, 3), np.broadcast_to(b.rpy_size, 3) * unit
+        given = {"center": b.center, "size": size, "rpy_center": np.multiply(b.rpy_center, unit), "rpy_size": turn}
+        return "box", {**given, "name": name, "weight": density or None}
+    if model.poses is not None:
+        try:
+            return "poses", {"name": name, "listed": PoseList.read(file.parent / model.poses)}
+        except InputError as error:
+            raise InputError(f"region file '{file}': {error}") from error
+    assert model.joints is not None
+    return "joints", {"lower": model.joints.lower, "upper": model.joints.upper, "name": name}
 
 
 class _Strict(BaseModel):

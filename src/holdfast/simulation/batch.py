@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -22,7 +21,7 @@ from holdfast.simulation.cycles import SUBSTEPS, Cycles
 from holdfast.simulation.endless_motion import circling
 from holdfast.simulation.residual import Nearest
 from holdfast.simulation.runge_kutta import FIRST, REST_SPEED, TURN, Steps
-from holdfast.simulation.runs import Outcome, Path, Reason, Runs
+from holdfast.simulation.runs import Outcome, Path, Reason, Runs, Setting
 from holdfast.simulation.system import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, own_units
 from holdfast.simulation.tableaus import CLASSIC, DOP853
 from holdfast.solvers.inverse_kinematics import hand_error
@@ -36,21 +35,6 @@ FLIPS = 1e-3  # rad: this near to half a turn the shortest turn has no lasting d
 MOST_STEPS = 100_000
 LOOK, LOOKS = 500, 4  # steps between two looks at runs that half a turn may have caught; as many stretches decide
 BLOCK, LEAST_BLOCK = 8192, 256  # runs that one thread makes together; no result depends on it
-
-
-@dataclass(frozen=True)
-class Setting:
-    """How runs were made.
-
-    Attributes:
-        limit: s, or cycles.
-        accuracy: Tolerance of a step, or radius of the target in cycles.
-        step: Of the fixed-step method, s.
-    """
-
-    limit: float
-    accuracy: float
-    step: float
 
 
 Advance = Callable[[Array, Array], tuple[Array, NDArray[np.bool_]]]

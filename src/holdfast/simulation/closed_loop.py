@@ -15,8 +15,8 @@ from holdfast.arm.targets import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.notice import says
-from holdfast.simulation.batch import Setting, motion_of
-from holdfast.simulation.runs import Runs
+from holdfast.simulation.batch import motion_of
+from holdfast.simulation.runs import Runs, Setting
 from holdfast.simulation.tableaus import CLASSIC
 
 Array = NDArray[np.float64]

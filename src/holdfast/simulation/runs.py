@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,6 @@ from holdfast.notice import says
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
-    from holdfast.simulation.batch import Motion, Setting
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -88,6 +87,28 @@ class Path:
 
 
 @dataclass(frozen=True)
+class Setting:
+    """How runs were made.
+
+    Attributes:
+        limit: s, or cycles.
+        accuracy: Tolerance of a step, or radius of the target in cycles.
+        step: Of the fixed-step method, s.
+    """
+
+    limit: float
+    accuracy: float
+    step: float
+
+
+class _Motion(Protocol):
+    """What computed the runs, as far as they ask it again."""
+
+    def least_error(self, runs: Runs, restarts: int, generator: np.random.Generator) -> Array: ...
+    def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path: ...
+
+
+@dataclass(frozen=True)
 class Runs:
     """N runs of the closed loop, or one (then without the leading N).
 
@@ -127,7 +148,7 @@ class Runs:
     q_high: Array
     limits_passed: Flags
     time: Array
-    _motion: Motion = field(repr=False, compare=False)
+    _motion: _Motion = field(repr=False, compare=False)
     _setting: Setting = field(repr=False, compare=False)
 
     def __len__(self) -> int:

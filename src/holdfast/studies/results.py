@@ -99,7 +99,7 @@ def assessed(study: Study, cell: int) -> Assessed:
     """The result of an assessment."""
     labels = labels_of(study, cell)
     store = study.store(cell)
-    plan = Plan.stored(store, study.cells[cell]["rows"])
+    plan = Plan.stored(store, study.cells[cell]["rows"], rows=labels["keep"] == "rows")
     if labels["keep"] == "counts":
         return _from_counts(study, cell, labels, plan)
     tally, some = Tally(plan), False

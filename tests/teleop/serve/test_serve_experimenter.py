@@ -371,7 +371,7 @@ def test_a_report_that_cannot_be_made_is_a_sentence(http, folder, tmp_path, prot
 
 def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkeypatch):
     """And of simulated subjects where there are no others; of those who dropped out it never is."""
-    from holdfast.teleop import analysis
+    from holdfast.teleop.analysis import computation
     from holdfast.teleop.analysis import eligibility as results
 
     @dataclass
@@ -383,7 +383,7 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
             written.append(self)
 
     written: list[Result] = []
-    monkeypatch.setattr(analysis, "analyse", lambda table, *_, **options: Result(sorted(set(table["subject"]))))
+    monkeypatch.setattr(computation, "analyse", lambda table, *_, **options: Result(sorted(set(table["subject"]))))
     monkeypatch.setattr(results, "computer_table", lambda _: None)
     monkeypatch.setattr(tables, "hand_paths", lambda _: None)
     monkeypatch.setattr(apart.os, "nice", lambda _: 0)

@@ -164,10 +164,9 @@ def command(
 
 def _timed(file: Path, duration: float | None) -> TimedPath:
     """The path of a file with its timing, or with that of --duration."""
-    from holdfast.paths.path_file import read
-    from holdfast.paths.timing import TimedPath, Trapezoid
+    from holdfast.paths.timing import TimedPath, Trapezoid, in_file
 
-    path, timing, stop = read(file)
+    path, timing, stop = in_file(file)
     if duration is None:
         if timing is None:
             raise InputError(

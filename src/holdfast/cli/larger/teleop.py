@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from holdfast.cli.larger import teleop_serve, teleop_tasks
+from holdfast.cli.larger.stages import working
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.files import reading
 from holdfast.present.printing import console
@@ -251,19 +252,6 @@ app.command()(teleop_tasks.tasks)
 
 
 # ---- out -----------------------------------------------------------------------------------------------------------------
-
-
-@contextmanager
-def working(text: str) -> Iterator[Callable[[str], None]]:
-    """What is being done, while it is; a function that says what comes next."""
-    from rich.console import Console
-    from rich.markup import escape
-
-    from holdfast import notice
-
-    screen = Console(stderr=True)
-    with notice.working(text, notice.told if screen.is_terminal else None), screen.status(escape(text)) as status:
-        yield lambda now: status.update(escape(now))
 
 
 @contextmanager

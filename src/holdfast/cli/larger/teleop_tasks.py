@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
+from holdfast.cli.larger.stages import working
 from holdfast.cli.options import JsonOption, read_arm, read_task
 from holdfast.errors import StoreError
 from holdfast.files.output import replaced
@@ -56,7 +57,6 @@ def tasks(
 
     Example: holdfast teleop tasks --seed 1 --out bank
     """
-    from holdfast.cli.larger.teleop import working
     from holdfast.teleop.bank.selection import binning, most_disorienting, trapped
     from holdfast.teleop.bank.selection import select as chosen_of
     from holdfast.teleop.bank.tasks import task_bank

@@ -64,7 +64,7 @@ def stationary(
 
     Example: holdfast stationary planar-3r --target 1.5,1.5 --lock 2 --at 140 --degrees
     """
-    from holdfast.equilibria.points import stationary as find
+    from holdfast.equilibria.search import stationary as find
 
     model = read_arm(arm, base, tip, hold)
     made = read_law(law, model, read_task(task, arm, model))

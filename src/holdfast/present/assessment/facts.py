@@ -205,7 +205,7 @@ class Facts:
         """Every pose that was computed; None if the rows were not kept."""
         if not self.d.samples or not self.a.kept:
             return None
-        s = sample(self.a, optimised=False)
+        s = sample(self.a.index, self.a.columns, optimised=False)
         if self.a.region.kind == "joints":
             pose = self.a.arm.forward_kinematics(s.q)
             position, rotation = pose[:, :3, 3], pose[:, :3, :3]
@@ -220,7 +220,7 @@ class Facts:
         """The same poses at their best configurations; None if the run was not optimised or the rows were not kept."""
         if self.rows is None or self.a.optimised is None:
             return None
-        s = sample(self.a, optimised=True)
+        s = sample(self.a.index, self.a.columns, optimised=True)
         return replace(self.rows, q=s.q, reached=s.reached, value=s.value, by_failure=s.by_failure, worst=s.worst)
 
     @property

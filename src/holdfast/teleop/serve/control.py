@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -16,17 +16,26 @@ from holdfast.teleop.records.entries import Entry, Kind, State
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.records.session import training_tasks
 from holdfast.teleop.serve.live import Live
-from holdfast.teleop.serve.messages import Bye, Cycles, Hello, Refused, Sequenced, Welcome
+from holdfast.teleop.serve.messages import Bye, Cycles, Hello, Message, Refused, Sequenced, Welcome
 from holdfast.teleop.serve.station import Entered, Station, Taken, enter
 from holdfast.teleop.serve.writer import Keeper
 from holdfast.teleop.trials.recordings import End
 
-if TYPE_CHECKING:
-    from holdfast.teleop.serve.connection import Connection
-
 DIFFERS = "replay differs"
 _PAUSED, _GOES_ON, _EXPERIMENTER = "paused", "goes on", {"by": "experimenter"}
 _GREETING, _PAGES = 64, 256  # pages at once that have not said hello, and that have
+
+
+class _Page(Protocol):
+    """A page that is connected, as far as the server tells it something: a ``Connection``."""
+
+    code: str | None
+
+    def answered(self, reply: Message | Exception) -> None: ...
+    def pause(self, paused: bool) -> None: ...
+    def unstored(self) -> None: ...
+    def turn_away(self) -> None: ...
+    def bye(self, reason: str) -> None: ...
 
 
 class Control:
@@ -53,8 +62,8 @@ class Control:
         self.reader = Keeper(folder, loop, writes=False)
         self.live = Live()
         self.protocol = self.writer.protocol
-        self._pages: dict[str, Connection] = {}
-        self._greeting: dict[Connection, None] = {}  # oldest first
+        self._pages: dict[str, _Page] = {}
+        self._greeting: dict[_Page, None] = {}  # oldest first
         self._all_paused = False
         self._paused: set[str] = set()
         self._failed = [s.failed for s in self.protocol.scenarios]
@@ -76,7 +85,7 @@ class Control:
     # ---- pages -----------------------------------------------------------------------------------------------------
 
     @contextmanager
-    def greeted(self, page: Connection) -> Iterator[None]:
+    def greeted(self, page: _Page) -> Iterator[None]:
         """A page is to say hello inside; where too many are, the oldest is turned away."""
         self._greeting[page] = None
         if len(self._greeting) > _GREETING:
@@ -88,7 +97,7 @@ class Control:
         finally:
             self._greeting.pop(page, None)
 
-    async def enter(self, page: Connection, hello: Hello) -> Welcome | Refused | Bye:
+    async def enter(self, page: _Page, hello: Hello) -> Welcome | Refused | Bye:
         """A page says hello; if it is let in it holds the session, and who held it before is told.
 
         Raises:
@@ -115,7 +124,7 @@ class Control:
         self.changed()
         return welcome
 
-    def take(self, page: Connection, message: Sequenced, size: int = 0) -> None:
+    def take(self, page: _Page, message: Sequenced, size: int = 0) -> None:
         """A message, of so many bytes, of a page that holds a session; the page is given the reply."""
         code = page.code
         assert code is not None
@@ -127,7 +136,7 @@ class Control:
 
         self.writer.put(lambda records: Station(records, code).take(message, size), taken)
 
-    def leave(self, page: Connection) -> None:
+    def leave(self, page: _Page) -> None:
         """A connection is over."""
         if page.code is not None and self._pages.get(page.code) is page:
             del self._pages[page.code]
