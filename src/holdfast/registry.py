@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar, get_type_hints
 
 from holdfast import grammar
 from holdfast.arguments import checked
@@ -253,7 +253,7 @@ class Registry(Mapping[str, Entry]):
         Raises:
             InputError: There is none: it is of a class of one's own, or has a setting that no label can hold.
         """
-        made = inspect.signature(self[thing.slug].make, eval_str=True).return_annotation if thing.slug in self else None
+        made = get_type_hints(self[thing.slug].make).get("return") if thing.slug in self else None
         if type(thing) is not made:
             raise InputError(f"{thing!r} is of your own making, which a file cannot hold; keep the script")
         return grammar.label(thing.slug, thing.settings)

@@ -373,7 +373,7 @@ def compare_laws(
 
     Args:
         laws: Laws of one arm and task, the first being the one that the others are compared with; or a
-            dictionary of them by name. Without names they are called by :attr:`holdfast.control.Law.label`.
+            dictionary of them by name. Without names they are called by their labels.
         q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`.
         target: As :func:`holdfast.simulation.simulate` takes it, one or N.
         locked: ``"each"`` joint alone, or a list of joints by name or index from 0, each of which locks alone; None: no

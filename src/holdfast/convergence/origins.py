@@ -179,8 +179,8 @@ def workspace(
     where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in reach:
     R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens its
     greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
-    (:func:`holdfast.simulate`): F100, Favg and Fsens are the same of the share of that part from which the failed arm
-    arrives. *Any* joint: all joints must be inside, and the arm must arrive whichever fails.
+    (:func:`holdfast.simulation.simulate`): F100, Favg and Fsens are the same of the share of that part from which the failed
+    arm arrives. *Any* joint: all joints must be inside, and the arm must arrive whichever fails.
 
     Near the very ends of a range the arm comes to the target ever more slowly. A failure that is undecided at the time limit
     counts as arriving if it stands next to a solution all of whose eigenvalues attract; else it is left out of F. Both are

@@ -78,7 +78,7 @@ class Kernel:
 
     @property
     def made_of(self) -> str | None:
-        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled.recalled`."""
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
         return self.program.recipe
 
     def __call__(self, *inputs: ArrayLike) -> Any:

@@ -88,7 +88,7 @@ class Loop:
 
     @property
     def made_of(self) -> str | None:
-        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled.recalled`."""
+        """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
         return self.step.made_of
 
     def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> LoopResult:

@@ -174,7 +174,7 @@ class Protocol:
         return replace(self, tasks=tasks, notes=tuple(notes) if notes is not None else ("",) * len(tasks))
 
     def text(self) -> str:
-        """The protocol as the text of a YAML file that :func:`holdfast.teleop.protocol.protocol.read_protocol` takes."""
+        """The protocol as the text of a YAML file that :func:`holdfast.teleop.read_protocol` takes."""
         data: dict[str, Any] = {
             "name": self.name,
             "arm": self.arm_spec,
