@@ -283,3 +283,12 @@ def test_the_quadratic_form_of_a_law_gives_its_rates(law, mixed5, rng, monkeypat
     q, v = oracles.inside(mixed5, rng, 5), rng.normal(size=(5, 3))
     for row, u, rates in zip(oracles.jacobian(mixed5, q)[:, :3], v, made.velocity(q, v), strict=True):
         np.testing.assert_allclose(rates, a @ row.T @ np.linalg.solve(row @ a @ row.T + d * np.eye(3), u), rtol=1e-8)
+
+
+def test_a_label_does_not_depend_on_what_is_put_on_a_signature(monkeypatch):
+    """Sphinx does so with constructors; their annotations are text there."""
+    arm = hf.arms.load("planar-3r")
+    make = hf.indices.relative_manipulability
+    told = inspect.signature(make).replace(return_annotation="RelativeManipulability")
+    monkeypatch.setattr(make, "__signature__", told, raising=False)
+    assert INDICES.label(make(arm, "planar")) == "relative-manipulability"
