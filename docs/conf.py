@@ -40,7 +40,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"holdfast\.studio\.scene\.(machine|body)\..*"),
     (r"py:class", r"holdfast\.probability\.intervals\.Sums"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
-    (r"py:class", r"Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
+    (r"py:class", r"_?Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]
