@@ -53,7 +53,8 @@ WORK = {
         100_000,
     ),
     "W6 control step, torque gradient, Panda": (
-        "from holdfast.control import GradientProjection\narm = hf.arms.load('panda')\n"
+        "try: from holdfast.motion import GradientProjection\n"
+        "except ImportError: from holdfast.control import GradientProjection\narm = hf.arms.load('panda')\n"
         "law = GradientProjection(arm, hf.susceptibility.torque(arm, 'effort'), rate_cap=1.0, period=0.01)\n"
         "step = law.prepare() if hasattr(law, 'prepare') else law.step\nq = draw(arm, 1)[0]; v = rng.normal(size=6) / 10",
         "for _ in range(20_000): step(q, v)",
@@ -106,8 +107,9 @@ WORK = {
         10_000,
     ),
     "W11 numbers of the studio's page, Panda (no browser)": (
-        "from holdfast.arm.task import as_task\nfrom holdfast.studio.scene.bars import bars_html, losses_html\n"
-        "from holdfast.studio.scene.machine import Machine\n"
+        "from holdfast.arm.task import as_task\n"
+        "try: from holdfast.studio.scene import bars, machine\nexcept ImportError: from holdfast.studio import bars, machine\n"
+        "bars_html, losses_html, Machine = bars.bars_html, bars.losses_html, machine.Machine\n"
         "arm = hf.arms.load('panda'); m = Machine(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
         "def page(x):\n"
         "    m.frames(x); found = m.read(x, (), 'relative-manipulability', 'torque')\n"
