@@ -92,7 +92,7 @@ def test_play_plays_every_time_also_on_a_busy_page(motion, tmp_path):
     """While a page is busy, the first frame after a click carries a time from before the click."""
     report = page.Page("t", "h", [page.Section("", [page.Picture(animation(motion, [SIDE], "motion", "An arm"), "c")])])
     file = page.write(report, tmp_path / "motion.html")
-    with chromium.opened(pytest.fail) as browser:
+    with chromium.opened(chromium.required) as browser:
         opened, errors = browser.new_page(), []
         opened.on("pageerror", lambda error: errors.append(str(error)))
         opened.add_init_script(BUSY)

@@ -51,7 +51,7 @@ BEYOND = "() => [...document.querySelectorAll('.scroll')].map(x => x.scrollWidth
 @pytest.fixture(scope="module")
 def opened(tmp_path_factory):
     file = write(Page("t", "h", [Section("s", TABLES)]), tmp_path_factory.mktemp("page") / "tables.html")
-    with chromium.opened(pytest.fail) as browser:
+    with chromium.opened(chromium.required) as browser:
         page = browser.new_page()
         page.goto(file.as_uri())
         yield page

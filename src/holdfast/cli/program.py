@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from importlib import import_module
 from typing import Annotated
@@ -91,6 +92,8 @@ def main() -> None:
     except SystemExit:  # typer's answer to a closed pipe: the reader, for example head, has seen enough
         sys.exit(0)
     except OSError as error:
+        # What is left in the buffer would be written again at the end, and Python 3.13 exits with 120 when that fails.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         _fail(f"cannot write the output: {error.strerror or error}")
     if code == STOPPED:  # typer's answer to Ctrl-C
         _stopped()
