@@ -412,8 +412,8 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.cli.options import read_weights
     from holdfast.designs.memory import Memory
     from holdfast.engine import Threads
+    from holdfast.paths.path import in_file as read_path
     from holdfast.paths.path_file import pose_table
-    from holdfast.paths.timing import in_file as read_path
     from holdfast.recovery.waypoints import read_waypoints
     from holdfast.regions.pose_list import PoseList
     from holdfast.studies import read as read_study

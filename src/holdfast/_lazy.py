@@ -37,5 +37,4 @@ def offer(package: str) -> None:
         setattr(module, name, value)
         return value
 
-    names = {*homes, *vars(module)}
-    vars(module).update(__all__=sorted(homes), __getattr__=get, __dir__=lambda: sorted({*vars(module), *names}))
+    vars(module).update(__all__=sorted(homes), __getattr__=get, __dir__=lambda: sorted({*vars(module), *homes}))

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 import oracles
 from holdfast import InputError
-from holdfast.paths import Constant, TimedPath, Trapezoid, arc, sequence
+from holdfast.paths import Constant, Path, TimedPath, Trapezoid, arc, sequence
 
 TIMINGS = [Trapezoid(10.0), Trapezoid(3.0, 0.1, 0.5), Trapezoid(2.0, 0.5, 0.5), Trapezoid(2.0, 0.0, 0.3), Constant(4.0)]
 
@@ -129,3 +129,12 @@ def test_one_time_and_times_outside(rng):
 def test_bad_timing(call, message):
     with pytest.raises(InputError, match=message):
         call()
+
+
+def test_a_path_is_not_read_from_a_file_whose_timing_is_none(tmp_path):
+    """The path alone does not need it, and who reads it wants to hear of the mistake before the motion begins."""
+    file = tmp_path / "p.yaml"
+    file.write_text("line: {from: {xyz: [0, 0, 0]}, to: {xyz: [1, 0, 0]}}\ntiming: {duration: -1}\n")
+    for load in (Path.load, TimedPath.load):
+        with pytest.raises(InputError, match=r"path file '.*p\.yaml': timing: duration is -1 s; it must be above 0"):
+            load(file)

@@ -22,7 +22,7 @@ from holdfast.motion.redundancy import AugmentedJacobian, ExtendedJacobian, Grad
 from holdfast.motion.resolution import Resolution, chosen_task
 from holdfast.motion.trajectory import Trajectory
 from holdfast.notice import says
-from holdfast.paths.timing import TimedPath
+from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
 from holdfast.solvers.inverse_kinematics import clipped, hand_error, solve_ik, solver
 from holdfast.solvers.optimum import optimise

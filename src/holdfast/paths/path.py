@@ -14,6 +14,7 @@ from holdfast.arm import rotations
 from holdfast.arm.poses import check_poses
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
+from holdfast.paths.timing import Trapezoid
 
 Array = NDArray[np.float64]
 
@@ -335,8 +336,8 @@ def _share(s: ArrayLike) -> Array:
     return np.asarray(np.clip(a, 0.0, 1.0))
 
 
-def in_file(file: str | pathlib.Path) -> tuple[Path, dict[str, float] | None, bool]:
-    """The path in a file, the arguments of its timing if it has one, and whether to stop at corners.
+def in_file(file: str | pathlib.Path) -> tuple[Path, Trapezoid | None, bool]:
+    """The path in a file, its timing if it has one, and whether to stop at corners.
 
     Raises:
         InputError: Unreadable, or a key that is unknown, missing or wrong; the message names it.
@@ -346,6 +347,6 @@ def in_file(file: str | pathlib.Path) -> tuple[Path, dict[str, float] | None, bo
     shape, given, timing, stop = read(named := pathlib.Path(file))
     make: dict[str, Callable[..., Path]] = {"line": line, "arc": arc, "sequence": sequence}
     try:
-        return make[shape](**given), timing, stop
+        return make[shape](**given), None if timing is None else Trapezoid(**timing), stop
     except InputError as error:
         raise InputError(f"path file '{named}': {error}") from error

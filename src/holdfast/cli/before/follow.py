@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from holdfast.arm.model import Arm
     from holdfast.motion.slowness import SlowMotion
     from holdfast.motion.trajectory import Trajectory
-    from holdfast.paths.timing import TimedPath
+    from holdfast.paths.timed_path import TimedPath
 
 
 def command(
@@ -164,7 +164,9 @@ def command(
 
 def _timed(file: Path, duration: float | None) -> TimedPath:
     """The path of a file with its timing, or with that of --duration."""
-    from holdfast.paths.timing import TimedPath, Trapezoid, in_file
+    from holdfast.paths.path import in_file
+    from holdfast.paths.timed_path import TimedPath
+    from holdfast.paths.timing import Trapezoid
 
     path, timing, stop = in_file(file)
     if duration is None:
