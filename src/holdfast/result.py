@@ -2,18 +2,66 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class Result:
-    """Base of what an analysis returns; no fields, so that any dataclass can derive from it."""
+    """Base of what an analysis returns; no fields, so that any dataclass can derive from it.
+
+    What presents a class is named in :mod:`holdfast.present`; a class repeats a method only to give its options a type
+    (``*args`` is there so that it may).
+    """
 
     __slots__ = ()
 
-    def _presented(self, function: str, *arguments: Any, **options: Any) -> Any:
-        """What a function of the module that presents this class makes of it; that module is imported only now."""
-        from holdfast.present import PRESENTERS
+    def report(self, path: str | Path, *args: Any, **options: Any) -> Path:
+        """Write one HTML file that needs nothing else.
 
-        name = next(each.__name__ for each in type(self).__mro__ if each.__name__ in PRESENTERS)
-        return getattr(import_module(PRESENTERS[name]), function)(self, *arguments, **options)
+        Raises:
+            StoreError: It cannot be written; what was there is as it was.
+        """
+        written: Path = self._presented("write", Path(path), *args, **options)
+        return written
+
+    def save(self, folder: str | Path, *args: Any, **options: Any) -> list[Path]:
+        """Write the report, the figures and the tables into a folder, made where need be.
+
+        Raises:
+            StoreError: The folder or a file cannot be written.
+        """
+        files: list[Path] = self._presented("save", Path(folder), *args, **options)
+        return files
+
+    def figures(self, *args: Any, **options: Any) -> dict[str, Figure]:
+        """What there is to see, by name."""
+        drawn: dict[str, Figure] = self._presented("figures", *args, **options)
+        return drawn
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its numbers by name, in types that JSON has, as ``--json`` prints them; infinity and NaN are None."""
+        data: dict[str, Any] = self._presented("to_dict")
+        return data
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the sentences and the figures."""
+        shown: str = self._presented("in_notebook")
+        return shown
+
+    def require_ok(self) -> Self:
+        """Itself, unless it holds no answer; where that may be, the class says so and raises."""
+        return self
+
+    def _presented(self, function: str, *arguments: Any, **options: Any) -> Any:
+        """What a function of the modules that present this class makes of it; they are imported only now."""
+        from holdfast.present import presenter
+
+        names = [each.__name__ for each in type(self).__mro__]
+        return presenter(names, function)(self, *arguments, **options)

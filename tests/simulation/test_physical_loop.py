@@ -299,7 +299,7 @@ def test_wrong_input_is_one_sentence(law, home, goal):
 
 def test_the_figure_and_the_words(law, home, goal):
     run = hf.simulate_physics(law, home, goal, [4], time_limit=1.0)
-    assert len(run.figure().axes) == 3
+    assert len(run.figures()["physics"].axes) == 3
     first, second = run.describe()
     assert "kinematic: converged" in first
     assert "undecided (slow)" in first

@@ -299,7 +299,7 @@ class Assessment(Result):
 
     @checked
     @says("writing the results")
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path) -> Path:  # type: ignore[override]
         """Write the run as a results folder that :func:`load` and ``holdfast report`` read.
 
         Raises:

@@ -171,7 +171,7 @@ class Trajectory(Result):
             table["best_objective"] = self.best_value
         return table
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path) -> Path:  # type: ignore[override]
         """Write the table as CSV, or as Parquet if the name ends in ``.parquet`` (needs pyarrow).
 
         Raises:

@@ -14,8 +14,6 @@ from holdfast.result import Result
 from holdfast.simulation.runs import Path, Runs
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from holdfast.control.law import Law
 
 Array = NDArray[np.float64]
@@ -117,11 +115,6 @@ class PhysicalRun(Result):
         if full:
             lines.append(f"motors at their effort for a while: {', '.join(full)}")
         return lines
-
-    def figure(self) -> Figure:
-        """Both hand paths in the two world axes along which they are longest, errors and tracking errors over time."""
-        figure: Figure = self._presented("figure")
-        return figure
 
 
 def _even(points: Array) -> Array:

@@ -1,16 +1,35 @@
 """What people look at: pages, figures and console text of what the packages below compute."""
 
-# The module that presents a result, by the name of its class: see holdfast.result.
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from typing import Any
+
+# What presents a result, by the name of its class: the module of its words and numbers (to_dict, show), which draws
+# nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
-    "Analysis": "holdfast.present.teleop.page",
-    "Assessment": "holdfast.present.assessment.page",
-    "Comparison": "holdfast.present.assessment.comparison",
-    "ConvergenceDesigns": "holdfast.present.designs.convergence",
-    "Designs": "holdfast.present.designs.page",
-    "LawComparison": "holdfast.present.convergence.law_comparison",
-    "PhysicalRun": "holdfast.present.physics.run",
-    "Recovery": "holdfast.present.recovery.figures",
-    "TargetMeasures": "holdfast.present.convergence.targets",
-    "TradeOff": "holdfast.present.control.trade_offs",
-    "Trajectory": "holdfast.present.motion.trajectory",
+    "Analysis": ("", "teleop.page"),
+    "Assessment": ("", "assessment.page"),
+    "Comparison": ("", "assessment.comparison"),
+    "ConvergenceDesigns": ("", "designs.convergence"),
+    "Designs": ("", "designs.page"),
+    "LawComparison": ("", "convergence.law_comparison"),
+    "PhysicalRun": ("physics.console", "physics.run"),
+    "Recovery": ("", "recovery.figures"),
+    "Runs": ("simulation.console", "simulation.run"),
+    "TargetMeasures": ("", "convergence.targets"),
+    "TradeOff": ("", "control.trade_offs"),
+    "Trajectory": ("", "motion.trajectory"),
 }
+_WORDS = {"to_dict", "show"}
+
+
+def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:
+    """The function that presents a result of a class with one of these names; its module is imported only now."""
+    words, pictures = next((PRESENTERS[name] for name in names if name in PRESENTERS), ("", ""))
+    for module in (words if function in _WORDS else pictures, "results"):
+        found = getattr(import_module(f"holdfast.present.{module}"), function, None) if module else None
+        if found is not None:
+            return found  # type: ignore[no-any-return]
+    raise AttributeError(f"nothing in holdfast.present has '{function}' for {names[0]}")

@@ -154,7 +154,7 @@ class Recovery(Result):
         """Sum of the legs' lower bounds, in ``unit``: between the ends that were chosen nothing is shorter."""
         return sum(leg.lower_bound for leg in self.legs)
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path) -> Path:  # type: ignore[override]
         """Write the waypoints as CSV; see :func:`holdfast.recovery.read_waypoints`.
 
         Raises:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
+from pathlib import Path as File
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from holdfast.arguments import checked
 from holdfast.errors import InputError
 from holdfast.notice import says
+from holdfast.result import Result
 
 if TYPE_CHECKING:
     from holdfast.control.law import Law
@@ -109,7 +111,7 @@ class _Motion(Protocol):
 
 
 @dataclass(frozen=True)
-class Runs:
+class Runs(Result):
     """N runs of the closed loop, or one (then without the leading N).
 
     Norms of errors put metres and radians of the task's rows side by side, as the law's own command does.
@@ -204,6 +206,16 @@ class Runs:
         if np.atleast_1d(self.reason)[k] == Reason.BAD_INPUT:
             raise InputError(f"run {k} has no path: {Reason.BAD_INPUT.sentence}")
         return self._motion.path(self, k, samples, until)
+
+    def to_csv(self, file: str | File, k: int = 0) -> File:
+        """Write run k as rows over time: joint positions, tool point (m) and error; up to 200/Ke at most.
+
+        Raises:
+            InputError: No such run.
+            StoreError: It cannot be written.
+        """
+        written: File = self._presented("to_csv", File(file), k)
+        return written
 
     def limits_sentence(self, k: int = 0) -> str:
         """Whether the joints of run k stayed within their limits, for people; empty for an arm without limits.

@@ -1,35 +1,22 @@
-"""What ``holdfast simulate --physics`` adds: the same run in MuJoCo, beside the kinematic one."""
+"""The same run in MuJoCo beside the kinematic one, in numbers and words."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.errors import InputError
-from holdfast.present.printing import console, number
+from holdfast.present.printing import number, plain
+from holdfast.present.simulation import console as simulation
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from rich.console import Console
 
     from holdfast.physics.run import PhysicalRun
-    from holdfast.simulation.runs import Runs
 
 
-def run_physics(
-    runs: Runs, target: NDArray[Any], locks: list[tuple[int, float]], bandwidth: float, time_limit: float | None
-) -> PhysicalRun:
-    """The same run with bodies and motors."""
-    from holdfast.physics.loop import simulate_physics
-    from holdfast.physics.servos import Servos
-
-    if runs.cycles:
-        raise InputError("--physics has a control rate of its own; leave out --cycles")
-    return simulate_physics(runs.law, runs.q0, target, locks, Servos(bandwidth=bandwidth), time_limit)
-
-
-def physics_data(run: PhysicalRun) -> dict[str, Any]:
-    """For --json."""
+def to_dict(run: PhysicalRun) -> dict[str, Any]:
+    """The kinematic run, and under "physics" what differs."""
     names = run.law.arm.joint_names
-    return {
+    physics = {
         "outcome": run.outcome,
         "reason": run.reason,
         "agrees": run.agrees,
@@ -46,14 +33,17 @@ def physics_data(run: PhysicalRun) -> dict[str, Any]:
         "damping": dict(zip(names, run.damping.tolist(), strict=True)),
         "control_rate_hz": run.servos.rate,
     }
+    made: dict[str, Any] = plain(run.kinematic.to_dict() | {"physics": physics})
+    return made
 
 
-def print_physics(run: PhysicalRun) -> None:
-    """Both outcomes beside each other."""
+def show(run: PhysicalRun, out: Console) -> None:
+    """The kinematic run, and both outcomes beside each other."""
     from rich.markup import escape
     from rich.table import Table
 
-    out, told = console(), run.kinematic
+    told = run.kinematic
+    simulation.show(told, out)
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
     size = "m and rad" if run.law.task.angular else "m"
     table = Table("", "kinematic", "in MuJoCo", "", box=None, pad_edge=False)

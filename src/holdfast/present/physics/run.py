@@ -2,38 +2,51 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.report import figures
+from holdfast.report import figures as style
+from holdfast.report.figures import save_png
 
 if TYPE_CHECKING:
     from holdfast.physics.run import PhysicalRun
 
 
-def figure(run: PhysicalRun) -> Figure:
-    """See :meth:`holdfast.PhysicalRun.figure`."""
+def write(run: PhysicalRun, path: Path, command: str = "") -> Path:
+    """The page of the kinematic run."""
+    return run.kinematic.report(path, command=command)
+
+
+def save(run: PhysicalRun, folder: Path, command: str = "") -> list[Path]:
+    """What is saved of the kinematic run, and physics.png."""
+    files = run.kinematic.save(folder, command=command)
+    return [*files, save_png(run.figures()["physics"], folder / "physics.png")]
+
+
+def figures(run: PhysicalRun) -> dict[str, Figure]:
+    """Both tool paths in the two world axes along which they are longest, errors and tracking errors over time."""
     told, arm = run.kinematic_path, run.law.arm
     spread = np.ptp(np.vstack([run.x, told.x]), axis=0)
     a, b = sorted(np.argsort(spread)[-2:])
-    with figures.style():
-        drawn = Figure(figsize=(1.25 * figures.WIDTH, 4.1))
+    with style.style():
+        drawn = Figure(figsize=(1.25 * style.WIDTH, 4.1))
         path, error, lag = drawn.subplots(1, 3)
-        path.plot(told.x[:, a], told.x[:, b], color=figures.SKY, linewidth=4.5, label="kinematic")
-        path.plot(run.x[:, a], run.x[:, b], color=figures.BLUE, linewidth=1.4, label="in MuJoCo")
-        path.plot(*run.x[0, [a, b]], "o", color=figures.INK, markersize=4, label="start")
-        path.plot(*told.x[-1, [a, b]], "s", color=figures.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end")
+        path.plot(told.x[:, a], told.x[:, b], color=style.SKY, linewidth=4.5, label="kinematic")
+        path.plot(run.x[:, a], run.x[:, b], color=style.BLUE, linewidth=1.4, label="in MuJoCo")
+        path.plot(*run.x[0, [a, b]], "o", color=style.INK, markersize=4, label="start")
+        path.plot(*told.x[-1, [a, b]], "s", color=style.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end")
         path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the hand")
         path.set_aspect("equal", adjustable="datalim")
         size = "m and rad" if run.law.task.angular else "m"
-        error.plot(told.time, told.error, color=figures.SKY, linewidth=4.5)
-        error.plot(run.time, run.error, color=figures.BLUE, linewidth=1.4)
+        error.plot(told.time, told.error, color=style.SKY, linewidth=4.5)
+        error.plot(run.time, run.error, color=style.BLUE, linewidth=1.4)
         error.set(xlabel="time, s", ylabel=f"error of the hand, {size}", title="Error", ylim=(0, None))
         healthy = np.where(run.locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
         unit = "m or rad" if arm.prismatic.any() else "rad"
-        lag.plot(run.time, np.maximum(healthy, 1e-9), color=figures.BLUE, linewidth=1.2)
+        lag.plot(run.time, np.maximum(healthy, 1e-9), color=style.BLUE, linewidth=1.2)
         lag.set(xlabel="time, s", ylabel=f"largest servo error of a healthy joint, {unit}", title="Servos", yscale="log")
         for axes in (error, lag):
             axes.set_xlim(0, max(float(run.time[-1]), 1e-3))
@@ -42,6 +55,6 @@ def figure(run: PhysicalRun) -> Figure:
             f"{arm.name}, {run.law.name}, locked: {', '.join(locked) or 'none'}; one run. "
             f"Kinematic: {run.kinematic.outcome}; in MuJoCo, {run.servos.describe()}: {run.outcome}"
         )
-        figures.legend_below(drawn, path, 4)
-        drawn.suptitle(figures.plain(caption, 200), fontsize=9, color=figures.SOFT)
-        return figures.finished(drawn)
+        style.legend_below(drawn, path, 4)
+        drawn.suptitle(style.plain(caption, 200), fontsize=9, color=style.SOFT)
+        return {"physics": style.finished(drawn)}

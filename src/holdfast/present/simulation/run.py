@@ -1,4 +1,4 @@
-"""One run of the closed loop to look at: a figure, and an HTML page with the arm moving."""
+"""One run of the closed loop to look at: a figure, a table, and an HTML page with the arm moving."""
 
 from __future__ import annotations
 
@@ -10,11 +10,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
+from holdfast.errors import StoreError
+from holdfast.files.output import writing
 from holdfast.notice import says
+from holdfast.paths.joint_table import joint_columns
+from holdfast.present.results import made
 from holdfast.present.stick_figure import corners, projections
 from holdfast.provenance import versions
-from holdfast.report import figures, page
+from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
+from holdfast.report.figures import save_png, svg
 from holdfast.report.motions import Panel, drawn_motion, motion_figure
 from holdfast.report.page import Block, Code, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
@@ -28,7 +33,39 @@ _SAMPLES, _FRAMES = 1001, 201
 _STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
 
 
-class RunReport:
+def figures(runs: Runs, k: int = 0) -> dict[str, Figure]:
+    """The arm at start and end, the way of its tool, and the error over time, of run k."""
+    return {"run": _RunReport(runs, k).figure()}
+
+
+@says("drawing the motion")
+def write(runs: Runs, path: File, k: int = 0, command: str = "") -> File:
+    """Run k as a page with the arm moving."""
+    return _RunReport(runs, k).write(path, command)
+
+
+def save(runs: Runs, folder: File, k: int = 0, command: str = "") -> list[File]:
+    """Run k as run.csv, run.png and report.html."""
+    folder = made(folder)
+    table = runs.to_csv(folder / "run.csv", k)
+    return [table, save_png(figures(runs, k)["run"], folder / "run.png"), write(runs, folder / "report.html", k, command)]
+
+
+def to_csv(runs: Runs, file: File, k: int) -> File:
+    """The samples of run k as rows."""
+    law, path = runs.law, _RunReport(runs, k).path
+    time = "time_cycles" if runs.cycles else "time_s"
+    header = ",".join([time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"])
+    rows = np.column_stack([path.time, path.q, path.x, path.error])
+    try:
+        with writing(file) as stream:
+            np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
+    except OSError as error:
+        raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error
+    return file
+
+
+class _RunReport:
     """One run and what is drawn of it: all up to where nothing more can be seen, or to 200/Ke.
 
     Args:
@@ -142,13 +179,8 @@ class RunReport:
     def _xlabel(self) -> str:
         return "cycle" if self.runs.cycles else "time, s"
 
-    @says("drawing the motion")
-    def write(self, file: File, command: str = "") -> File:
-        """The run as one HTML file that needs nothing else.
-
-        Raises:
-            StoreError: It cannot be written.
-        """
+    def write(self, file: File, command: str) -> File:
+        """The page."""
         sections = [
             Section("The motion", [self._animation()]),
             Section("The error of the hand", [self._error()]),
@@ -178,7 +210,7 @@ class RunReport:
         travelled = np.linalg.norm(seen.x - seen.x[0], axis=1)
         panels = [self.panel(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
         figure = motion_figure(panels, self.caption, self._xlabel)
-        return Picture(figures.svg(figure, "error", "Error of the hand over time"), "Over time; the error on a log scale.")
+        return Picture(svg(figure, "error", "Error of the hand over time"), "Over time; the error on a log scale.")
 
     def _joints(self) -> Picture:
         panels = []

@@ -1,0 +1,103 @@
+"""How a result is shown where its own presenter does not say: sentences, figures, a page of both, a folder of everything."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from holdfast.errors import StoreError
+from holdfast.present.printing import console, print_json, print_written
+from holdfast.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
+
+def printed(result: Result, as_json: bool, files: Sequence[Path | None] = ()) -> None:
+    """What a command prints: JSON for machines, or what people read and which files were written."""
+    if as_json:
+        print_json(result.to_dict())
+        return
+    out = console()
+    result._presented("show", out)
+    print_written(out, files)
+
+
+def said() -> str:
+    """The command that runs, for its report."""
+    return f"holdfast {shlex.join(sys.argv[1:])}"
+
+
+def drawn(result: Result, file: Path) -> Path:
+    """The result's first figure as PNG."""
+    from holdfast.report.figures import save_png
+
+    return save_png(next(iter(result.figures().values())), file)
+
+
+def show(result: Result, out: Console) -> None:
+    """The sentences."""
+    for line in result.describe():
+        out.print(line, markup=False, soft_wrap=True)
+
+
+def figures(result: Result) -> dict[str, Figure]:
+    """None."""
+    del result
+    return {}
+
+
+def write(result: Result, path: Path, command: str = "") -> Path:
+    """A page of the sentences and the figures."""
+    from holdfast.report import page
+
+    first, *others = result.describe()
+    blocks: list[page.Block] = [page.Text(line) for line in others]
+    return page.write(
+        page.Page(type(result).__name__, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path
+    )
+
+
+def shown(result: Result, command: str = "") -> list[Any]:
+    """The figures as blocks of a page, and the command that makes it again."""
+    from holdfast.report.figures import svg
+    from holdfast.report.page import Code, Picture
+
+    drawn = [Picture(svg(figure, name, name), "") for name, figure in result.figures().items()]
+    return [*drawn, *([Code(command, "The same again:")] if command else [])]
+
+
+def save(result: Result, folder: Path, command: str = "") -> list[Path]:
+    """The figures as pictures, and the page."""
+    from holdfast.report.figures import save_png
+
+    folder = made(folder)
+    pictures = [save_png(figure, folder / f"{name}.png") for name, figure in result.figures().items()]
+    return [*pictures, result.report(folder / "report.html", command=command)]
+
+
+def made(folder: Path) -> Path:
+    """The folder, made where need be.
+
+    Raises:
+        StoreError: It cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise StoreError(f"--out: folder '{folder}' cannot be made: {error.strerror or error}; choose another") from error
+    return folder
+
+
+def in_notebook(result: Result) -> str:
+    """The sentences and the first figure."""
+    from holdfast.report.figures import svg
+
+    lines = "".join(f"<p>{escape(line)}</p>" for line in result.describe())
+    drawn = list(result.figures().items())[:1]
+    return lines + "".join(svg(figure, name, name) for name, figure in drawn)

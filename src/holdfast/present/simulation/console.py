@@ -1,0 +1,80 @@
+"""Runs of the closed loop in numbers and words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.present.printing import number, plain
+from holdfast.simulation.runs import ENDS, Reason, Runs
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def to_dict(runs: Runs) -> dict[str, Any]:
+    """One run by name; of many, each number is a list."""
+    arm = runs.law.arm
+    unit = "cycles" if runs.cycles else "s"
+
+    def by_joint(values: Any) -> dict[str, Any]:
+        return dict(zip(arm.joint_names, values.T, strict=True))
+
+    data = {
+        **arm.entry(),
+        "law": runs.law.slug,
+        "task": runs.law.task.name,
+        "locked": {name: t for name, t in by_joint(runs.lock_time).items() if np.isfinite(t).any()},
+        "outcome": runs.outcome,
+        "reason": np.array([reason.name.lower() for reason in Reason])[runs.reason],
+        f"time_{unit}": runs.time,
+        "error": runs.error,
+        "least_error": runs.least_error(),
+        "closest": runs.closest,
+        "path_length_m": runs.path_length,
+        "x_final": runs.x_final,
+        "q_start": by_joint(runs.q0),
+        "q_final": by_joint(runs.q_final),
+        "q_low": by_joint(runs.q_low),
+        "q_high": by_joint(runs.q_high),
+        "limits_passed": [name for name, passed in by_joint(runs.limits_passed).items() if passed.any()],
+        "limits": {joint.name: [joint.lower, joint.upper] for joint in arm.joints},
+    }
+    made: dict[str, Any] = plain(data)
+    return made
+
+
+def show(runs: Runs, out: Console) -> None:
+    """One run as tables; of many, the sentences."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    if runs.code.ndim:
+        for line in runs.describe():
+            out.print(escape(line), soft_wrap=True)
+        return
+    arm, unit = runs.law.arm, "cycles" if runs.cycles else "s"
+    locks = [f"{name} at {t:g} {unit}" for name, t in zip(arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)]
+    locked = f"locked: {', '.join(locks)}" if locks else "no joint locked"
+    out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(locked)}", soft_wrap=True)
+    reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
+    out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
+    if limits := escape(runs.limits_sentence()):
+        out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
+    size = "m and rad" if runs.law.task.angular else "m"
+    facts = Table.grid(padding=(0, 2))
+    facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
+    facts.add_row("least that the failed arm can have", f"{number(float(runs.least_error()))} {size}")
+    facts.add_row("closest on the way", f"{number(float(runs.closest))} {size}")
+    facts.add_row("path of the hand", f"{number(float(runs.path_length))} m")
+    facts.add_row("took", f"{number(float(runs.time))} {unit}")
+    out.print(facts)
+    table = Table("joint", "start", "end", "least", "greatest", "", box=None, pad_edge=False)
+    for k, joint in enumerate(arm.joints):
+        factor, shown = joint.shown
+        cells = [f"{number(factor * x[k])} {shown}" for x in (runs.q0, runs.q_final, runs.q_low, runs.q_high)]
+        notes = ["locked"] if np.isfinite(runs.lock_time[k]) else []
+        notes += ["passes its limits"] if runs.limits_passed[k] else []
+        table.add_row(escape(joint.name), *cells, ", ".join(notes))
+    out.print(table)
