@@ -118,8 +118,8 @@ def test_a_hand_off_its_path_is_said_first(cli, tmp_path):
         ((*WISH, "--csv", "t.txt"), "--csv: 't.txt' does not end in .csv"),
         ((*WISH, "--parquet", "t.csv"), "does not end in .parquet"),
         ((*WISH, "--task", "pose"), "no self-motion to use"),
-        ((*WISH, "--csv", "/nowhere/t.csv", "--samples", "5"), "cannot be written"),
-        ((*WISH, "--out", "/dev/null/x", "--samples", "5"), "cannot be made"),
+        ((*WISH, "--csv", "/nowhere/t.csv", "--samples", "5"), "cannot write motion"),
+        ((*WISH, "--out", "/dev/null/x", "--samples", "5"), "cannot write to"),
         ((*WISH, "--torque-bound", "-1", "--samples", "5"), "bound"),
     ],
 )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import guarded, writing
 from holdfast.files.spreadsheet import cell
 from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
@@ -184,16 +184,15 @@ class Trajectory(Result):
                 import pyarrow
                 from pyarrow import parquet
 
-                parquet.write_table(pyarrow.table(table), target)
+                with guarded(target, "motion", "choose another path"):
+                    parquet.write_table(pyarrow.table(table), target)
             else:
-                with writing(target) as file:
+                with writing(target, "motion") as file:
                     writer = csv.writer(file)
                     writer.writerow(map(cell, table))
                     writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
         except ImportError as error:
             raise StoreError(f"'{target}': Parquet needs pyarrow; install holdfast[parquet], or give a name in .csv") from error
-        except OSError as error:
-            raise StoreError(f"'{target}' cannot be written: {error.strerror or error}") from error
         return target
 
     @says("drawing the report")

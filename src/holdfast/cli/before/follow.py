@@ -27,7 +27,8 @@ from holdfast.cli.options import (
     read_objective,
     read_task,
 )
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
+from holdfast.files.output import made
 from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
@@ -192,10 +193,7 @@ def _task(given: str | None, path: TimedPath, arm: Arm) -> str:
 
 
 def _folder(result: Trajectory, out: Path, torque_bound: float | None) -> list[Path]:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(f"--out: folder '{out}' cannot be made: {error.strerror or error}; choose another") from error
+    made(out)
     command = f"holdfast {shlex.join(sys.argv[1:])}"
     return [result.save(out / "trajectory.csv"), result.report(out / "report.html", command, torque_bound)]
 
