@@ -11,7 +11,7 @@
       duration: 10            # s
       accelerate: 0.2         # shares of the duration in which the speed rises and falls; 0.2 if not given
       decelerate: 0.2
-      stop: false             # true: come to rest at each corner
+      stop: false             # true: stop at each corner
 
 Other paths::
 
