@@ -81,7 +81,8 @@ def load(
         name: Name of the arm; the file's model name if not given.
 
     Returns:
-        The arm; its ``base`` is the pose of the base body in MuJoCo's world, its ``source`` the name of the file.
+        What :meth:`holdfast.Arm.from_mjcf` makes an arm of; its ``base`` is the pose of the base body in MuJoCo's
+        world, its ``source`` the name of the file.
 
     Raises:
         ArmError: MuJoCo cannot read the file, there is no single serial chain of hinges and slides from base to tip, or an

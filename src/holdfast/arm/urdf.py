@@ -64,7 +64,7 @@ def load(
             the same name that ends in ``.srdf``, where there is one.
 
     Returns:
-        The arm; its ``base`` is the identity, its ``source`` the name of the file.
+        What :meth:`holdfast.Arm.from_urdf` makes an arm of; its ``base`` is the identity, its ``source`` the name of the file.
 
     Raises:
         ArmError: The file cannot be read, is not a sound URDF tree, or has no single serial chain from base to tip.

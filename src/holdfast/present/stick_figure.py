@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 def projections(arm: Arm, chain: Array) -> list[Projection]:
-    """Views of ``arm.frames(q)[..., :3, 3]`` (F, n + 2, 3): the wider side and the top; the plane of an arm that moves in one."""
+    """Side and top view of ``arm.frames(q)[..., :3, 3]`` (F, n + 2, 3); of an arm that moves in a plane, that plane."""
     normal = plane_normal(arm)
     x, y, z = np.eye(3)
     if normal is None:
