@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
-from holdfast.arm import rotations
-from holdfast.arm.poses import check_poses
+from holdfast.arm.poses import check_poses, rotation_vectors, rotations_of_vectors
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.timing import Trapezoid
@@ -86,7 +85,7 @@ class Path:
         start = self.starts[leg]
         arm = start[:, :3, 3] - self.center[leg]
         out = np.zeros((u.size, 4, 4))
-        out[:, :3, :3] = rotations.of_vectors(u[:, None] * self.turn[leg]) @ start[:, :3, :3]
+        out[:, :3, :3] = rotations_of_vectors(u[:, None] * self.turn[leg]) @ start[:, :3, :3]
         around = _turned(u[:, None] * self.sweep[leg], arm)
         # The way from the start, so that a straight leg does not meet the rounding of a turn by 0.
         out[:, :3, 3] = start[:, :3, 3] + (around - arm) + u[:, None] * self.shift[leg]
@@ -284,12 +283,12 @@ def _angle_about(axis: Array, p: Array, q: Array) -> float:
 def _turns(t: Array) -> Array:
     """Rotation vectors (N - 1, 3), world frame, from each pose to the next, the short way round."""
     r = t[:, :3, :3]
-    return rotations.to_vectors(r[1:] @ r[:-1].transpose(0, 2, 1))
+    return rotation_vectors(r[1:] @ r[:-1].transpose(0, 2, 1))
 
 
 def _turned(vectors: Array, points: Array) -> Array:
     """Points (N, 3) turned by rotation vectors (N, 3)."""
-    return np.asarray((rotations.of_vectors(vectors) @ points[:, :, None])[:, :, 0])
+    return np.asarray((rotations_of_vectors(vectors) @ points[:, :, None])[:, :, 0])
 
 
 def _poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-from holdfast.arm.targets import target_pose
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.errors import InputError, TaskError
 from holdfast.notice import says
 from holdfast.reach.extrema import CriticalPoints, critical_points

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.configurations import finite_limits, with_limits
+from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
@@ -77,7 +77,7 @@ def limited(arm: Arm, limits: Array) -> Arm:
     """The arm with artificial limits (n, 2); those of a whole turn or more of a joint without limits are none."""
     low, high = limits.T
     free = joint_space.turning(arm) & (high - low >= 2 * np.pi - 1e-9)
-    return with_limits(arm, np.where(free, arm.lower, low), np.where(free, arm.upper, high))
+    return arm.with_limits(np.where(free, arm.lower, low), np.where(free, arm.upper, high))
 
 
 def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:

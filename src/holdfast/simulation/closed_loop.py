@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.configurations import as_configurations
-from holdfast.arm.targets import target_poses
+from holdfast.arm.task import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.notice import says

@@ -8,7 +8,6 @@ from __future__ import annotations
 import casadi as ca
 
 from holdfast.arm import kinematics
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
@@ -52,7 +51,7 @@ class Cycles:
         self.system = system
         law = system.law
         n, m = law.arm.n, law.task.m
-        self._still = SLOWEST * length_unit(law.arm) if law.speed_limit is None else STILL * law.speed_limit
+        self._still = SLOWEST * law.arm.length_unit if law.speed_limit is None else STILL * law.speed_limit
         self._until, self._limit, self._radius = (ca.SX.sym(x) for x in ("until", "limit", "radius"))
         self.parameters = [*system.given, self._until, self._limit, self._radius]
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)

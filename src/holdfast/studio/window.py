@@ -59,7 +59,7 @@ class Window:
         self.work = Worker(self._complain)
         with client.atomic():
             self.stage = Stage(client.scene, machine, parts)
-            self.stage.move(machine.frames(self.q), gizmo=True)
+            self.stage.move(machine.arm.frames(self.q), gizmo=True)
             self.panel = Panel(client.gui, machine, state, self.ask)
         self._saver = Saver(client, machine, self.stage, self._saved, self._complain)
         for k, handles in self.stage.figure.joints.items():
@@ -286,7 +286,7 @@ class Window:
         self._drop_motions()
         self._ghosts = configurations
         self.stage.haunt(labels)
-        self.stage.move_ghosts([self.machine.frames(q) for q in configurations])
+        self.stage.move_ghosts([self.machine.arm.frames(q) for q in configurations])
         self.panel.say(text)
         self._refresh()
 
@@ -425,7 +425,7 @@ class Window:
         if self.stage.ghosts:
             self._ghosts = shown
             with self.client.atomic():
-                self.stage.move_ghosts([self.machine.frames(q) for q in shown])
+                self.stage.move_ghosts([self.machine.arm.frames(q) for q in shown])
             self._refresh()
         else:
             self._place(shown[0])
@@ -470,7 +470,7 @@ class Window:
     def _refresh(self) -> None:
         """Show the state: the arm at once, and what a failure takes."""
         q, state = self.q, self.state
-        frames = self.machine.frames(q)
+        frames = self.machine.arm.frames(q)
         with self.client.atomic():
             self.stage.move(frames, gizmo=self._held != "hand")
             self.panel.follow(q, self._held if isinstance(self._held, int) else None)

@@ -88,29 +88,13 @@ class Machine:
 
     @cached_property
     @recalled
-    def _frames(self) -> Kernel:
-        q = kinematics.joint_symbols(self.arm)
-        moving, _ = kinematics.frames(self.arm, kinematics.joint_steps(self.arm, q))
-        chain = kinematics.chain(self.arm, q)
-        rows = [ca.horzcat(r, p) for r, p in [*moving, (chain.rotation, chain.position)]]
-        return Kernel("frames of the arm", [q], [ca.densify(ca.vertcat(*rows))])
-
-    @cached_property
-    @recalled
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [ca.densify(self.task.jacobian(self.arm, q))])
 
-    def frames(self, q: Array) -> Array:
-        """Base, what moves with each joint, and the tool, (n + 2, 4, 4) of q (n,) or (N, n + 2, 4, 4) of (N, n), world."""
-        rows = self._frames.rows(np.atleast_2d(q)).reshape(-1, self.arm.n + 2, 3, 4)
-        out = np.zeros((len(rows), self.arm.n + 2, 4, 4))
-        out[:, :, :3], out[:, :, 3, 3] = rows, 1.0
-        return out[0] if np.ndim(q) == 1 else out
-
     def hand(self, q: Array) -> Array:
         """Tool pose (4, 4) in the world."""
-        return np.asarray(self.frames(q)[-1])
+        return np.asarray(self.arm.frames(q)[-1])
 
     @cached_property
     def size(self) -> float:
