@@ -265,6 +265,26 @@ class Law(Labelled, Steps):
         limit = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
         return f"{self.phrase()}, gain {self.gain:g}/s{limit}"
 
+    def stored(self) -> dict[str, Any]:
+        """All that tells it from other laws of the same arm, as JSON data.
+
+        Raises:
+            InputError: It has no label.
+        """
+        limits = {"gain": self.gain, "speed_limit": self.speed_limit}
+        return {"law": LAWS.label(self), **limits, "task": self.task.to_dict()}
+
+    def formerly(self, law: Any, task: Any = None) -> dict[str, Any] | None:
+        """What holdfast 0.1 kept in place of :meth:`stored`; None if that, of six digits, does not tell it from other laws.
+
+        Args:
+            law: In place of its label.
+            task: In place of its task.
+        """
+        numbers = [self.gain, self.speed_limit or 0.0, *np.hstack([np.empty(0), *map(np.ravel, self.settings.values())])]
+        exact = all(float(f"{x:g}") == x for x in numbers)
+        return {"law": law, "gain": None, "speed_limit": None, "task": task} if exact else None
+
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"
 
