@@ -392,8 +392,3 @@ def _write(result: _Result, path: Path) -> None:
             facts = [result.values_before[k], optimum.value[k], optimum.starts[k], optimum.agreeing[k], *errors]
             cells = [f"{x:.12g}" for x in [*facts, *optimum.q[k]]]
             table.writerow([k + 1, Status(int(optimum.status[k])).name.lower(), *cells])
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command()(configure)
