@@ -86,7 +86,7 @@ class SelfMotion:
     def describe(self) -> str:
         """One sentence for people."""
         if self.status != Status.OK:
-            return self.status.advice
+            return self.status.sentence
         if self.redundancy > 1:
             return f"{len(self.q)} configurations of a manifold of dimension {self.redundancy}, {self.spacing:.3g} rad apart"
         closed = sum(c.closed for c in self.components)
