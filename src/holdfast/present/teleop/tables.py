@@ -114,18 +114,20 @@ _COLUMNS = (
 )
 
 
-def write_tables(analysis: Analysis, folder: Path) -> None:
+def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
     """Write every table, and the dictionary; a missing number is NA, a decimal point is a point.
 
     Raises:
         StoreError: The folder or a file cannot be written.
     """
+    tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, table in {**analysis.tables, "data_dictionary": dictionary(analysis)}.items():
-            (folder / f"{name}.csv").write_text(csv_text(table, "NA"), encoding="utf-8", newline="\n")
+        for file, table in tables.items():
+            file.write_text(csv_text(table, "NA"), encoding="utf-8", newline="\n")
     except OSError as error:
         raise StoreError(f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder") from error
+    return list(tables)
 
 
 def dictionary(analysis: Analysis) -> DataFrame:
