@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
 from holdfast.files.output import replaced
+from holdfast.notice import another
 from holdfast.report.palette import AMBER as AMBER
 from holdfast.report.palette import BLUE as BLUE
 from holdfast.report.palette import FAINT as FAINT
@@ -121,6 +122,7 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     numbers = itertools.count()
     text = re.sub(r'\bid="[^"]+"', lambda m: f'id="{name}-{next(numbers)}"', text)
     text = re.sub(r'(href="#|url\(#)([^")]+)', lambda m: m[1] + new.get(m[2], m[2]), text)
+    another("figure")
     return Markup(text.replace("<svg ", f'<svg role="img" aria-label="{escape(about)}" ', 1).strip())
 
 
@@ -139,6 +141,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
         replaced(file, data.getvalue())
     except OSError as error:
         raise StoreError(f"cannot write picture '{file}': {error.strerror or error}; choose another path") from error
+    another("figure")
     return file
 
 
