@@ -107,7 +107,7 @@ class Loop:
         rows = len(state)
         workers = min(thread_count(), -(-rows // _LEAST))
         batch = _Batch(state, parameters, tolerance, most_steps)
-        ends, steps = Count(f"rows of {self.step.name}", rows), Count("steps", most_steps * self.times, most=True)
+        ends, steps = Count(f"starts of {self.step.name}", rows), Count("steps", most_steps * self.times, most=True)
         with ends as batch.ended, steps as stepped:
             batch.over = over
             if rows <= _LEAST:  # they begin together, and all may be on their way to the last step
@@ -173,7 +173,7 @@ class Loop:
                     idle = (~waiting).nonzero()[0]  # they do what another row does, so that nobody needs to look at them
                     columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
             now += 1
-            last = min(int(begun.min()) + batch.most_steps, now + _STRETCH)
+            last = min(int(begun.min()) + batch.most_steps, told + _STRETCH)
 
     def walk(self, state: Array, parameters: Array, steps: int) -> Array:
         """The states (steps + 1, N, s) of every row on its way, ``state`` first; the residual is not looked at."""
