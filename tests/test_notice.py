@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 import holdfast as hf
 from holdfast import notice
-from holdfast.arm.configurations import with_limits
 from holdfast.notice import Count, another, each, says, working
 from holdfast.report import figures
 
@@ -266,7 +265,7 @@ def assess(arm, region):
 
 def tolerant(arm):
     """Not one of those that are known in closed form: its joints have limits."""
-    return hf.tolerant_workspace(with_limits(arm, -2 * np.ones(3), 2 * np.ones(3)), "planar", points=4, angles=2)
+    return hf.tolerant_workspace(arm.with_limits(-2 * np.ones(3), 2 * np.ones(3)), "planar", points=4, angles=2)
 
 
 def along(arm, x):
