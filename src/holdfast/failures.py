@@ -1,4 +1,4 @@
-"""Failure modes: which joints stand still.
+"""Failure modes: which joints stay still.
 
 A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
 is a locked joint as well.

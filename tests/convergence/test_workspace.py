@@ -193,6 +193,29 @@ def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
         hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **{**options, "points": 2})
 
 
+def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
+    arm, options = hf.arms.load("planar-3r"), {"starts": [[1.2, 1.3]], "configurations": 1, "points": 0, "cells": 4}
+
+    def run(damping, gain=1.0):
+        law = hf.control.damped(arm, damping, "planar", gain)
+        return hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **options)
+
+    first = run(0.1)
+    with pytest.raises(hf.StoreError, match=r'its law is "damped:0.1", asked for is "damped:0.10000001"'):
+        run(0.10000001)
+    with pytest.raises(hf.StoreError, match=r"its gain is 1.0, asked for is 1.00000001"):
+        run(0.1, 1.00000001)
+    # Holdfast 0.1 kept the words for people, of six digits: they stand for the law of which they say everything.
+    file = tmp_path / "run" / "run.json"
+    data = json.loads(file.read_text())
+    data["plan"] = {k: v for k, v in data["plan"].items() if k not in ("gain", "speed_limit", "task")}
+    data["plan"]["law"] = first.law.describe()
+    file.write_text(json.dumps(data))
+    np.testing.assert_array_equal(run(0.1).reach.full, first.reach.full)
+    with pytest.raises(hf.StoreError, match="its gain is null, asked for is"):
+        run(0.10000001)
+
+
 def test_files(small, tmp_path, monkeypatch):
     w = small["procedure"]
     monkeypatch.setattr(workspace_output, "figures", lambda w: {})  # those of the command are looked at in its test

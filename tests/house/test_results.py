@@ -41,7 +41,7 @@ APART = {
 }
 NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
-NO_SENTENCES = {"Assessment", "Comparison", "Designs"}
+NO_SENTENCES = {"Assessment", "Comparison"}
 
 
 def named(classes):

@@ -89,7 +89,7 @@ class Job:
         return {
             "kind": "workspace",
             "arm": self.law.arm.fingerprint,
-            "law": self.law.describe(),
+            **self.law.stored(),
             "target": self.pose.tolist(),
             "starts": places.poses[:, :3].tolist(),
             "configurations": self.configurations,

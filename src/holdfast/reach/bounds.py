@@ -59,7 +59,7 @@ def joint_bounds(
         starts: Of Newton's method per joint.
 
     Returns:
-        For each joint a list of ``(lower, upper)``, rad (m for sliding joints), in ascending order: ``[(-pi, pi)]`` where a
+        For each joint a list of ``(lower, upper)``, rad (m for prismatic joints), in ascending order: ``[(-pi, pi)]`` where a
         joint without limits is free, ``[]`` where no configuration of the target was found. An arc of a joint that turns
         without limits begins in -pi to pi and may end beyond pi. Of a joint with limits arcs lie within them. An arc of
         length 0 is a single value.

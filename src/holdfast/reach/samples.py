@@ -33,7 +33,7 @@ class Space:
     Attributes:
         directions: (d, 3) orthonormal, world; the plane of a planar task, else all three.
         low, high: (d,) m.
-        rotation: (3, 3) of the hand at every point.
+        rotation: (3, 3) of the end effector at every point.
     """
 
     directions: Array
@@ -161,7 +161,7 @@ def best_limits(arm: Arm, task: Task, space: Space, points: int, count: int, see
 
 
 def _grid_range(arm: Arm) -> tuple[Array, Array]:
-    """Between which values limits are looked for: a turning joint needs no more than one turn."""
+    """Between which values limits are looked for: a revolute joint needs no more than one turn."""
     low, high = finite_limits(arm)
     wide = ~arm.prismatic & (high - low > 2 * np.pi)
     middle = (low + high) / 2

@@ -36,7 +36,7 @@ class Here:
 
     Attributes:
         rates: (n,) joint rates, 0 for locked joints.
-        hand: Speed of the hand, m.
+        hand: Speed of the end effector, m.
         share: By how much the speed limit slows the command: 1 where it does not act.
         squared_error: Of the task's rows, m and rad.
         slope: Its derivative by time.

@@ -9,10 +9,10 @@ import numpy as np
 from markupsafe import Markup
 
 from holdfast.errors import ArmError
+from holdfast.files.output import made
 from holdfast.motion.slowness import SlowMotion
 from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.notice import says
-from holdfast.present.results import made
 from holdfast.present.stick_figure import projections
 from holdfast.provenance import versions
 from holdfast.report import page

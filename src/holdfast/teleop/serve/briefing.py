@@ -76,7 +76,7 @@ def views(protocol: Protocol) -> list[dict[str, Any]]:
 def workspace(arm: Arm, task: Task) -> tuple[list[float], float | None]:
     """Centre, m, and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first joint.
 
-    The radius is None for an arm that is not planar, or that has sliding joints. Joint limits play no part.
+    The radius is None for an arm that is not planar, or that has prismatic joints. Joint limits play no part.
     """
     centre = arm.frames_at_zero[0, :3, 3].tolist()
     rows = task.rows[:, :3]
