@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import FrozenInstanceError, replace
 from typing import Any
 
@@ -175,6 +176,15 @@ def test_an_arm_has_all_that_its_machine_says() -> None:
         machine.fingerprint,
     )
     assert repr(machine) == "Machine('panda', 7 joints)"
+
+
+def test_an_arm_goes_to_another_process_without_what_was_compiled_from_it() -> None:
+    arm = replace(arms.load("ur5-rail"), name="used")
+    q = np.array(arms.about("ur5-rail").home)
+    arm.forward_kinematics(q), arm.without_limits.frames(q)
+    there = pickle.loads(pickle.dumps(arm))
+    assert (there.title, there.fingerprint) == (arm.title, arm.fingerprint)
+    np.testing.assert_array_equal(there.frames(q), arm.frames(q))
 
 
 def test_limits_are_changed_and_taken_away() -> None:
