@@ -13,6 +13,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from holdfast.notice import another
 from holdfast.report.page import environment
 from holdfast.report.scales import round_numbers
 from holdfast.report.views import View
@@ -98,6 +99,7 @@ def animation(motion: Motion, views: Sequence[View], name: str, about: str) -> M
         "readings": list(motion.readings),
         "marked": [np.flatnonzero(row).tolist() for row in marked],
     }
+    another("figure")
     return Markup(
         environment()
         .get_template("animation.html")
