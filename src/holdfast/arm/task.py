@@ -14,11 +14,10 @@ from holdfast.arguments import checked_class
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.errors import TaskError
+from holdfast.grammar import ROWS, TASKS
 from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
-ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
-NAMES = ("pose", "pointing", "position", "planar", "planar-pose")
 
 
 @checked_class
@@ -179,4 +178,4 @@ def as_task(arm: Arm, task: str | Task | Sequence[str], length: float | None = N
         if task == "planar-pose":
             rows.append(np.r_[0, 0, 0, normal])
         return Task(task, np.array(rows), "base", size)
-    raise TaskError(f"task '{task}' is not known; use one of {', '.join(NAMES)} or a list of rows such as vx, vy, wz")
+    raise TaskError(f"task '{task}' is not known; use one of {', '.join(TASKS)} or a list of rows such as vx, vy, wz")
