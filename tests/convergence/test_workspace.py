@@ -10,7 +10,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.analysis import Job, _sinks
 from holdfast.convergence.healthy_motion import HealthyPaths
@@ -163,10 +162,10 @@ def test_configurations_are_equally_far_apart_on_the_curve(arm, law):
 
 
 def test_limits_of_a_whole_turn_are_none(arm):
-    free = without_idle_limits(arm)
+    free = arm.without_idle_limits
     assert np.isinf(free.lower).all()
     panda = hf.arms.load("panda")
-    assert without_idle_limits(panda) is panda
+    assert panda.without_idle_limits is panda
 
 
 def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):

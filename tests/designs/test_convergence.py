@@ -13,7 +13,6 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.configurations import without_limits
 from holdfast.convergence.places import read_places
 from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
 from holdfast.designs.arrival import Failures
@@ -68,7 +67,7 @@ def test_the_law_of_designs_is_the_law_of_each(rng):
 def test_sinks_are_those_that_tracing_finds_for_one_target():
     """Joint 1, where they are wide; the tracer knows one target and no other, and solves other equations."""
     lengths = (0.8, 0.8, 1.4)
-    arm = without_limits(hf.Arm.from_dh([hf.DH(a=x, alpha=0.0) for x in lengths]))
+    arm = hf.Arm.from_dh([hf.DH(a=x, alpha=0.0) for x in lengths]).without_limits
     law = hf.control.pseudoinverse(arm, "planar")
     r = 1.3
     at, in_reach, held = PlanarRest(law).locked(np.array(lengths), r, angles=180)[0]

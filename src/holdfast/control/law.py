@@ -1,4 +1,4 @@
-"""Control laws: what a controller that knows of no failure commands its joints, given where the hand should go.
+"""Control laws: what a controller that knows of no failure commands its joints, given where the end effector should go.
 
 Every law is one straight-line program of the task Jacobian and a task velocity, so that the same law runs in the batch
 kernel, in C on a robot's controller and in the browser. The velocity itself is ``Ke`` times the error, slowed down as a
@@ -43,7 +43,7 @@ class Law(Labelled, Steps):
 
     Args:
         arm: The arm.
-        task: Rows of the hand's velocity that are prescribed.
+        task: Rows of the end effector's velocity that are prescribed.
         gain: ``Ke``, 1/s, or 1/cycle where time counts in cycles.
         speed_limit: Largest norm of the linear part of v, m/s or m/cycle; v is slowed as a whole. None: no limit.
 
@@ -173,7 +173,7 @@ class Law(Labelled, Steps):
 
     @checked
     def deviations(self, q: ArrayLike, v: ArrayLike) -> Deviations:
-        """How far the hand's velocity is from the one commanded, for the healthy arm and with each joint locked.
+        """How far the end effector's velocity is from the one commanded, for the healthy arm and with each joint locked.
 
         Args:
             q: (n,) or (N, n), rad and m.

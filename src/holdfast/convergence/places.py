@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task
@@ -70,7 +69,7 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
     if count < 2:
         raise InputError(f"a lattice of {count} points along its edge is none; give 2 or more")
     reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
-    middle = (arm.base @ arm.joints[0].origin)[:3, 3]
+    middle = arm.frames_at_zero[0, :3, 3]
     line = np.linspace(-reach, reach, count)
     row, column = (x.ravel() for x in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
     inside = np.hypot(line[column], line[row]) <= reach * (1 + 1e-12)
@@ -140,7 +139,7 @@ def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int
 
     Source: Goel et al. 2005, section on the analysis of a workspace.
     """
-    arm = without_idle_limits(arm)
+    arm = arm.without_idle_limits
     if arm.n - task.m == 1:
         owner, guess = on_curves(arm, fibres(arm, places, task, _SPACING, seed, _SEEDS), count)
         q, ok = solver(arm, task).attempt(guess, places[owner], TOLERANCE)

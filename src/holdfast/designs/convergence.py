@@ -104,64 +104,12 @@ class ConvergenceDesigns(Result):
             )
         return lines
 
-    def to_dict(self) -> dict[str, Any]:
-        """What was found, as JSON takes it: rad, m and shares."""
-
-        def one(k: int) -> dict[str, Any]:
-            values = dict(zip(self.space.names, self.values[k].tolist(), strict=True))
-            return {"values": values, **{name: float(m[k]) for name, m in self.measures.items()}}
-
-        out: dict[str, Any] = {
-            **self.law.arm.entry(),
-            "law": self.law.label,
-            "task": self.law.task.name,
-            "objective": self.objective,
-            "exact": self.exact,
-            "designs": len(self.values),
-            "given": one(0),
-            "best": one(self.best),
-        }
-        if self.checked is not None:
-            given, best, apart = self.checked
-            named: dict[str, Interval | Difference] = {"given": given, "best": best, "difference": apart}
-            out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
-        return out
-
-    @says("writing the results")
-    def save(self, folder: str | Path) -> list[Path]:
-        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), ``best-arm.yaml`` and
-        ``report.html``.
-
-        Raises:
-            StoreError: The folder cannot be written.
-        """
-        from holdfast.files.output import made, replaced
-
-        lines = [",".join((*self.space.names, *self.measures))]
-        columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
-        lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        place = made(folder)
-        files = [place / "designs.csv", place / "best-arm.yaml"]
-        for path, content in zip(files, ("\n".join(lines) + "\n", self.arm_file()), strict=True):
-            replaced(path, content)
-        return [*files, self.report(place / "report.html")]
-
     def arm_file(self) -> str:
         """The best arm as a file that every command takes."""
         from holdfast.arms.dh_file import text
 
         arm = self.arm()
         return text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
-
-    @says("drawing the report")
-    def report(self, path: str | Path) -> Path:
-        """Write one HTML file that needs nothing else: what to build, what that gains, and how it was found.
-
-        Raises:
-            StoreError: The file cannot be written; what was there is as it was.
-        """
-        written: Path = self._presented("write", path)
-        return written
 
 
 @checked

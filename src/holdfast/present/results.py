@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def printed(result: Result, as_json: bool, files: Sequence[Path | None] = ()) -> None:
-    """What a command prints: JSON for machines, or what people read and which files were written."""
+def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False) -> None:
+    """What a command prints: JSON for machines, with the files if they are listed; or what people read, and the files."""
     if as_json:
-        print_json(result.to_dict())
+        print_json(result.to_dict() | ({"files": list(map(str, files))} if listed else {}))
         return
     out = console()
     result._presented("show", out)

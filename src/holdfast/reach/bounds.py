@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-from holdfast.arm.targets import target_pose
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.errors import InputError, TaskError
-from holdfast.notice import says
+from holdfast.notice import each, says
 from holdfast.reach.extrema import CriticalPoints, critical_points
 from holdfast.solvers import joint_space
 
@@ -60,7 +59,7 @@ def joint_bounds(
         starts: Of Newton's method per joint.
 
     Returns:
-        For each joint a list of ``(lower, upper)``, rad (m for sliding joints), in ascending order: ``[(-pi, pi)]`` where a
+        For each joint a list of ``(lower, upper)``, rad (m for prismatic joints), in ascending order: ``[(-pi, pi)]`` where a
         joint without limits is free, ``[]`` where no configuration of the target was found. An arc of a joint that turns
         without limits begins in -pi to pi and may end beyond pi. Of a joint with limits arcs lie within them. An arc of
         length 0 is a single value.
@@ -243,7 +242,7 @@ def _decide(solve: CriticalPoints, pose: Array, cuts: list[_Cuts], known: Array,
     ends = exact & reached(joint, _towards(at, good)) & ~reached(joint, _towards(at, bad))
     moved = np.flatnonzero(~ends)
     joint, good, bad = joint[moved], good[moved], bad[moved]
-    for _ in range(_HALVINGS):
+    for _ in each("halvings", range(_HALVINGS)):
         half = (good + bad) / 2
         found = reached(joint, half)
         good, bad = np.where(found, half, good), np.where(found, bad, half)

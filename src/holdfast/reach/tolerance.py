@@ -14,7 +14,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
-from holdfast.notice import says
+from holdfast.notice import Count, each, says
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.reach import closed_form as tolerant_planar
 from holdfast.reach import samples as tolerant_sampled
@@ -28,6 +28,7 @@ _GRID = 161  # points along each edge of the map of the exact region
 _RADII = 1600
 _SEARCH_RADII, _POLISH_RADII = 32, 160
 _SEARCH_POINTS = 250  # at most, of which the limits are chosen
+_GENERATIONS = 60  # of a search for limits at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,13 +126,13 @@ def tolerant_workspace(
 
     Args:
         arm: The arm.
-        task: What must be met at each point; with angular rows the hand stands as ``rotation`` says.
+        task: What must be met at each point; with angular rows the end effector stands as ``rotation`` says.
         limits: (n, 2) artificial limits, rad and m, or a mapping from joints (names or indices) to pairs; the arm's own, or a
             whole turn, for joints that are not given.
         optimise: Look for the limits that make the region largest: by differential evolution and a simplex where it is
             exact, else by coordinate ascent on a sample of its own of at most 250 points. Nothing proves that they are the
             best.
-        rotation: (3, 3) of the hand, for tasks with angular rows; the identity if not given.
+        rotation: (3, 3) of the end effector, for tasks with angular rows; the identity if not given.
         points: In the sample.
         angles: Per joint; also the grid of limits that are tried.
         seed: Of all draws.
@@ -297,18 +298,20 @@ def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
         links = np.array([three.link_limits(j) for j in joints])
         return np.where(beyond, 0.0, -tolerant_planar.area(three, links, radii))
 
-    found = search(
-        lambda x: cost(x.T, _SEARCH_RADII),
-        # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
-        [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
-        vectorized=True,
-        updating="deferred",
-        popsize=12,
-        maxiter=60,
-        rng=np.random.default_rng(seed),
-        polish=False,
-    ).x
-    for _ in range(3):  # a simplex that has shrunk onto a ridge starts again
+    with Count("generations", _GENERATIONS, most=True) as tell:
+        found = search(
+            lambda x: cost(x.T, _SEARCH_RADII),
+            # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
+            [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
+            vectorized=True,
+            updating="deferred",
+            popsize=12,
+            maxiter=_GENERATIONS,
+            callback=lambda x, convergence: tell(1),
+            rng=np.random.default_rng(seed),
+            polish=False,
+        ).x
+    for _ in each("simplex searches", range(3)):  # a simplex that has shrunk onto a ridge starts again
         found = polish(
             lambda x: float(cost(x[None], _POLISH_RADII)[0]),
             found,

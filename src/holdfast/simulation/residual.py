@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import damped_least_norm
+from holdfast.notice import each
 from holdfast.simulation.system import System
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class Nearest:
         q, damping = state[:n], state[n]
         e, j = system.error(q)
         # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
-        unit = 1.0 if system.law.task.angular else length_unit(self._arm)
+        unit = 1.0 if system.law.task.angular else self._arm.length_unit
         e, j = e / unit, j / unit
         healthy = j @ ca.diag(system.mask)
         trial = q + damped_least_norm(healthy, e, damping)
@@ -65,7 +65,7 @@ class Nearest:
         position, rotation, mask = parameters[:, :3], parameters[:, 3:12].reshape(rows, 3, 3), parameters[:, 12:]
         least = self._error.rows(q, position, rotation)[:, 0]
         low, high = finite_limits(self._arm)
-        for k in range(restarts + 1):
+        for k in each("starts of each run", range(restarts + 1)):
             start = q if k == 0 else np.where(mask > 0, generator.uniform(low, high, (rows, n)), q)
             found = self._loop.run(np.column_stack([start, np.full(rows, _FIRST)]), parameters, _FLAT, _STEPS)
             error = self._error.rows(found.state[:, :n], position, rotation)[:, 0]

@@ -16,7 +16,6 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
-from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
@@ -25,7 +24,7 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import damped_least_norm
-from holdfast.notice import says
+from holdfast.notice import Count, says
 from holdfast.solvers import joint_space
 from holdfast.status import Status, require_ok
 
@@ -130,9 +129,9 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
 
 
 def scaled_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """As :func:`task_error` with lengths in units of :func:`holdfast.arm.scale.length_unit`, for what has a threshold."""
+    """As :func:`task_error` with lengths in units of :attr:`holdfast.Arm.length_unit`, for what has a threshold."""
     e, j = task_error(arm, task, q, target, target_rotation)
-    scale = ca.sparsify(ca.SX(ca.DM(task.scale(length_unit(arm)))))
+    scale = ca.sparsify(ca.SX(ca.DM(task.scale(arm.length_unit))))
     return scale @ e, scale @ j
 
 
@@ -161,12 +160,12 @@ class InverseKinematics:
 
     One step is damped least squares with the joints that press against a limit taken out:
     ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
-    Lengths in it, and in every ``tolerance``, are in units of :func:`holdfast.arm.scale.length_unit`; see :meth:`within`.
+    Lengths in it, and in every ``tolerance``, are in units of :attr:`holdfast.Arm.length_unit`; see :meth:`within`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm, self.task = arm, task
-        self._unit = length_unit(arm)
+        self._unit = arm.length_unit
         self._low, self._high = finite_limits(arm)
 
     @cached_property
@@ -298,27 +297,29 @@ class InverseKinematics:
         q, residual = np.full((count, n), np.nan), np.full(count, np.inf)
         used = np.zeros(count, dtype=np.int64)
         left, k = rows, 0
-        while left.size and k < restarts:
-            # Doubling: most rows arrive early, and starts that run beside a successful one are wasted.
-            wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
-            number = np.repeat(np.arange(k, k + wave), left.size)
-            chosen = np.tile(left, wave)
-            start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
-            if k == 0 and first is not None:
-                start = first[left]
-            run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
-            done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
-            arrived = done.any(axis=0)
-            # The first start that arrived, else the one that came closest; NaN never wins.
-            pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
-            column = np.arange(left.size)
-            best = rest[pick, column]
-            used[left] += np.where(arrived, pick + 1, wave)
-            better = best < residual[left]
-            q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
-            residual[left[better]] = best[better]
-            left = left[~arrived]
-            k += wave
+        with Count("starts of each pose", restarts, most=True) as tell:
+            while left.size and k < restarts:
+                # Doubling: most rows arrive early, and starts that run beside a successful one are wasted.
+                wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
+                number = np.repeat(np.arange(k, k + wave), left.size)
+                chosen = np.tile(left, wave)
+                start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
+                if k == 0 and first is not None:
+                    start = first[left]
+                run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
+                done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
+                arrived = done.any(axis=0)
+                # The first start that arrived, else the one that came closest; NaN never wins.
+                pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
+                column = np.arange(left.size)
+                best = rest[pick, column]
+                used[left] += np.where(arrived, pick + 1, wave)
+                better = best < residual[left]
+                q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
+                residual[left[better]] = best[better]
+                left = left[~arrived]
+                k += wave
+                tell(wave)
         return _Found(q, used)
 
     def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:

@@ -94,7 +94,7 @@ class Susceptibility(Labelled, Objective):
 
     @property
     def joint_unit(self) -> tuple[str, ...]:
-        """Unit of each joint's measure; the swing angle of a sliding joint is 0 by convention."""
+        """Unit of each joint's measure; the swing angle of a prismatic joint is 0 by convention."""
         return tuple(self.formula.sliding if p else self.formula.turning for p in self.arm.prismatic)
 
     def _value_unit(self) -> str:
@@ -285,7 +285,7 @@ def torque(
 def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
     """How fast each joint would accelerate as it fails, the others held; English and Maciejewski 1998, eq. (22).
 
-    Armature counts as inertia. Where all the mass that a turning joint carries lies on its axis it is NaN.
+    Armature counts as inertia. Where all the mass that a revolute joint carries lies on its axis it is NaN.
 
     Raises:
         ArmError: A link of which nothing is known or whose inertia no body has, or a joint that carries no mass.
@@ -296,9 +296,9 @@ def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
 
 @constructor(needs=("inertia",))
 def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
-    """How far each turning joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
+    """How far each revolute joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
 
-    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a sliding joint, for a balanced one and
+    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a prismatic joint, for a balanced one and
     where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.
 
     Raises:

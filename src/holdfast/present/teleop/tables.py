@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.files.spreadsheet import csv_text
 from holdfast.teleop.analysis.observations import CAUSES
 from holdfast.teleop.trials.performance import MEASURES
@@ -114,15 +114,14 @@ _COLUMNS = (
 )
 
 
-def write_tables(analysis: Analysis, folder: Path) -> None:
+def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
     """Write every table, and the dictionary; a missing number is NA, a decimal point is a point.
 
     Raises:
         StoreError: The folder or a file cannot be written.
     """
-    made(folder)
-    for name, table in {**analysis.tables, "data_dictionary": dictionary(analysis)}.items():
-        replaced(folder / f"{name}.csv", csv_text(table, "NA"))
+    tables = {**analysis.tables, "data_dictionary": dictionary(analysis)}
+    return put(folder, {f"{name}.csv": csv_text(table, "NA") for name, table in tables.items()})
 
 
 def dictionary(analysis: Analysis) -> DataFrame:
