@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm.configurations import without_limits
 from holdfast.arm.task import as_task
 from holdfast.caching import cached_property
 from holdfast.indices.susceptibility import Susceptibility
@@ -54,7 +53,7 @@ class Planar:
     @classmethod
     def load(cls) -> Planar:
         """The built-in arm, unit masses and centres of mass in the middle of the links."""
-        arm = without_limits(hf.arms.load("planar-3r"))
+        arm = hf.arms.load("planar-3r").without_limits
         largest = hf.susceptibility.largest_static_torque(arm)
         torque = hf.susceptibility.torque(arm, 1 / (3 * largest**2))
         return cls(arm, torque, hf.susceptibility.swing_angle(arm, np.array([0, 1, 0]) / np.pi**2))
@@ -72,14 +71,14 @@ class Planar:
         return hf.follow(self.arm, path, minimise=measure, **settings)  # type: ignore[arg-type]
 
     def joints(self, q: Array) -> Array:
-        """(..., 4, 2) places of the base, the joints and the hand, m."""
+        """(..., 4, 2) places of the base, the joints and the end effector, m."""
         direction = np.cumsum(q, axis=-1)
         steps = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
         return np.concatenate([np.zeros_like(steps[..., :1, :]), np.cumsum(steps, axis=-2)], axis=-2)
 
 
 def pose(x: float, y: float) -> Array:
-    """A pose of the hand at a point."""
+    """A pose of the end effector at a point."""
     out = np.eye(4)
     out[:2, 3] = x, y
     return out

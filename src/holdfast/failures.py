@@ -1,4 +1,4 @@
-"""Failure modes: which joints stand still.
+"""Failure modes: which joints stay still.
 
 A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
 is a locked joint as well.
@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from holdfast.arm.model import Arm, joint_list
-from holdfast.errors import TaskError
+from holdfast.errors import InputError, TaskError
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
 
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
@@ -42,7 +45,7 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
     else:
         try:
-            sets = [joint_list(arm, [f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
+            sets = [arm.joint_indices([f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
         except TypeError as error:
             raise TaskError(f"failures are {failures!r}; give a list of sets, each a joint or several joints") from error
     if not sets or any(not s or len(set(s)) != len(s) for s in sets):
@@ -74,3 +77,26 @@ def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None
 def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
     """Names for people and files: joint names, joined by ``+``."""
     return ["+".join(arm.joint_names[k] for k in s) for s in sets]
+
+
+def read_joint(arm: Arm, text: str) -> int:
+    """A joint by name or number from 1, as an index from 0."""
+    text = text.strip()
+    if text in arm.joint_names:
+        return arm.joint_index(text)
+    if text.isdecimal():
+        if 1 <= int(text) <= arm.n:
+            return int(text) - 1
+        raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
+    return arm.joint_index(text)
+
+
+def read_failures(arm: Arm, text: str) -> FailureSpec:
+    """Failures as people write them, as the library takes them: ``single``, ``2``, ``joint2; joint1+joint4``."""
+    text = text.strip()
+    if text in ("single", "pairs"):
+        return text
+    # A lone number could be a joint or how many: it is how many, as --help says.
+    if text.isdecimal():
+        return int(text)
+    return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]

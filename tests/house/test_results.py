@@ -39,9 +39,9 @@ APART = {
     "teleop.Replay",
     "teleop.TaskBank",
 }
-NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures", "Trajectory", "control.TradeOff"}
+NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
-NO_SENTENCES = {"Assessment", "Comparison", "Designs"}
+NO_SENTENCES = {"Assessment", "Comparison"}
 
 
 def named(classes):

@@ -1,4 +1,4 @@
-"""Follow a path with the hand while the self-motion serves an objective."""
+"""Follow a path with the end effector while the self-motion serves an objective."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian
 TRACKING = ("gradient-projection", "extended-jacobian")  # these stay at a local best
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
-_STEPS = 20_000  # of control, at least: the hand is off by the square of a step
+_STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
 _SETTLING = 400  # steps before the first
 _SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
-_FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the hand off its path
+_FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
 _PROBES = 64
 _CATCH_UP = 3.0  # times the largest twist of the path
 _AT = 1e-6  # rad and m from a limit
@@ -61,12 +61,14 @@ def follow(
     seed: int = 0,
     best: bool = False,
     spacing: float = 0.05,
+    *,
+    torque_bound: float | None = None,
 ) -> Trajectory:
-    """Joint motion along a timed path of the hand, with redundancy resolution.
+    """Joint motion along a timed path of the end effector, with redundancy resolution.
 
     Args:
         arm: The arm.
-        path: Where the hand is to be, and when.
+        path: Where the end effector is to be, and when.
         minimise: What the self-motion makes small, for example a susceptibility; either this or ``maximise``.
         maximise: What it makes large.
         method: ``gradient-projection`` follows the gradient, ``extended-jacobian`` stays at an extremum, ``augmented-jacobian``
@@ -87,8 +89,11 @@ def follow(
             through these, by dynamic programming; for one or two degrees of redundancy. How fast it may move from one
             manifold to the next is the velocity limits of the joints, and the rate cap for each of them, if all have one.
         spacing: Of the points on these manifolds, rad.
+        torque_bound: If given, N m and N, the result says how slow the motion must be for its torques to stay this close to
+            gravity's; see :meth:`Trajectory.slowness`.
 
     Raises:
+        ArmError: A torque_bound for an arm without inertial data.
         InputError: Not exactly one objective, a start that is not on the first pose, options out of range.
         TaskError: No redundancy, or an objective of another task.
         HoldfastError: No configuration of the first pose was found.
@@ -136,7 +141,7 @@ def follow(
     few = slice(None, None, substeps)
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
     best_value, best_q = _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed) if best else (None, None)
-    return Trajectory(
+    found = Trajectory(
         arm,
         chosen,
         objective,
@@ -162,7 +167,11 @@ def follow(
         happened,
         best_value,
         best_q,
+        torque_bound=torque_bound,
     )
+    if torque_bound is not None:
+        found.slowness(torque_bound)  # it may be refused
+    return found
 
 
 def _course(
@@ -244,9 +253,9 @@ def _integrate(
 ) -> tuple[Array, Array, Array]:
     """Joints (N + 1, n), rates (N + 1, n) and shares (N + 1, 3) at N steps and the end: see :class:`holdfast.motion.Rates`.
 
-    In each step the hand is sent to where the path is at its end, so that errors do not add up.
+    In each step the end effector is sent to where the path is at its end, so that errors do not add up.
     """
-    # A hand that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
+    # An end effector that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
     fastest = float(np.linalg.norm(path.twist((np.arange(count) + 0.5) * step), axis=1).max())
     kernel = _step_kernel(law, step, limits, _CATCH_UP * fastest * step)
     if settle:  # what a search left open would be made up for at once, with rates that no motion needs

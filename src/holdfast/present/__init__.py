@@ -12,15 +12,15 @@ PRESENTERS = {
     "Analysis": ("", "teleop.page"),
     "Assessment": ("", "assessment.page"),
     "Comparison": ("", "assessment.comparison"),
-    "ConvergenceDesigns": ("", "designs.convergence"),
-    "Designs": ("", "designs.page"),
+    "ConvergenceDesigns": ("designs.console", "designs.convergence"),
+    "Designs": ("designs.console", "designs.page"),
     "LawComparison": ("", "convergence.law_comparison"),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("", "recovery.figures"),
     "Runs": ("simulation.console", "simulation.run"),
     "TargetMeasures": ("", "convergence.targets"),
-    "TradeOff": ("", "control.trade_offs"),
-    "Trajectory": ("", "motion.trajectory"),
+    "TradeOff": ("control.console", "control.trade_offs"),
+    "Trajectory": ("motion.console", "motion.trajectory"),
 }
 _WORDS = {"to_dict", "show"}
 

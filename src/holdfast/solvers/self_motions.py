@@ -19,8 +19,7 @@ from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
-from holdfast.arm.targets import target_pose
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.caching import cached_property
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel
@@ -87,7 +86,7 @@ class SelfMotion:
     def describe(self) -> str:
         """One sentence for people."""
         if self.status != Status.OK:
-            return self.status.advice
+            return self.status.sentence
         if self.redundancy > 1:
             return f"{len(self.q)} configurations of a manifold of dimension {self.redundancy}, {self.spacing:.3g} rad apart"
         closed = sum(c.closed for c in self.components)

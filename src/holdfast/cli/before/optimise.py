@@ -31,7 +31,7 @@ from holdfast.cli.options import (
     read_pose,
     read_task,
 )
-from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.errors import HoldfastError, InputError
 from holdfast.files.output import writing
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import console, number, print_json, print_written
@@ -136,7 +136,7 @@ def configure(
     optimum = optimise(model, targets, objective, seed, starts, task=chosen, clearance=apart, margin=margin or 0.0)
     if not optimum.success.any():
         first = Status(int(optimum.status[0]))
-        advice = first.advice
+        advice = first.sentence
         if first == Status.INFEASIBLE and apart is not None:
             advice = (
                 f"the arm {too_close(margin or 0.0)} in each that was found ({shape_text(apart, 0.0)}): choose another pose, "
@@ -306,7 +306,7 @@ def _print(result: _Result, file: Path | None) -> None:
         out.print(f"before: the {first}; configurations go to --csv FILE or --json", soft_wrap=True)
     _print_clearance(result, out)
     for status in sorted({int(s) for s in optimum.status if s != Status.OK}):
-        out.print(f"[yellow]{Status(status).name.lower().replace('_', ' ')}: {Status(status).advice}[/]", soft_wrap=True)
+        out.print(f"[yellow]{Status(status).name.lower().replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
     if result.given is not None and result.worse.any():
         which = "" if len(result.targets) == 1 else f" of {int(result.worse.sum())} poses"
         out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)
@@ -384,19 +384,11 @@ def _write(result: _Result, path: Path) -> None:
     optimum = result.optimum
     names = [f"{joint.name}_{joint.unit}" for joint in result.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
-    try:
-        with writing(path) as file:
-            table = csv.writer(file)
-            table.writerow(map(cell, columns + names))
-            for k in range(len(result.targets)):
-                errors = optimum.position_error[k], optimum.rotation_error[k]
-                facts = [result.values_before[k], optimum.value[k], optimum.starts[k], optimum.agreeing[k], *errors]
-                cells = [f"{x:.12g}" for x in [*facts, *optimum.q[k]]]
-                table.writerow([k + 1, Status(int(optimum.status[k])).name.lower(), *cells])
-    except OSError as error:
-        raise StoreError(f"cannot write configurations '{path}': {error.strerror or error}; choose another path") from error
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command()(configure)
+    with writing(path, "configurations") as file:
+        table = csv.writer(file)
+        table.writerow(map(cell, columns + names))
+        for k in range(len(result.targets)):
+            errors = optimum.position_error[k], optimum.rotation_error[k]
+            facts = [result.values_before[k], optimum.value[k], optimum.starts[k], optimum.agreeing[k], *errors]
+            cells = [f"{x:.12g}" for x in [*facts, *optimum.q[k]]]
+            table.writerow([k + 1, Status(int(optimum.status[k])).name.lower(), *cells])

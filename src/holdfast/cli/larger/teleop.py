@@ -27,12 +27,12 @@ ProtocolArgument = Annotated[
     str, typer.Argument(metavar="[PROTOCOL]", help="goel2003, goel2003-smooth, or a protocol file (YAML).")
 ]
 
-app = typer.Typer(
+command = typer.Typer(
     no_args_is_help=True, help="With a person at the stick: tasks, protocol, sessions and statistics.", add_completion=False
 )
 
 
-@app.command()
+@command.command()
 def run(
     out: Annotated[Path, typer.Option("--out", help="New folder for the records.", show_default=False)],
     simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
@@ -42,7 +42,7 @@ def run(
 ) -> None:
     """Run a whole experiment with simulated people, from training to the last rating, and record it.
 
-    Example: holdfast teleop run --simulated --operators 24 --seed 1 --out study
+    Example: holdfast teleop run --simulated --operators 24 --seed 1 --out experiment
     """
     if not simulated:
         raise InputError(
@@ -60,7 +60,7 @@ def run(
         _print_experiment(r)
 
 
-@app.command()
+@command.command()
 def analyse(
     folder: FolderArgument,
     groups: Annotated[int, typer.Option("--groups", min=2, help="Groups of difficulty that the tasks are sorted into.")] = 3,
@@ -78,7 +78,7 @@ def analyse(
 ) -> None:
     """Statistics of an experiment: writes DIR/report.html, and every table as CSV beside it.
 
-    Example: holdfast teleop analyse study
+    Example: holdfast teleop analyse experiment
     """
     from holdfast.teleop.analysis.eligibility import analyse_records
     from holdfast.teleop.records.tables import hand_paths
@@ -92,11 +92,13 @@ def analyse(
     typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} tables as CSV beside it")
 
 
-@app.command()
+@command.command()
 def replay(folder: FolderArgument) -> None:
     """Drive the arm with the recorded commands again: does every trial give the same path?
 
     Exit code 0 if all do; 3 if one does not.
+
+    Example: holdfast teleop replay experiment
     """
     from holdfast.teleop.records.check import SAME
     from holdfast.teleop.records.check import replay as again
@@ -113,11 +115,13 @@ def replay(folder: FolderArgument) -> None:
         raise typer.Exit(DIFFERS)
 
 
-@app.command()
+@command.command()
 def verify(folder: FolderArgument) -> None:
     """Is every trial, rating, answer and event as it was written? Compares the records with their digests.
 
     Exit code 0 if all is; 3 if something is not, and then the first damaged trial is named first.
+
+    Example: holdfast teleop verify experiment
     """
     from holdfast.teleop.records.verification import verify as checked
 
@@ -137,14 +141,14 @@ def verify(folder: FolderArgument) -> None:
     typer.echo(f"sound: {found.trials} trials, {found.links} digests; all together {found.whole or 'none'}")
 
 
-@app.command()
+@command.command()
 def backup(
     folder: FolderArgument,
     out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.", show_default=False)],
 ) -> None:
     """Copy the folder of an experiment, also while it is served, and verify the copy.
 
-    Example: holdfast teleop backup study /mnt/safe/study-2026-11-22
+    Example: holdfast teleop backup experiment experiment-2026-11-22
     """
     from holdfast.teleop.records.copies import backup as copy
 
@@ -153,13 +157,16 @@ def backup(
     typer.echo(f"written: {out}; sound: {found.trials} trials, {found.links} digests")
 
 
-@app.command()
+@command.command()
 def export(
     folder: FolderArgument,
     out: Annotated[Path | None, typer.Option("--out", help="Folder for the tables.", show_default="DIR/export")] = None,
     parquet: Annotated[bool, typer.Option("--parquet", help="Parquet in place of CSV; needs pyarrow.")] = False,
 ) -> None:
-    """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol."""
+    """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol.
+
+    Example: holdfast teleop export experiment
+    """
     from holdfast.teleop.records.tables import export as write
 
     with _opened(folder) as records, working("writing"):
@@ -168,7 +175,7 @@ def export(
         typer.echo(f"written: {file}")
 
 
-@app.command()
+@command.command()
 def allocation(
     protocol: ProtocolArgument = "goel2003",
     subjects: Annotated[
@@ -196,7 +203,7 @@ def allocation(
         typer.echo(f"{k + 1:7d}  {k % len(order) + 1:3d}  {words}")
 
 
-@app.command()
+@command.command()
 def subjects(
     folder: FolderArgument,
     drop: Annotated[
@@ -207,7 +214,10 @@ def subjects(
         str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.", show_default=False)
     ] = None,
 ) -> None:
-    """The subjects of an experiment and where their sessions stand."""
+    """The subjects of an experiment and where their sessions stand.
+
+    Example: holdfast teleop subjects experiment
+    """
     if drop is not None and delete is not None:
         raise InputError("give --drop or --delete, not both")
     with _opened(folder) as records:
@@ -225,7 +235,7 @@ def subjects(
         _print_subjects(records)
 
 
-@app.command("protocol")
+@command.command("protocol")
 def protocol_(
     protocol: ProtocolArgument = "goel2003",
     write: Annotated[
@@ -246,9 +256,9 @@ def protocol_(
         typer.echo(f"written: {chosen.write(write)}")
 
 
-app.command()(teleop_serve.serve)
-app.command()(teleop_serve.texts)
-app.command()(teleop_tasks.tasks)
+command.command()(teleop_serve.serve)
+command.command()(teleop_serve.texts)
+command.command()(teleop_tasks.tasks)
 
 
 # ---- out -----------------------------------------------------------------------------------------------------------------
@@ -343,8 +353,3 @@ def _print_protocol(p: Protocol) -> None:
         away = float(((p.tasks.target[k] - start[k]) ** 2).sum() ** 0.5)
         tasks.add_row(str(k + 1), escape(joint), f"{away:.3f}", escape(note))
     out.print(tasks)
-
-
-def add(root: typer.Typer) -> None:
-    """Register the commands."""
-    root.add_typer(app, name="teleop")

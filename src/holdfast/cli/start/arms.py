@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
 from holdfast.present.printing import console, number, print_json
 
 if TYPE_CHECKING:
-    from holdfast.arm.model import Arm, Joint
+    from holdfast.arm.machine import Joint
+    from holdfast.arm.model import Arm
 
 
 def command(json_: JsonOption = False) -> None:
@@ -130,9 +129,3 @@ def _position(joint: Joint, value: float) -> str:
     if abs(value) == float("inf"):
         return "none"
     return f"{value:.4g} m" if joint.prismatic else f"{value * 57.29577951308232:.4g} deg"
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command("arms")(command)
-    app.command()(describe)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Annotated, Any
 
 import casadi as ca
@@ -30,32 +29,6 @@ from holdfast.status import Status, require_ok
 Array = NDArray[np.float64]
 
 
-class JointStatus(IntEnum):
-    """What the measure of one joint at one configuration stands for; ``JointStatus(code).advice`` says it in a sentence."""
-
-    OK = 0
-    DEGENERATE = 1
-    NOT_DEFINED = 2
-    NO_INERTIA = 3
-    BAD_INPUT = 4
-
-    @property
-    def advice(self) -> str:
-        """One sentence: what this status means and what to do about it."""
-        return _ADVICE[self]
-
-
-_ADVICE = {
-    JointStatus.OK: "the measure of this joint is what its formula says",
-    JointStatus.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not "
-    "swing, so the angle and its gradient are 0 by convention, and near here both change abruptly",
-    JointStatus.NOT_DEFINED: "a sliding joint does not swing, it slides to its stop: its swing angle is 0 by convention",
-    JointStatus.NO_INERTIA: "all the mass this joint carries lies on its axis, so its acceleration is 0/0: give the links "
-    "their inertia or the joint its armature",
-    JointStatus.BAD_INPUT: "the configuration held NaN or infinity: look at where it came from",
-}
-
-
 @dataclass(frozen=True)
 class Evaluation:
     """A susceptibility at N configurations, or at one (then without the leading N).
@@ -64,7 +37,7 @@ class Evaluation:
         value: (N,) the joints combined by the weights, ``f' W f``.
         by_joint: (N, n) the measure f of each joint, signed, in ``measure.joint_unit``.
         status: (N,) ``Status.OK``, ``BAD_INPUT``, or ``NO_INERTIA`` where a joint has no acceleration.
-        joint_status: (N, n) :class:`JointStatus` of each joint.
+        joint_status: (N, n) :class:`holdfast.Status` of each joint.
     """
 
     value: Array
@@ -121,7 +94,7 @@ class Susceptibility(Labelled, Objective):
 
     @property
     def joint_unit(self) -> tuple[str, ...]:
-        """Unit of each joint's measure; the swing angle of a sliding joint is 0 by convention."""
+        """Unit of each joint's measure; the swing angle of a prismatic joint is 0 by convention."""
         return tuple(self.formula.sliding if p else self.formula.turning for p in self.arm.prismatic)
 
     def _value_unit(self) -> str:
@@ -201,12 +174,12 @@ class Susceptibility(Labelled, Objective):
         n = self.arm.n
         out = self._values.rows(rows)
         value, by_joint = out[:, 0].copy(), out[:, 1 : n + 1].copy()
-        joint_status = np.where(out[:, n + 1 :] > 0, JointStatus.DEGENERATE, JointStatus.OK).astype(np.uint8)
+        joint_status = np.where(out[:, n + 1 :] > 0, Status.DEGENERATE, Status.OK).astype(np.uint8)
         if not self.formula.slides:
-            joint_status[:, self.arm.prismatic] = JointStatus.NOT_DEFINED
-        joint_status[np.isnan(by_joint)] = JointStatus.NO_INERTIA
+            joint_status[:, self.arm.prismatic] = Status.NOT_DEFINED
+        joint_status[np.isnan(by_joint)] = Status.NO_INERTIA
         bad = ~np.isfinite(rows).all(axis=1)
-        joint_status[bad] = JointStatus.BAD_INPUT
+        joint_status[bad] = Status.BAD_INPUT
         status = np.where(np.isnan(value), Status.NO_INERTIA, Status.OK).astype(np.uint8)
         status[bad] = Status.BAD_INPUT
         if single:
@@ -312,7 +285,7 @@ def torque(
 def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
     """How fast each joint would accelerate as it fails, the others held; English and Maciejewski 1998, eq. (22).
 
-    Armature counts as inertia. Where all the mass that a turning joint carries lies on its axis it is NaN.
+    Armature counts as inertia. Where all the mass that a revolute joint carries lies on its axis it is NaN.
 
     Raises:
         ArmError: A link of which nothing is known or whose inertia no body has, or a joint that carries no mass.
@@ -323,9 +296,9 @@ def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
 
 @constructor(needs=("inertia",))
 def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
-    """How far each turning joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
+    """How far each revolute joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
 
-    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a sliding joint, for a balanced one and
+    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a prismatic joint, for a balanced one and
     where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.
 
     Raises:
