@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
 from holdfast.arms.serial import to_dict
 from holdfast.control.law import Law
 from holdfast.convergence.places import read_places
@@ -273,9 +272,12 @@ def _sampled(
     places = read_places(law.arm, law.task, given, np.random.default_rng(search))
     seen = Failures(moved, places.poses, failures, seed)
     searched = {"designs": designs, "climbs": climbs, "seed": seed, "failures": failures, "targets": len(places)}
-    own = law.arm, law.describe(), law.label, law.task
     listed = None if isinstance(given, (int, np.integer)) else places.poses.tolist()
-    memory = None if store is None else Memory(store, _plan(own, box.space, {**searched, "places": listed}))
+    memory = None
+    if store is not None:
+        task = [law.task.rows.tolist(), law.task.frame, law.task.length]
+        formerly = law.formerly([law.label, law.describe()], task)
+        memory = Memory(store, _plan(law, box.space, {**searched, "places": listed}), formerly)
     parts = count(1)
 
     def part(name: str, make: Callable[[], Parts]) -> Parts:
@@ -303,14 +305,12 @@ def _sampled(
     return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, compared, searched)
 
 
-def _plan(own: tuple[Arm, str, str, Task], space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
+def _plan(law: Law, space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
     """What defines a sampled search, as JSON data."""
-    arm, law, label, task = own
     return {
         "kind": "design for convergence",
-        "arm": to_dict(arm),
-        "law": [label, law],
-        "task": [task.rows.tolist(), task.frame, task.length],
+        "arm": to_dict(law.arm),
+        **law.stored(),
         "vary": [p.written for p in space.parameters],
         **searched,
     }

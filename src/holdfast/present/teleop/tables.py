@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from holdfast.errors import StoreError
+from holdfast.files.output import made, replaced
 from holdfast.files.spreadsheet import csv_text
 from holdfast.teleop.analysis.observations import CAUSES
 from holdfast.teleop.trials.performance import MEASURES
@@ -121,12 +121,9 @@ def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
         StoreError: The folder or a file cannot be written.
     """
     tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for file, table in tables.items():
-            file.write_text(csv_text(table, "NA"), encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise StoreError(f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder") from error
+    made(folder)
+    for file, table in tables.items():
+        replaced(file, csv_text(table, "NA"))
     return list(tables)
 
 
