@@ -36,11 +36,8 @@ APART = {
     "equilibria.RestPoints",
     "recovery.WhatIsLeft",
     "solvers.SelfMotion",
-    "teleop.Replay",
-    "teleop.TaskBank",
 }
 NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures"}
-NO_NUMBERS |= {"teleop.analysis.Analysis"}
 NO_SENTENCES = {"Assessment", "Comparison"}
 
 
@@ -57,7 +54,7 @@ RESULTS = named(
         "equilibria": "Basins Curves Orbit RestPoints",
         "recovery": "Replay WhatIsLeft",
         "solvers": "SelfMotion",
-        "teleop": "Replay TaskBank",
+        "teleop": "Replay TaskChoice",
         "teleop.analysis": "Analysis",
     }
 )
@@ -80,7 +77,7 @@ VALUES = named(
         "recovery": "Leg RestOfPath RowsGivenUp",
         "simulation": "Path",
         "solvers": "Component FibrePath",
-        "teleop": "Binning CPM Entry Next RecordedCycles Subject Trials",
+        "teleop": "Binning CPM Entry Next RecordedCycles Subject TaskBank Trials",
         "teleop.analysis": "Anova Cells Condition Correlation Effect Groups Mixed Observed Paired WaldTest",
     }
 )
