@@ -11,7 +11,6 @@ import holdfast as hf
 import oracles
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.maps import shared
-from holdfast.present.convergence.maps import save
 from holdfast.probability.intervals import Interval
 
 
@@ -137,8 +136,8 @@ def test_places_out_of_reach_are_left_out(spatial, goal):
 
 
 def test_files(sampled, tmp_path):
-    names = {file.name for file in save(sampled, tmp_path / "a")}
-    assert names == {"map.csv", "map.json", "outcomes.png", "map-top.png", "map-side.png"}
+    names = {file.name for file in sampled.save(tmp_path / "a")}
+    assert names == {"map.csv", "map.json", "outcomes.png", "map-top.png", "map-side.png", "report.html"}
     data = json.loads((tmp_path / "a" / "map.json").read_text())
     assert data["motions"] == 48
     assert data["shares"]["converged"][sampled.columns[3]]["share"] == pytest.approx(sampled.values()[:, 3].mean())

@@ -58,7 +58,7 @@ def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
 
 
 def test_on_the_command_line(tmp_path, monkeypatch, capsys):
-    command = ["holdfast", "workspace", "planar-3r", "--target", "grid:3", "--starts", "4", "--configurations", "3"]
+    command = ["holdfast", "target-measures", "planar-3r", "--target", "grid:3", "--starts", "4", "--configurations", "3"]
     monkeypatch.setattr("sys.argv", [*command, "--points", "1", "--out", str(tmp_path / "out")])
     with pytest.raises(SystemExit) as done:
         main()
@@ -69,4 +69,5 @@ def test_on_the_command_line(tmp_path, monkeypatch, capsys):
         "targets.json",
         "targets-reach.png",
         "targets-finish.png",
+        "report.html",
     }

@@ -17,7 +17,6 @@ from holdfast.convergence.healthy_motion import HealthyPaths
 from holdfast.convergence.places import configurations_at, lattice, read_places
 from holdfast.convergence.slow_endings import arriving
 from holdfast.present.convergence import origins as workspace_output
-from holdfast.present.convergence.origins import save, summary
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.
 PUBLISHED = {
@@ -197,13 +196,13 @@ def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
 def test_files(small, tmp_path, monkeypatch):
     w = small["procedure"]
     monkeypatch.setattr(workspace_output, "figures", lambda w: {})  # those of the command are looked at in its test
-    assert [file.name for file in save(w, tmp_path)] == ["workspace.csv", "workspace.json"]
+    assert [file.name for file in w.save(tmp_path)] == ["workspace.csv", "workspace.json", "report.html"]
     lines = (tmp_path / "workspace.csv").read_text().splitlines()
     assert len(lines) == len(w.places) + 1
     assert "R100_joint1_percent" in lines[0]
     assert "Fsens_any_percent" in lines[0]
     data = json.loads((tmp_path / "workspace.json").read_text())
-    assert data == summary(w)
+    assert data == w.to_dict()
     assert data["mean_percent"]["R100"]["any"] == pytest.approx(np.nanmean(w.reach.full[:, 3]))
     assert any("no sink" in line for line in w.describe())
 

@@ -23,23 +23,16 @@ from holdfast.result import Result
 METHODS = ("report", "save", "figures", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
 # Results that do not derive from Result yet, and those whose numbers or sentences nothing gives yet: both only get shorter.
 APART = {
-    "ConvergenceMap",
     "FreeSwing",
-    "LawChoice",
     "Optimum",
     "TolerantWorkspace",
-    "Workspace",
-    "equilibria.Basins",
-    "equilibria.Curves",
-    "equilibria.Orbit",
     "recovery.Replay",
-    "equilibria.RestPoints",
     "recovery.WhatIsLeft",
     "solvers.SelfMotion",
     "teleop.Replay",
     "teleop.TaskBank",
 }
-NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures", "Trajectory", "control.TradeOff"}
+NO_NUMBERS = {"Assessment", "Comparison", "Recovery", "Trajectory", "control.TradeOff"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
 NO_SENTENCES = {"Assessment", "Comparison", "Designs"}
 
@@ -54,7 +47,7 @@ RESULTS = named(
         "": "Assessment Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison Optimum "
         "PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "TradeOff",
-        "equilibria": "Basins Curves Orbit RestPoints",
+        "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "Replay WhatIsLeft",
         "solvers": "SelfMotion",
         "teleop": "Replay TaskBank",

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds
+from holdfast.result import Result
 
 if TYPE_CHECKING:
-    from holdfast.equilibria.points import RestPoints
+    from holdfast.equilibria.points import StationaryPoints
     from holdfast.equilibria.system import RestSystem
 
 Array = NDArray[np.float64]
@@ -92,7 +93,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class Curves(Result):
     """All curves of erroneous rest points that were found for one locked joint.
 
     Attributes:
@@ -109,7 +110,7 @@ class Curves:
     target: Array
     joint: int
     curves: tuple[Curve, ...]
-    loose: RestPoints
+    loose: StationaryPoints
     starts: int
     _system: RestSystem = field(repr=False)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
 from collections.abc import Sequence
@@ -10,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.errors import StoreError
-from holdfast.present.printing import console, print_json, print_written
+from holdfast.notice import says
+from holdfast.present.printing import Rows, console, print_json, print_rows, print_written
 from holdfast.result import Result
 
 if TYPE_CHECKING:
@@ -41,9 +43,17 @@ def drawn(result: Result, file: Path) -> Path:
 
 
 def show(result: Result, out: Console) -> None:
-    """The sentences."""
+    """The sentences and the tables."""
     for line in result.describe():
         out.print(line, markup=False, soft_wrap=True)
+    for table in result._presented("tables"):
+        print_rows(out, table)
+
+
+def tables(result: Result) -> list[Rows]:
+    """None."""
+    del result
+    return []
 
 
 def figures(result: Result) -> dict[str, Figure]:
@@ -52,15 +62,17 @@ def figures(result: Result) -> dict[str, Figure]:
     return {}
 
 
+@says("drawing the report")
 def write(result: Result, path: Path, command: str = "") -> Path:
-    """A page of the sentences and the figures."""
+    """A page of the sentences, the tables and the figures."""
     from holdfast.report import page
 
     first, *others = result.describe()
     blocks: list[page.Block] = [page.Text(line) for line in others]
-    return page.write(
-        page.Page(type(result).__name__, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path
-    )
+    for table in result._presented("tables"):
+        blocks.append(page.Table(table.rows, table.head, frozenset(range(1, len(table.head))), caption=table.title))
+    title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
+    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path)
 
 
 def shown(result: Result, command: str = "") -> list[Any]:
@@ -72,12 +84,12 @@ def shown(result: Result, command: str = "") -> list[Any]:
     return [*drawn, *([Code(command, "The same again:")] if command else [])]
 
 
-def save(result: Result, folder: Path, command: str = "") -> list[Path]:
+def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:
     """The figures as pictures, and the page."""
     from holdfast.report.figures import save_png
 
     folder = made(folder)
-    pictures = [save_png(figure, folder / f"{name}.png") for name, figure in result.figures().items()]
+    pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in result.figures().items()]
     return [*pictures, result.report(folder / "report.html", command=command)]
 
 

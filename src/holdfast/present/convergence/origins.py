@@ -1,4 +1,4 @@
-"""A workspace analysis as files: figures, a table and a summary."""
+"""A workspace analysis: numbers, tables, figures and files."""
 
 from __future__ import annotations
 
@@ -8,20 +8,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.convergence.analysis import ENDS
+from holdfast.convergence.origins import Workspace
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
-from holdfast.present.convergence.places import measure_maps
+from holdfast.present import results
+from holdfast.present.convergence.places import mean_rows, measure_maps, with_interval
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
-    from holdfast.convergence.origins import Workspace
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
 
-def summary(w: Workspace) -> dict[str, Any]:
-    """Facts of an analysis as JSON types; NaN is None."""
-    from holdfast.convergence.analysis import ENDS
-
+def to_dict(w: Workspace) -> dict[str, Any]:
+    """Facts of the analysis as JSON types; NaN is None."""
     columns = w.columns
     reached = w.configurations > 0
     return {
@@ -49,25 +51,36 @@ def summary(w: Workspace) -> dict[str, Any]:
     }
 
 
+def tables(w: Workspace) -> list[Rows]:
+    """Where each joint may lock, the means of the measures, and of samples what holds throughout."""
+    values = []
+    for joint, arcs in zip(w.law.arm.joints, w.bounds, strict=True):
+        factor, unit = joint.shown
+        told = ", ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
+        values.append([joint.name, told or "no value"])
+    sampled = w.method == "sampled"
+    found = [Rows(["joint", "target in reach with it at"], values), mean_rows(w, "the starts", sampled)]
+    if sampled:
+        names = ["R100", "F100"] if w.ends.sum() else ["R100"]
+        rows = [
+            [column, *(with_interval(100 * i.value, 100 * i.low, 100 * i.high) for i in shares)]
+            for column, shares in zip(w.columns, zip(*map(w.throughout, names), strict=True), strict=True)
+        ]
+        title = "where all configurations that were drawn do, an upper bound for all that there are"
+        found.append(Rows(["joint", *(f"starts with {name} 100, percent" for name in names)], rows, title))
+    return found
+
+
 @says("writing the results")
-def save(w: Workspace, folder: str | Path) -> list[Path]:
-    """Write ``workspace.csv``, ``workspace.json`` and the :func:`figures`: ``reach.png``, ``finish.png``.
-
-    Raises:
-        StoreError: The folder cannot be written.
-    """
-    from holdfast.convergence.analysis import ENDS
-    from holdfast.report.figures import save_png
-
+def save(w: Workspace, folder: Path, command: str = "") -> list[Path]:
+    """``workspace.csv``, ``workspace.json``, the figures and the page."""
     columns = ["configurations", "lost", *ENDS, *(f"{name}_{column}_percent" for name in w.measures for column in w.columns)]
     values = [w.configurations, w.lost, w.ends, *w.measures.values()]
-    files = save_places(folder, "workspace", w.places, columns, values, summary(w))
-    for name, figure in figures(w).items():
-        files.append(save_png(figure, Path(folder) / f"{name}.png", 130))
-    return files
+    files = save_places(folder, "workspace", w.places, columns, values, to_dict(w))
+    return files + results.save(w, folder, command, dpi=130)
 
 
-def figures(w: Workspace) -> dict[str, Any]:
+def figures(w: Workspace) -> dict[str, Figure]:
     """The maps of Fig. 10 by file name: ``reach``, and ``finish`` if failures were looked at.
 
     For tasks that are not in a plane ``reach-top`` and ``reach-side``, seen along z and along y, and ``finish`` likewise.

@@ -1,4 +1,4 @@
-"""Maps over places as every analysis of a workspace draws them: over the plane of the task, or from above and from the side."""
+"""Maps over places and tables of means of every analysis of a workspace: in the plane of the task, or from two sides."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 from holdfast.convergence.measures import FINISH, REACH
 from holdfast.convergence.places import Places, in_a_plane
 from holdfast.convergence.table import axis_label
+from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.arm.task import Task
     from holdfast.control.law import Law
+    from holdfast.convergence.origins import Workspace
+    from holdfast.convergence.targets import TargetMeasures
 
 Array = NDArray[np.float64]
 
@@ -66,6 +69,20 @@ def panels(
             told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
         found[name] = place_maps(plane, shown, columns, label, caption + told)
     return found
+
+
+def mean_rows(found: Workspace | TargetMeasures, over: str, intervals: bool = True) -> Rows:
+    """A row for each joint and ``any``, a column for the mean of each measure."""
+    means, sure = found.means(), found.intervals()
+    rows = []
+    for k, name in enumerate((*found.law.arm.joint_names, "any")):
+        rows.append([name, *(with_interval(v[k], *sure[m][k]) if intervals else number(v[k]) for m, v in means.items())])
+    return Rows(["joint", *means], rows, f"mean over {over}, percent" + " (and 95 % interval)" * intervals)
+
+
+def with_interval(value: float, low: float, high: float) -> str:
+    """A percentage over its interval."""
+    return number(value) if np.isnan(value) else f"{value:.1f}\n{low:.1f} to {high:.1f}"
 
 
 def measure_maps(

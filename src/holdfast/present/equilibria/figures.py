@@ -1,4 +1,4 @@
-"""Figures of rest curves and basins. Imports matplotlib: import it where a figure is made."""
+"""Figures of curves of stationary points and of basins. Imports matplotlib: import it where a figure is made."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ _CELLS, _TRIES = 360, 16  # of the locked value, to see where the target is with
 _MOST_JOINTS = 3
 
 
-def curves_figure(curves: Curves, seed: int = 0) -> Figure:
-    """Rest curves over the locked value: the error, and the other joints if they are few.
+def curves_figure(curves: Curves) -> Figure:
+    """Curves of stationary points over the locked value: the error, and the other joints if they are few.
 
     Where the target can be reached is shaded, found by inverse kinematics in steps of a degree (or a 360th of the range).
     """
@@ -44,7 +44,7 @@ def curves_figure(curves: Curves, seed: int = 0) -> Figure:
         for word, some in (("degenerate", ~loose.attracting), ("sink", loose.attracting))
         if some.any()
     ]
-    values, reached = _within_reach(curves, seed)
+    values, reached = _within_reach(curves)
     caption = (
         f"{arm.name}, {curves.law.name}; {arm.joint_names[joint]} locked, the controller does not know; "
         f"{len(curves)} curves from {curves.starts} starts"
@@ -89,14 +89,14 @@ def basins_figure(basins: Basins) -> Figure:
     return basin_map(cells.reshape(basins.shape), names, extent, marks, lines, (_axis(arm, first), _axis(arm, second)), caption)
 
 
-def _within_reach(curves: Curves, seed: int) -> tuple[Array, list[tuple[float, float]]]:
+def _within_reach(curves: Curves) -> tuple[Array, list[tuple[float, float]]]:
     """The locked values to show, in degrees or m, and the ranges of them at which the target is reached."""
     arm, joint = curves.law.arm, curves.joint
     low, high = (arm.lower[joint], arm.upper[joint]) if arm.joints[joint].prismatic else (-np.pi, np.pi)
     low, high = (low if np.isfinite(low) else -1.0), (high if np.isfinite(high) else 1.0)
     edges = np.linspace(low, high, _CELLS + 1)
     middle = np.repeat((edges[1:] + edges[:-1]) / 2, _TRIES)
-    found = curves._system.reaches(middle, np.random.default_rng(seed)).reshape(_CELLS, _TRIES).any(axis=1)
+    found = curves._system.reaches(middle, np.random.default_rng(0)).reshape(_CELLS, _TRIES).any(axis=1)
     changes = np.flatnonzero(np.diff(np.r_[0, found.astype(int), 0]))
     shown = edges * arm.joints[joint].shown[0]
     return shown, [(float(shown[a]), float(shown[b])) for a, b in zip(changes[::2], changes[1::2], strict=True)]

@@ -61,13 +61,13 @@ def test_limit_cycle(three, angle, width, period):
     assert not found.windings.any()
     if angle == 168.30:
         assert found.error == pytest.approx((0.809, 0.997), abs=1e-3)
-        assert found.describe() == f"limit cycle (period {found.period:.4g} s)"
+        assert found.describe() == [f"limit cycle (period {found.period:.4g} s)"]
 
 
 @pytest.mark.parametrize(("angle", "rate"), [(10, -3.31), (30, -0.816)])
 def test_an_arm_that_turns_for_ever(three, angle, rate):
     """Fig. 7: no rest point at all, joint 1 turns."""
-    assert len(hf.stationary(three, [-0.8, 0.0], locked=2, at=RAD(angle))) == 0
+    assert len(hf.stationary_points(three, [-0.8, 0.0], locked=2, at=RAD(angle))) == 0
     runs = hf.simulate(three, RAD([10.8852, 72.5087, angle]), [-0.8, 0.0], locked=[2], time_limit=500)
     found = orbit(runs)
     assert found.label == "turning"
