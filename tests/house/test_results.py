@@ -32,7 +32,7 @@ APART = {
     "teleop.Replay",
     "teleop.TaskBank",
 }
-NO_NUMBERS = {"Assessment", "Comparison", "Recovery", "Trajectory", "control.TradeOff"}
+NO_NUMBERS = {"Assessment", "Comparison", "Recovery"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
 NO_SENTENCES = {"Assessment", "Comparison", "Designs"}
 

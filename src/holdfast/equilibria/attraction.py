@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -54,6 +54,7 @@ class Basins(Result):
         boundaries: Lines of configurations (K, n) that run into saddles, for two healthy joints: starts on either side may end
             at different points. Continuous, so that joints may run beyond pi.
         shape: Starts along each of the two healthy joints, if they are a grid.
+        healthy: Joints that move and that the task notices, from 0.
     """
 
     points: StationaryPoints
@@ -63,7 +64,7 @@ class Basins(Result):
     confidence: float
     boundaries: tuple[Array, ...] = ()
     shape: tuple[int, int] | None = None
-    _moving: tuple[int, ...] = field(default=(), repr=False)
+    healthy: tuple[int, ...] = ()
 
     @property
     def shares(self) -> list[tuple[str, Interval]]:
@@ -81,11 +82,6 @@ class Basins(Result):
         """Share of starts that reach the target."""
         arrived = np.asarray(self.runs.code) == Outcome.CONVERGED
         return Interval.of(int(arrived.sum()), len(self.end), self.confidence)
-
-    @property
-    def healthy(self) -> tuple[int, ...]:
-        """Joints that move and that the task notices, from 0."""
-        return self._moving
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -25,8 +25,8 @@ PRESENTERS = {
     "Runs": ("simulation.console", "simulation.run"),
     "StationaryPoints": ("equilibria.points", ""),
     "TargetMeasures": ("convergence.targets", "convergence.targets"),
-    "TradeOff": ("", "control.trade_offs"),
-    "Trajectory": ("", "motion.trajectory"),
+    "TradeOff": ("control.console", "control.trade_offs"),
+    "Trajectory": ("motion.console", "motion.trajectory"),
     "Workspace": ("convergence.origins", "convergence.origins"),
 }
 _WORDS = {"to_dict", "show", "tables"}

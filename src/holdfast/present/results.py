@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from holdfast.errors import StoreError
 from holdfast.notice import says
-from holdfast.present.printing import Rows, console, print_json, print_rows, print_written
+from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
 from holdfast.result import Result
 
 if TYPE_CHECKING:
@@ -40,6 +40,12 @@ def drawn(result: Result, file: Path) -> Path:
     from holdfast.report.figures import save_png
 
     return save_png(next(iter(result.figures().values())), file)
+
+
+def numbers(result: Result) -> dict[str, Any]:
+    """Its numbers in types that JSON has."""
+    data: dict[str, Any] = plain(result._presented("to_dict"))
+    return data
 
 
 def show(result: Result, out: Console) -> None:
@@ -70,7 +76,8 @@ def write(result: Result, path: Path, command: str = "") -> Path:
     first, *others = result.describe()
     blocks: list[page.Block] = [page.Text(line) for line in others]
     for table in result._presented("tables"):
-        blocks.append(page.Table(table.rows, table.head, frozenset(range(1, len(table.head))), caption=table.title))
+        rows = [[re.sub("\n(.*)", r" (\1)", cell) for cell in row] for row in table.rows]
+        blocks.append(page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title))
     title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
     return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path)
 

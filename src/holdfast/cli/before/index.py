@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import typer
 
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
@@ -115,8 +114,3 @@ def _print(measure: Index, configurations: NDArray[np.float64], results: list[di
         out.print(table)
         gradient = ", ".join(f"{name} {number(value)}" for name, value in r["gradient"].items())
         out.print(f"gradient of the worst case, per rad or m: {escape(gradient)}", soft_wrap=True)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("index")(command)

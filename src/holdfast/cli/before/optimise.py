@@ -395,8 +395,3 @@ def _write(result: _Result, path: Path) -> None:
                 table.writerow([k + 1, Status(int(optimum.status[k])).name.lower(), *cells])
     except OSError as error:
         raise StoreError(f"cannot write configurations '{path}': {error.strerror or error}; choose another path") from error
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command()(configure)

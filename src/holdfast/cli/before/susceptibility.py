@@ -123,8 +123,3 @@ def _print(measure: Susceptibility, configurations: Array, results: list[dict[st
                 out.print(f"[yellow]{flag.replace('_', ' ')}: {JointStatus[flag.upper()].advice}[/]", soft_wrap=True)
         gradient = ", ".join(f"{name} {number(value)}" for name, value in r["gradient"].items())
         out.print(f"gradient of the value, per rad or m: {escape(gradient)}", soft_wrap=True)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("susceptibility")(command)

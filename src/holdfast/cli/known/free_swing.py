@@ -200,8 +200,3 @@ def _draw(result: FreeSwing, path: Path) -> None:
     friction = f"{result.damping:.3g} {'N s/m' if slides else 'N m s/rad'}"
     caption = f"{result.arm.name}: free swing of {failed.name}, all other joints held, friction {friction}, MuJoCo"
     save_png(motion_figure(panels, caption), path)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command()(swing)

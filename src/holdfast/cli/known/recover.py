@@ -364,8 +364,3 @@ def _print(result: Recovery, files: list[Path]) -> None:
             table.add_row(escape(joint.name), *cells, "locked" if joint.name in result.locked else "")
         out.print(table)
     print_written(out, files)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("recover")(command)

@@ -297,9 +297,3 @@ def _print_region(region: TolerantWorkspace, plot: Path | None) -> None:
     if not region.exact:
         out.print("values between the tried ones, and configurations that were not found, are not in the interval")
     print_written(out, [plot])
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command("self-motion")(command)
-    app.command("tolerant-workspace")(tolerant_workspace)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
 from holdfast.present.printing import console, number, print_json
 
@@ -130,9 +128,3 @@ def _position(joint: Joint, value: float) -> str:
     if abs(value) == float("inf"):
         return "none"
     return f"{value:.4g} m" if joint.prismatic else f"{value * 57.29577951308232:.4g} deg"
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command("arms")(command)
-    app.command()(describe)

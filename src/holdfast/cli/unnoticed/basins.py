@@ -50,8 +50,3 @@ def command(
     joints, values = read_locked(made.arm, lock, at, degrees)
     result = hf.basins(made, read_target(made.arm, made.task, target), joints, values, starts, grid, seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("basins")(command)

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 import holdfast as hf
 from holdfast.cli.laws import LawsOption, TargetsOption, read_laws, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_arm
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import MapConfigurationsOption, MapStartsOption, MapTimeOption, OverOption
+from holdfast.cli.unnoticed.measures import FolderOption, MapConfigurationsOption, MapStartsOption, MapTimeOption, OverOption
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report, figures, and the map of each law.", show_default=False)
-    ] = None,
+    out: FolderOption = None,
     starts: MapStartsOption = "1000",
     configurations: MapConfigurationsOption = 20,
     over: OverOption = "starts",
@@ -41,20 +34,7 @@ def command(
     """
     laws = read_laws(law, read_arm(arm, base, tip, hold), task, arm)
     targets, places = read_targets(laws[0], target), read_places(starts)
+    options = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
     with progress_bar(json_, "runs") as progress:
-        result = hf.best_law(
-            laws,
-            targets,
-            places,
-            progress,
-            configurations=configurations,
-            over=over,
-            time_limit=time_limit,
-            seed=seed,
-        )
+        result = hf.best_law(laws, targets, places, progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("best-law")(command)

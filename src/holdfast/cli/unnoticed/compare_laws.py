@@ -132,8 +132,3 @@ def _drawn(
     if reachable_after:
         joints = "each" if reachable_after == ["each"] else [read_joint(arm, text) for text in reachable_after]
     return hf.point_to_point(arm, motions, seed, span, joints, task)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("compare-laws")(command)

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 import holdfast as hf
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import MapConfigurationsOption, MapStartsOption, MapTimeOption, OverOption
+from holdfast.cli.unnoticed.measures import FolderOption, MapConfigurationsOption, MapStartsOption, MapTimeOption, OverOption
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.", show_default=False)
-    ] = None,
+    out: FolderOption = None,
     starts: MapStartsOption = "1000",
     configurations: MapConfigurationsOption = 20,
     over: OverOption = "starts",
@@ -46,8 +39,3 @@ def command(
             made, targets, places, configurations, over, time_limit=time_limit, seed=seed, progress=progress
         )
     printed(result, json_, [] if out is None else result.save(out, command=said()))
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("convergence-map")(command)

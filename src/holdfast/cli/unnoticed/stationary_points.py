@@ -59,8 +59,3 @@ def command(
     else:
         result = hf.stationary_points(made, goal, *read_locked(made.arm, lock, at, degrees), seed=seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("stationary-points")(command)

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 import holdfast as hf
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed.measures import (
-    CONFIGURATIONS_HELP,
-    STARTS_HELP,
+    ConfigurationsOption,
+    FolderOption,
     MeasureTimeOption,
     PointsOption,
     ProcedureOption,
     SampledOption,
+    StartsOption,
     WholeOption,
     measured,
 )
@@ -27,13 +23,9 @@ from holdfast.present.results import printed, said
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.", show_default=False)
-    ] = None,
-    starts: Annotated[str | None, typer.Option("--starts", help=STARTS_HELP, show_default="20")] = None,
-    configurations: Annotated[
-        int | None, typer.Option("--configurations", help=CONFIGURATIONS_HELP, show_default="8, or 4")
-    ] = None,
+    out: FolderOption = None,
+    starts: StartsOption = None,
+    configurations: ConfigurationsOption = None,
     points: PointsOption = None,
     procedure: ProcedureOption = False,
     sampled: SampledOption = False,
@@ -56,22 +48,8 @@ def command(
     Example: holdfast target-measures panda --task position --target random:50 --out results
     """
     made = law_of(law, arm, task, base, tip, hold)
-    options = measured(starts, procedure, sampled, whole)
-    targets = read_targets(made, target)
+    more = {"configurations": configurations, "points": points, "time_limit": time_limit, "seed": seed}
+    options, targets = measured(starts, procedure, sampled, whole, **more), read_targets(made, target)
     with progress_bar(json_, "targets") as progress:
-        result = hf.target_measures(
-            made,
-            targets,
-            configurations=configurations,
-            points=points,
-            time_limit=time_limit,
-            seed=seed,
-            progress=progress,
-            **options,
-        )
+        result = hf.target_measures(made, targets, progress=progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("target-measures")(command)

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
 import holdfast as hf
 from holdfast.cli.laws import LawOption, TargetOption, law_of
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_target
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed.measures import (
-    CONFIGURATIONS_HELP,
-    STARTS_HELP,
+    ConfigurationsOption,
+    FolderOption,
     MeasureTimeOption,
     PointsOption,
     ProcedureOption,
     SampledOption,
+    StartsOption,
     WholeOption,
     measured,
 )
@@ -27,13 +23,9 @@ from holdfast.present.results import printed, said
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.", show_default=False)
-    ] = None,
-    starts: Annotated[str | None, typer.Option("--starts", help=STARTS_HELP, show_default="grid:52, or 100")] = None,
-    configurations: Annotated[
-        int | None, typer.Option("--configurations", help=CONFIGURATIONS_HELP, show_default="36, or 8")
-    ] = None,
+    out: FolderOption = None,
+    starts: StartsOption = None,
+    configurations: ConfigurationsOption = None,
     points: PointsOption = None,
     procedure: ProcedureOption = False,
     sampled: SampledOption = False,
@@ -57,23 +49,9 @@ def command(
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
     made = law_of(law, arm, task, base, tip, hold)
-    options = measured(starts, procedure, sampled, whole)
-    goal, store = read_target(made.arm, made.task, target), None if out is None else out / "run"
+    more = {"configurations": configurations, "points": points, "time_limit": time_limit, "seed": seed}
+    options = measured(starts, procedure, sampled, whole, store=None if out is None else out / "run", **more)
+    goal = read_target(made.arm, made.task, target)
     with progress_bar(json_, "starts") as progress:
-        result = hf.workspace(
-            made,
-            goal,
-            configurations=configurations,
-            points=points,
-            time_limit=time_limit,
-            seed=seed,
-            store=store,
-            progress=progress,
-            **options,
-        )
+        result = hf.workspace(made, goal, progress=progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("workspace")(command)

@@ -12,6 +12,8 @@ from holdfast.present.convergence import maps
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+_SHORT = 24  # letters of a title
+
 
 def to_dict(choice: LawChoice) -> dict[str, Any]:
     """The best law, and the map of each."""
@@ -20,7 +22,8 @@ def to_dict(choice: LawChoice) -> dict[str, Any]:
 
 def figures(choice: LawChoice) -> dict[str, Figure]:
     """``laws``: how the motions ended with each joint locked, law by law."""
-    return {"laws": maps.outcomes_figure(dict(zip(choice.names, choice.maps, strict=True)))}
+    titles = [name if len(name) <= _SHORT else one.law.label for name, one in zip(choice.names, choice.maps, strict=True)]
+    return {"laws": maps.outcomes_figure(choice.maps, titles)}
 
 
 def save(choice: LawChoice, folder: Path, command: str = "") -> list[Path]:

@@ -22,6 +22,7 @@ from holdfast.present.convergence.law_rows import (
     healthy_rows,
     pairs,
     run_rows,
+    signed,
     time_unit,
 )
 from holdfast.present.results import made
@@ -169,10 +170,10 @@ def _gains(c: LawComparison) -> list[Block]:
             [
                 r["law"],
                 r["failure"],
-                f"{100 * r['gain']:+.1f} ({100 * r['gain_low']:+.1f} to {100 * r['gain_high']:+.1f})",
+                signed(r, "gain", 100.0, 1),
                 f"{r['gain_p_value']:.2g}",
-                f"{r['error']:+.4f} ({r['error_low']:+.4f} to {r['error_high']:+.4f})",
-                f"{r['excess']:+.4f} ({r['excess_low']:+.4f} to {r['excess_high']:+.4f})",
+                signed(r, "error", 1.0, 4),
+                signed(r, "excess", 1.0, 4),
             ]
         )
     head = [

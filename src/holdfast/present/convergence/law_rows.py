@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.convergence.law_comparison import ANY, HEALTHY, LawComparison
-from holdfast.present.printing import Rows, number, plain, print_rows
+from holdfast.present.printing import Rows, number, print_rows
 from holdfast.simulation.runs import Outcome
 from holdfast.words import fixed, percent
 
@@ -32,8 +32,7 @@ def to_dict(c: LawComparison) -> dict[str, Any]:
     }
     if pairs(c):
         data["gains"] = gain_rows(c)
-    made: dict[str, Any] = plain(data)
-    return made
+    return data
 
 
 def show(c: LawComparison, out: Console) -> None:
@@ -61,8 +60,7 @@ def show(c: LawComparison, out: Console) -> None:
     )
     if pairs(c):
         rows = [
-            [r["law"], r["failure"], f"{_signed(r, 'gain', 100.0, 1)} points", _signed(r, "error", 1.0, 4)]
-            for r in gain_rows(c)
+            [r["law"], r["failure"], f"{signed(r, 'gain', 100.0, 1)} points", signed(r, "error", 1.0, 4)] for r in gain_rows(c)
         ]
         print_rows(out, Rows(["law", "locked", f"converge, more than with {c.names[0]}", f"end error, {size}"], rows))
     if c.comparable.any():
@@ -76,7 +74,8 @@ def show(c: LawComparison, out: Console) -> None:
         out.print("medians over the motions that converge with every law", soft_wrap=True)
 
 
-def _signed(row: dict[str, Any], of: str, factor: float, digits: int) -> str:
+def signed(row: dict[str, Any], of: str, factor: float, digits: int) -> str:
+    """A difference with its interval."""
     value, low, high = (f"{factor * row[name]:+.{digits}f}" for name in (of, f"{of}_low", f"{of}_high"))
     return f"{value} ({low} to {high})"
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from holdfast.convergence.maps import ConvergenceMap, shared
+from holdfast.convergence.maps import ConvergenceMap
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
 from holdfast.present import results
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.report.outcomes import Stack
+
+Array = NDArray[np.float64]
 
 _WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
 _ENDINGS = (
@@ -55,27 +58,26 @@ def save(m: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
     """``map.csv`` (a line for each place), ``map.json``, the figures and the page."""
     columns = ["motions", *(f"{word}_{name}" for word in _WORDS for name in m.columns)]
     values = [m.known.sum(axis=1), *(m.values(word) for word in _WORDS)]
-    files = save_places(folder, "map", m.places, columns, values, to_dict(m))
+    files = save_places(folder, "map", m.places, columns, values, m.to_dict())
     return files + results.save(m, folder, command, dpi=130)
 
 
-def outcomes_figure(maps: Mapping[str, ConvergenceMap]) -> Figure:
+def outcomes_figure(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
     """A bar for each locked joint and each map: how the motions ended."""
     from holdfast.report.outcomes import stack_figure
 
-    first = next(iter(maps.values()))
-    names = [f"{name} locked" for name in first.columns[:-1]] + ["no joint locked"]
-    stacks = [_bars(title, m, names) for title, m in maps.items()]
-    return stack_figure(stacks, _ENDINGS, "share of the motions", caption=_told(first, *maps))
+    stacks = [_bars(title, m) for title, m in zip(titles, maps, strict=True)]
+    return stack_figure(stacks, _ENDINGS, "fraction of the motions", caption=_told(maps[0], len(maps)))
 
 
-def _bars(title: str, m: ConvergenceMap, names: list[str]) -> Stack:
+def _bars(title: str, m: ConvergenceMap) -> Stack:
     from holdfast.report.outcomes import Stack
 
+    names = [f"{name} locked" for name in m.columns[:-1]] + ["no joint locked"]
     converged = m.shares("converged")
     trapped = np.array([s.value for s in m.shares("trapped").values()])
     there, low, high = (np.array([getattr(s, end) for s in converged.values()]) for end in ("value", "low", "high"))
-    stuck, moving = (np.array([s.value for s in _means(m, word)]) for word in ("stuck", "moving"))
+    stuck, moving = _far(m, "stuck"), _far(m, "moving")
     return Stack(
         title, names, np.column_stack([there, trapped, stuck, moving, 1 - there - trapped - stuck - moving]), low, high
     )
@@ -96,18 +98,17 @@ def figures(m: ConvergenceMap) -> dict[str, Figure]:
         f"{_told(m)}\nwhere the {m.over} are",
         target[0] if alone else None,
     )
-    return {"outcomes": outcomes_figure({"": m}), **{f"map{view}": figure for view, figure in maps.items()}}
+    return {"outcomes": outcomes_figure([m]), **{f"map{view}": figure for view, figure in maps.items()}}
 
 
-def _told(m: ConvergenceMap, *titles: str) -> str:
+def _told(m: ConvergenceMap, laws: int = 1) -> str:
     motions, places = int(m.known.sum()), len(m.places)
-    laws = f"{len(titles)} laws" if len(titles) > 1 else m.law.name
-    return f"{m.law.arm.name}, {laws}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
+    law = f"{laws} laws" if laws > 1 else m.law.name
+    return f"{m.law.arm.name}, {law}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
 
 
-def _means(m: ConvergenceMap, word: str) -> list[Any]:
-    """Shares of runs that ended so with the target out of reach."""
-    count = m.known.sum(axis=1)
-    with np.errstate(invalid="ignore"):
-        values = (m.happened(word) & ~m.in_reach).sum(axis=1) / np.where(count > 0, count, np.nan)[:, None]
-    return [shared(values[:, k], int(count.max()), 0.95) for k in range(values.shape[1])]
+def _far(m: ConvergenceMap, word: str) -> Array:
+    """(n + 1,) fraction of the runs that ended so with the target out of reach, every place alike."""
+    some = m.known.any(axis=1)
+    runs = (m.happened(word) & ~m.in_reach)[some].sum(axis=1)
+    return np.asarray((runs / m.known[some].sum(axis=1)[:, None]).mean(axis=0))

@@ -39,12 +39,11 @@ def to_dict(w: Workspace) -> dict[str, Any]:
         "relative_to": w.relative_to,
         "bounds_rad": {name: [list(arc) for arc in arcs] for name, arcs in zip(columns[:-1], w.bounds, strict=True)},
         "ends": dict(zip(ENDS, w.ends.sum(axis=0).tolist(), strict=True)),
-        "undecided_share": _number(w.undecided),
-        "not_simulated_share": _number(w.saved),
-        "mean_percent": {name: dict(zip(columns, map(_number, v), strict=True)) for name, v in w.means().items()},
+        "undecided_share": w.undecided,
+        "not_simulated_share": w.saved,
+        "mean_percent": {name: dict(zip(columns, v, strict=True)) for name, v in w.means().items()},
         "mean_percent_95": {
-            name: {column: [_number(x) for x in ends] for column, ends in zip(columns, v, strict=True)}
-            for name, v in w.intervals().items()
+            name: dict(zip(columns, v, strict=True)) for name, v in w.intervals().items()
         },
         "starts_with_R100_full": _counts(w, w.reach.full >= 100 - 1e-9),
         "starts_with_R100_none": _counts(w, w.reach.full == 0),
@@ -76,7 +75,7 @@ def save(w: Workspace, folder: Path, command: str = "") -> list[Path]:
     """``workspace.csv``, ``workspace.json``, the figures and the page."""
     columns = ["configurations", "lost", *ENDS, *(f"{name}_{column}_percent" for name in w.measures for column in w.columns)]
     values = [w.configurations, w.lost, w.ends, *w.measures.values()]
-    files = save_places(folder, "workspace", w.places, columns, values, to_dict(w))
+    files = save_places(folder, "workspace", w.places, columns, values, w.to_dict())
     return files + results.save(w, folder, command, dpi=130)
 
 
@@ -98,7 +97,3 @@ def figures(w: Workspace) -> dict[str, Figure]:
 
 def _counts(w: Workspace, flags: NDArray[np.bool_]) -> dict[str, int]:
     return dict(zip(w.columns, flags.sum(axis=0).tolist(), strict=True))
-
-
-def _number(value: Any) -> float | None:
-    return None if np.isnan(value) else float(value)

@@ -95,13 +95,7 @@ def measure_maps(
 ) -> dict[str, Figure]:
     """Maps of R100, Ravg, Rsens and, where failures were looked at, of F100, Favg, Fsens, by name: ``reach``, ``finish-top``.
 
-    Args:
-        law: The law, with its arm and task.
-        places: The P places.
-        measures: By name, (P, n + 1) each, percent.
-        about: First line of the captions.
-        failures: How many there were; empty: none.
-        mark: (3,) the target, to be shown.
+    ``failures`` says how many were simulated, empty if none; ``mark`` (3,) is the target, to be shown.
     """
     columns = [*law.arm.joint_names, "any joint"]
     told = {

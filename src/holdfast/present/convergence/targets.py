@@ -11,7 +11,7 @@ from holdfast.convergence.targets import TargetMeasures
 from holdfast.notice import says
 from holdfast.present import results
 from holdfast.present.convergence.places import mean_rows, measure_maps
-from holdfast.present.printing import Rows, plain
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,9 +19,7 @@ if TYPE_CHECKING:
 
 def to_dict(t: TargetMeasures) -> dict[str, Any]:
     """Places, ends, and the measures of each target with their intervals, percent."""
-    data = {"targets": t.targets.points, "ends": t.ends, "percent": t.measures, "percent_95": t.target_intervals()}
-    made: dict[str, Any] = plain(data)
-    return made
+    return {"targets": t.targets.points, "ends": t.ends, "percent": t.measures, "percent_95": t.target_intervals()}
 
 
 def tables(t: TargetMeasures) -> list[Rows]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from holdfast.equilibria.attraction import Basins
 from holdfast.present.equilibria import points
-from holdfast.present.printing import Rows, number, plain
+from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -14,15 +14,13 @@ if TYPE_CHECKING:
 
 def to_dict(found: Basins) -> dict[str, Any]:
     """The stationary points, and which fraction of the starts ends at each."""
-    data = {
+    return {
         **points.to_dict(found.points),
         "starts": len(found.end),
         "shares": [{"end": name, "share": i.value, "low": i.low, "high": i.high} for name, i in found.shares],
         "converged": {"share": found.converged.value, "low": found.converged.low, "high": found.converged.high},
         "confidence": found.confidence,
     }
-    made: dict[str, Any] = plain(data)
-    return made
 
 
 def tables(found: Basins) -> list[Rows]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.equilibria.curves import Curves
-from holdfast.present.printing import Rows, number, plain
+from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def to_dict(curves: Curves) -> dict[str, Any]:
     """The curves by what happens along them, all at values of the locked joint, rad or m."""
     arm = curves.law.arm
-    data = {
+    return {
         **arm.entry(),
         "law": curves.law.slug,
         "task": curves.law.task.name,
@@ -40,8 +40,6 @@ def to_dict(curves: Curves) -> dict[str, Any]:
             for c in curves.curves
         ],
     }
-    made: dict[str, Any] = plain(data)
-    return made
 
 
 def tables(curves: Curves) -> list[Rows]:

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.equilibria.attraction import Basins
 from holdfast.equilibria.curves import Curves
-from holdfast.equilibria.stability import Kind
 from holdfast.equilibria.system import wrapped
 from holdfast.report.curves import RestLine, basin_map, curves_over, share_bars
 
@@ -74,16 +73,8 @@ def basins_figure(basins: Basins) -> Figure:
     scale = np.array([arm.joints[first].shown[0], arm.joints[second].shown[0]])
     left, right = low * scale, high * scale
     alone = np.flatnonzero(~points.continuum)
-    marks = [
-        (
-            Kind(points.kind[k]).word,
-            float(_values(arm, points.q[[k]], first)[0]),
-            float(_values(arm, points.q[[k]], second)[0]),
-            "",
-        )
-        for k in alone
-    ]
-    marks = [(kind, x, y, f"{kind} {k + 1}") for (kind, x, y, _), k in zip(marks, alone, strict=True)]
+    x, y = (_values(arm, points.q, k).tolist() for k in (first, second))
+    marks = [(points.kinds[k], x[k], y[k], f"{points.kinds[k]} {k + 1}") for k in alone]
     lines = [(_values(arm, q, first), _values(arm, q, second)) for q in basins.boundaries]
     extent = (float(left[0]), float(right[0]), float(left[1]), float(right[1]))
     return basin_map(cells.reshape(basins.shape), names, extent, marks, lines, (_axis(arm, first), _axis(arm, second)), caption)

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from holdfast.equilibria.limit_cycles import Orbit
-from holdfast.present.printing import plain
 
 
 def to_dict(orbit: Orbit) -> dict[str, Any]:
     """Period in s, multipliers, and what each joint and the error do over a period; rad and m."""
-    data = {
+    return {
         "label": orbit.label,
         "stable": orbit.stable,
         "period_s": orbit.period,
@@ -21,5 +20,3 @@ def to_dict(orbit: Orbit) -> dict[str, Any]:
         "q": orbit.q,
         "error": {"least": orbit.error[0], "most": orbit.error[1]},
     }
-    made: dict[str, Any] = plain(data)
-    return made

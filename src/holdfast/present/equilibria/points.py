@@ -8,7 +8,7 @@ import numpy as np
 
 from holdfast.equilibria.points import StationaryPoints
 from holdfast.equilibria.stability import REACHED
-from holdfast.present.printing import Rows, number, plain, print_rows
+from holdfast.present.printing import Rows, number, print_rows
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -20,7 +20,7 @@ MANY = 3  # eigenvalues: of more only the ends of their range
 def to_dict(points: StationaryPoints) -> dict[str, Any]:
     """All points by what they are; eigenvalues in units of the gain Ke."""
     arm = points.law.arm
-    data = {
+    return {
         **arm.entry(),
         "law": points.law.slug,
         "task": points.law.task.name,
@@ -39,8 +39,6 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
             for k in range(len(points))
         ],
     }
-    made: dict[str, Any] = plain(data)
-    return made
 
 
 def tables(points: StationaryPoints) -> list[Rows]:
