@@ -39,7 +39,7 @@ def test_maps_and_several_laws(cli, ask, tmp_path):
 
 
 def test_measures_by_sampling_come_with_intervals(cli, tmp_path):
-    few = ["--sampled", "--starts", "5", "--configurations", "2", "--points", "1"]
+    few = ["--method", "sampled", "--starts", "5", "--configurations", "2", "--points", "1"]
     code, out, err = cli("workspace", "planar-3r", "--target", "1.5,1.5", *few, "--out", tmp_path)
     assert (code, err) == (0, "")
     assert "95 % interval" in out
@@ -60,7 +60,7 @@ def test_points_over_targets_are_those_asked_for(ask):
     ("more", "message"),
     [
         (["workspace", "--target", "1,2,3"], "needs 2, in m"),
-        (["workspace", "--target", "1.5,1.5", "--sampled", "--procedure"], "exclude each other"),
+        (["workspace", "--target", "1.5,1.5", "--method", "nothing"], "--method"),
         (["workspace", "--target", "9,9"], "within its reach"),
         (["convergence-map", "--target", "1.5,1.5", "--over", "nothing"], "--over"),
         (["best-law", "--target", "1.5,1.5", "--law", "damped:x"], "not a number"),

@@ -12,8 +12,6 @@ from holdfast.errors import InputError
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.control.law import Law
@@ -73,9 +71,12 @@ def law_of(
     return read_law(label, model, read_task(task, arm, model), **more)
 
 
-def read_locked(arm: Arm, lock: list[str], at: str, degrees: bool) -> tuple[list[int], NDArray[np.float64]]:
+def read_locked(arm: Arm, lock: list[str], at: str | None, degrees: bool) -> tuple[list[int], Any]:
     """The joints of --lock, and their values of --at, rad or m."""
-    joints, values = [read_joint(arm, text) for text in lock], read_numbers("--at", at, "one number for each locked joint")
+    joints = [read_joint(arm, text) for text in lock]
+    if at is None:
+        return joints, None
+    values = read_numbers("--at", at, "one number for each locked joint")
     if values.size != len(joints):
         raise InputError(f"--at has {values.size} numbers; give one for each of the {len(joints)} locked joints")
     return joints, np.where(arm.prismatic[joints], values, np.deg2rad(values)) if degrees else values

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
 from holdfast.arm.configurations import as_configurations
-from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.control.law import Law
 from holdfast.convergence.detours import healthy_cost
 from holdfast.convergence.law_comparison import HEALTHY, LawComparison, at_rest
+from holdfast.convergence.random_motions import read_joints
 from holdfast.errors import InputError
 from holdfast.notice import working
 from holdfast.simulation.closed_loop import RADIUS, TOLERANCE, simulate
@@ -70,7 +70,9 @@ def compare_laws(
     for name, law in named.items():
         if law.arm is not arm or not law.task.same_rows(task):
             raise InputError(f"law '{name}' is of another arm or task than '{next(iter(named))}'; make both of the same")
-    joints = _joints(arm, locked)
+    joints = read_joints(arm, locked, "locked")
+    if len(set(joints)) != len(joints):
+        raise InputError("locked names a joint twice; each is locked alone, once")
     start, _ = as_configurations(arm, q0)
     goal = real_numbers(target, "target")
     if not goal.ndim:
@@ -116,19 +118,6 @@ def _by_label(laws: Sequence[Law]) -> dict[str, Law]:
             raise InputError(f"two laws are called '{law.label}'; give a dictionary with names of your own")
         found[law.label] = law
     return found
-
-
-def _joints(arm: Arm, locked: Literal["each"] | Sequence[str | int] | None) -> list[int]:
-    if locked is None:
-        return []
-    if isinstance(locked, str):
-        if locked != "each":
-            raise InputError(f"locked is '{locked}'; give 'each', a list of joints, or None")
-        return list(range(arm.n))
-    joints = [arm.joint_index(j) for j in locked]
-    if len(set(joints)) != len(joints):
-        raise InputError("locked names a joint twice; each is locked alone, once")
-    return joints
 
 
 def _poses(law: Law, goal: Array) -> Array:

@@ -13,7 +13,7 @@ from holdfast.arguments import LARGEST, checked, real_numbers
 from holdfast.arm.configurations import finite_limits, without_limits
 from holdfast.arm.targets import target_pose
 from holdfast.control.law import Law
-from holdfast.equilibria.points import Joints, StationaryPoints, classified, read_joints, search
+from holdfast.equilibria.points import Joints, StationaryPoints, classified, read_joints, read_values, search
 from holdfast.equilibria.stability import Kind
 from holdfast.equilibria.system import RestSystem, distinct
 from holdfast.errors import InputError
@@ -132,9 +132,7 @@ def basins(
     check_confidence(confidence)
     joints, pose = read_joints(law.arm, locked), target_pose(law.task, target)
     generator = np.random.default_rng(seed)
-    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
-    if values.shape != (len(joints),) or not np.isfinite(values).all():
-        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    values = read_values(joints, at)
     system = RestSystem(law, pose, joints)
     moving = tuple(int(k) for k in np.flatnonzero(system.healthy))
     points = search(system, values, generator)

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds
+from holdfast.equilibria.system import RestSystem, wrapped
 from holdfast.result import Result
 
 if TYPE_CHECKING:
     from holdfast.equilibria.points import StationaryPoints
-    from holdfast.equilibria.system import RestSystem
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -130,8 +130,6 @@ class Curves(Result):
     @property
     def degenerate_angles(self) -> list[float]:
         """Locked values, by size, of whole curves of rest points; rad from -pi to pi (or m)."""
-        from holdfast.equilibria.system import wrapped
-
         values = [np.median(c.q, axis=0) for c in self.curves if c.degenerate]
         if not values:
             return []
@@ -140,8 +138,6 @@ class Curves(Result):
 
     def at(self, value: float) -> Array:
         """(P, n) rest points at one locked value, rad (or m): where curves that are not degenerate pass it."""
-        from holdfast.equilibria.system import wrapped
-
         arm = self.law.arm
         found = [np.empty((0, arm.n))]
         for curve in self.curves:

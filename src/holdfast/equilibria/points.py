@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
@@ -118,6 +118,14 @@ def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
     if not joints or len(set(joints)) != len(joints) or len(joints) >= arm.n:
         raise InputError(f"locked names {len(joints)} joints of '{arm.name}'; give 1 to {arm.n - 1}, each once")
     return joints
+
+
+def read_values(joints: Sequence[int], at: ArrayLike) -> Array:
+    """(k,) where the locked joints are."""
+    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
+    if values.shape != (len(joints),) or not np.isfinite(values).all():
+        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    return values
 
 
 def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> StationaryPoints:

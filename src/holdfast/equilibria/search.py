@@ -11,7 +11,7 @@ from holdfast.arguments import checked
 from holdfast.arm.targets import target_pose
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curves
-from holdfast.equilibria.points import Joints, StationaryPoints, read_joints, search
+from holdfast.equilibria.points import Joints, StationaryPoints, read_joints, read_values, search
 from holdfast.equilibria.system import RestSystem
 from holdfast.equilibria.tracing import trace
 from holdfast.errors import InputError
@@ -57,8 +57,6 @@ def stationary_points(
             raise InputError(f"locked names {len(joints)} joints; curves over the locked value are those of one, or give at")
         with working("tracing stationary points") as advance:
             return trace(law, pose, joints[0], seed, advance=advance)
-    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
-    if values.shape != (len(joints),) or not np.isfinite(values).all():
-        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    values = read_values(joints, at)
     with working("looking for stationary points") as advance:
         return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed), advance)

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import typer
-
-from holdfast.cli.laws import read_places
-from holdfast.errors import InputError
 
 FolderOption = Annotated[
     Path | None, typer.Option("--out", help="Folder for report, figures, table and summary.", show_default=False)
@@ -35,32 +32,20 @@ PointsOption = Annotated[
         "--points", help="Failures of each joint on each motion; 0: ranges only.", show_default="10, or 3; over targets 2"
     ),
 ]
-ProcedureOption = Annotated[
-    bool, typer.Option("--procedure/--brute", help="Simulate only failures where there is a sink, or all.")
-]
-SampledOption = Annotated[
-    bool,
+MethodOption = Annotated[
+    Literal["brute", "procedure", "sampled"] | None,
     typer.Option(
-        "--sampled", help="Random configurations of each start; so it is for every arm that does not move in a plane."
+        "--method",
+        help="Simulate all failures, or only those where there is a sink, or all of random configurations.",
+        show_default="brute in a plane, else sampled",
     ),
 ]
-WholeOption = Annotated[
-    bool, typer.Option("--whole/--inside", help="F of the whole way, or of its part within the joints' ranges.")
+RelativeOption = Annotated[
+    Literal["inside", "whole"],
+    typer.Option("--relative-to", help="F of the part of the way within the joints' ranges, or of the whole way."),
 ]
 MeasureTimeOption = Annotated[float | None, typer.Option("--time-limit", help="s.", show_default="2000/gain s")]
 MapStartsOption = Annotated[str, typer.Option("--starts", help="A number of random places, or a lattice as grid:52.")]
 MapConfigurationsOption = Annotated[int, typer.Option("--configurations", help="Motions for each place.")]
 MapTimeOption = Annotated[float | None, typer.Option("--time-limit", help="s.", show_default="500/gain s")]
 OverOption = Annotated[Literal["starts", "targets"], typer.Option("--over", help="What the places of the map are.")]
-
-
-def measured(starts: str | None, procedure: bool, sampled: bool, whole: bool, **more: Any) -> dict[str, Any]:
-    """What --starts, --procedure, --sampled and --whole are to the library, and ``more``."""
-    if procedure and sampled:
-        raise InputError("--procedure and --sampled exclude each other; leave one out")
-    return {
-        "starts": None if starts is None else read_places(starts),
-        "method": "procedure" if procedure else "sampled" if sampled else None,
-        "relative_to": "whole" if whole else "inside",
-        **more,
-    }

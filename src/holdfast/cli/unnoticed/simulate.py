@@ -99,11 +99,7 @@ def _lock(arm: Arm, text: str) -> tuple[int, float]:
     joint, at, time = text.rpartition("@")
     if not at:
         return read_joint(arm, text), 0.0
-    return read_joint(arm, joint), float(_one(f"--lock '{text}'", time))
-
-
-def _one(option: str, text: str) -> float:
-    values = read_numbers(option, text, "one number after @")
+    values = read_numbers(f"--lock '{text}'", time, "one number after @")
     if values.size != 1:
-        raise InputError(f"{option} has {values.size} numbers after @; give one time")
-    return float(values[0])
+        raise InputError(f"--lock '{text}' has {values.size} numbers after @; give one time")
+    return read_joint(arm, joint), float(values[0])

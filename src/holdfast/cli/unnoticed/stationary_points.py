@@ -17,7 +17,6 @@ from holdfast.cli.options import (
     SeedOption,
     TaskOption,
     TipOption,
-    read_joint,
     read_target,
 )
 from holdfast.errors import InputError
@@ -53,9 +52,5 @@ def command(
         raise InputError("--plot draws curves over the locked value; leave out --at, or see 'holdfast basins --plot'")
     made = law_of(law, arm, task, base, tip, hold)
     goal = read_target(made.arm, made.task, target)
-    result: Result
-    if at is None:
-        result = hf.stationary_points(made, goal, [read_joint(made.arm, text) for text in lock], seed=seed)
-    else:
-        result = hf.stationary_points(made, goal, *read_locked(made.arm, lock, at, degrees), seed=seed)
+    result: Result = hf.stationary_points(made, goal, *read_locked(made.arm, lock, at, degrees), seed=seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])

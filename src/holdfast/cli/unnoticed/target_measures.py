@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import holdfast as hf
-from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_targets
+from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed.measures import (
     ConfigurationsOption,
     FolderOption,
     MeasureTimeOption,
+    MethodOption,
     PointsOption,
-    ProcedureOption,
-    SampledOption,
+    RelativeOption,
     StartsOption,
-    WholeOption,
-    measured,
 )
 from holdfast.present.results import printed, said
 
@@ -27,9 +27,8 @@ def command(
     starts: StartsOption = None,
     configurations: ConfigurationsOption = None,
     points: PointsOption = None,
-    procedure: ProcedureOption = False,
-    sampled: SampledOption = False,
-    whole: WholeOption = False,
+    method: MethodOption = None,
+    relative_to: RelativeOption = "inside",
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     time_limit: MeasureTimeOption = None,
@@ -48,8 +47,8 @@ def command(
     Example: holdfast target-measures panda --task position --target random:50 --out results
     """
     made = law_of(law, arm, task, base, tip, hold)
-    more = {"configurations": configurations, "points": points, "time_limit": time_limit, "seed": seed}
-    options, targets = measured(starts, procedure, sampled, whole, **more), read_targets(made, target)
+    targets, places = read_targets(made, target), None if starts is None else read_places(starts)
+    options: dict[str, Any] = {"points": points, "time_limit": time_limit, "relative_to": relative_to, "seed": seed}
     with progress_bar(json_, "targets") as progress:
-        result = hf.target_measures(made, targets, progress=progress, **options)
+        result = hf.target_measures(made, targets, places, configurations, method=method, progress=progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import holdfast as hf
-from holdfast.cli.laws import LawOption, TargetOption, law_of
+from holdfast.cli.laws import LawOption, TargetOption, law_of, read_places
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_target
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.unnoticed.measures import (
     ConfigurationsOption,
     FolderOption,
     MeasureTimeOption,
+    MethodOption,
     PointsOption,
-    ProcedureOption,
-    SampledOption,
+    RelativeOption,
     StartsOption,
-    WholeOption,
-    measured,
 )
 from holdfast.present.results import printed, said
 
@@ -27,9 +27,8 @@ def command(
     starts: StartsOption = None,
     configurations: ConfigurationsOption = None,
     points: PointsOption = None,
-    procedure: ProcedureOption = False,
-    sampled: SampledOption = False,
-    whole: WholeOption = False,
+    method: MethodOption = None,
+    relative_to: RelativeOption = "inside",
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     time_limit: MeasureTimeOption = None,
@@ -44,14 +43,20 @@ def command(
     The measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by sampling,
     with 95 % intervals. A stopped analysis resumes if --out is the same. Over targets: 'holdfast target-measures'.
 
-    Example: holdfast workspace planar-3r --target 1.5,1.5 --procedure --out results
+    Example: holdfast workspace planar-3r --target 1.5,1.5 --method procedure --out results
 
     Example: holdfast workspace panda --task position --target 0.5,0.2,0.4 --starts 200 --out results
     """
     made = law_of(law, arm, task, base, tip, hold)
-    more = {"configurations": configurations, "points": points, "time_limit": time_limit, "seed": seed}
-    options = measured(starts, procedure, sampled, whole, store=None if out is None else out / "run", **more)
-    goal = read_target(made.arm, made.task, target)
+    goal, places = read_target(made.arm, made.task, target), None if starts is None else read_places(starts)
+    store = None if out is None else out / "run"
+    options: dict[str, Any] = {
+        "points": points,
+        "time_limit": time_limit,
+        "relative_to": relative_to,
+        "seed": seed,
+        "store": store,
+    }
     with progress_bar(json_, "starts") as progress:
-        result = hf.workspace(made, goal, progress=progress, **options)
+        result = hf.workspace(made, goal, places, configurations, method=method, progress=progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

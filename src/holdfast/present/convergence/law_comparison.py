@@ -15,11 +15,12 @@ from holdfast.files.spreadsheet import cell
 from holdfast.notice import says
 from holdfast.present.convergence.law_figures import error_figure, gains_figure, healthy_figure, outcome_figure
 from holdfast.present.convergence.law_rows import (
-    OUTCOMES,
+    OUTCOME_HEAD,
     error_unit,
     gain_rows,
     headline,
     healthy_rows,
+    outcome_cells,
     pairs,
     run_rows,
     signed,
@@ -122,30 +123,9 @@ def save(c: LawComparison, folder: Path, command: str = "") -> list[Path]:
 def _outcomes(c: LawComparison) -> list[Block]:
     rows: list[list[Cell]] = []
     for r in c.table:
-        rows.append(
-            [
-                r["law"],
-                r["failure"],
-                percent(r["converged"]),
-                f"{percent(r['converged_low'])} to {percent(r['converged_high'])}",
-                *[percent(r[o]) for o in OUTCOMES[1:]],
-                percent(r["reachable"]),
-                "–" if r["converged_reachable"] is None else percent(r["converged_reachable"]),
-                percent(r["converged_within_limits"]),
-                percent(r["past_limits"]),
-            ]
-        )
-    head = [
-        "law",
-        "locked",
-        "converged",
-        "95 % interval",
-        *OUTCOMES[1:],
-        "within reach",
-        "converged of these",
-        "converged within limits",
-        "past a limit",
-    ]
+        of_these = "–" if r["converged_reachable"] is None else percent(r["converged_reachable"])
+        rows.append([*outcome_cells(r), of_these, percent(r["converged_within_limits"]), percent(r["past_limits"])])
+    head = [*OUTCOME_HEAD, "converged of these", "converged within limits", "past a limit"]
     caption = (
         f"{counted(len(c), 'motion')} each; exact intervals. Within reach: some configuration of the failed arm has the "
         "end effector at the target (found by search, joint limits aside). Past a limit: a joint left its range on the way."

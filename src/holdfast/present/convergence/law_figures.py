@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -20,10 +18,10 @@ _COSTS = (
 )
 
 
-def outcome_figure(c: LawComparison, failures: Sequence[str] | None = None) -> Figure:
+def outcome_figure(c: LawComparison) -> Figure:
     """Stacked bars of outcomes, a group per failure and a bar per law."""
     stacks = []
-    for failure in failures or c.failures:
+    for failure in c.failures:
         cases = [c.case(name, failure) for name in c.names]
         shares = np.array([[case.ended(o).mean() for o in OUTCOMES] for case in cases])
         ends = [case.share() for case in cases]

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 OUTCOMES = [o.name.lower() for o in Outcome]
+_OF_A_RUN = ("error", "excess", "closest", "path_length", "path_ratio", "excursion", "time")
+OUTCOME_HEAD = ["law", "locked", "converged", "95 % interval", *OUTCOMES[1:], "within reach"]
 
 
 def to_dict(c: LawComparison) -> dict[str, Any]:
@@ -42,19 +44,8 @@ def show(c: LawComparison, out: Console) -> None:
     size = error_unit(c)
     out.print(f"Arm {escape(c.arm.title)}, task {escape(c.laws[0].task.describe())}; {escape(c.about)}", soft_wrap=True)
     out.print(f"[bold]{escape(headline(c))}[/]", soft_wrap=True)
-    rows = [
-        [
-            r["law"],
-            r["failure"],
-            percent(r["converged"]),
-            f"{percent(r['converged_low'])} to {percent(r['converged_high'])}",
-            *(percent(r[x]) for x in ("stuck", "moving", "undecided", "reachable")),
-            "" if r["astray"] is None else number(r["astray"], 3),
-        ]
-        for r in c.table
-    ]
-    head = ["law", "locked", "converges", "95 % interval", *OUTCOMES[1:], "within reach", "astray"]
-    print_rows(out, Rows(head, rows))
+    rows = [[*outcome_cells(r), "" if r["astray"] is None else number(r["astray"], 3)] for r in c.table]
+    print_rows(out, Rows([*OUTCOME_HEAD, "astray"], rows))
     out.print(
         f"astray: median end error, {size}, of the runs that do not converge; joint limits are not enforced", soft_wrap=True
     )
@@ -72,6 +63,18 @@ def show(c: LawComparison, out: Console) -> None:
         head = ["while healthy", "off the straight line", "largest angle to the command", "to the target"]
         print_rows(out, Rows(head, rows))
         out.print("medians over the motions that converge with every law", soft_wrap=True)
+
+
+def outcome_cells(row: dict[str, Any]) -> list[str]:
+    """Of a row of the table, what is below ``OUTCOME_HEAD``."""
+    interval = f"{percent(row['converged_low'])} to {percent(row['converged_high'])}"
+    return [
+        row["law"],
+        row["failure"],
+        percent(row["converged"]),
+        interval,
+        *(percent(row[x]) for x in (*OUTCOMES[1:], "reachable")),
+    ]
 
 
 def signed(row: dict[str, Any], of: str, factor: float, digits: int) -> str:
@@ -171,23 +174,10 @@ def healthy_rows(c: LawComparison) -> list[dict[str, Any]]:
 
 def run_rows(c: LawComparison) -> list[dict[str, Any]]:
     """Of each law, failure and motion: how the run ended."""
-    rows = []
-    for name in c.names:
-        for failure in c.failures:
-            case = c.case(name, failure)
-            for k in range(len(c)):
-                rows.append(
-                    {
-                        "law": name,
-                        "failure": failure,
-                        "motion": k,
-                        "outcome": OUTCOMES[case.code[k]],
-                        "reachable": int(case.reachable[k]),
-                        **{
-                            of: f"{getattr(case, of)[k]:.9g}"
-                            for of in ("error", "excess", "closest", "path_length", "path_ratio", "excursion", "time")
-                        },
-                        "past_limits": int(case.past_limits[k]),
-                    }
-                )
+    rows: list[dict[str, Any]] = []
+    for case in (c.case(name, failure) for name in c.names for failure in c.failures):
+        for k in range(len(c)):
+            row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motion": k, "outcome": OUTCOMES[case.code[k]]}
+            row |= {"reachable": int(case.reachable[k])} | {of: f"{getattr(case, of)[k]:.9g}" for of in _OF_A_RUN}
+            rows.append(row | {"past_limits": int(case.past_limits[k])})
     return rows

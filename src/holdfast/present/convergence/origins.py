@@ -42,9 +42,7 @@ def to_dict(w: Workspace) -> dict[str, Any]:
         "undecided_share": w.undecided,
         "not_simulated_share": w.saved,
         "mean_percent": {name: dict(zip(columns, v, strict=True)) for name, v in w.means().items()},
-        "mean_percent_95": {
-            name: dict(zip(columns, v, strict=True)) for name, v in w.intervals().items()
-        },
+        "mean_percent_95": {name: dict(zip(columns, v, strict=True)) for name, v in w.intervals().items()},
         "starts_with_R100_full": _counts(w, w.reach.full >= 100 - 1e-9),
         "starts_with_R100_none": _counts(w, w.reach.full == 0),
     }

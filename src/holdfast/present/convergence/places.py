@@ -40,16 +40,9 @@ def panels(
 ) -> dict[str, Figure]:
     """A figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and y.
 
-    Args:
-        task: Whether places lie in a plane, and in which.
-        places: P places.
-        rows: By title, (P, C) percentages, NaN where there are none.
-        columns: (C,) titles.
-        label: Of the colour bar.
-        caption: What was computed; where values were averaged is added.
-        mark: (3,) a target to show; None: none.
-        gathered: Places in a plane that are no lattice are averaged in square cells, as those of spatial arms always are;
-            else each is a dot.
+    ``rows`` are by title, (P, C) percentages, NaN where there are none; ``columns`` (C,) titles; ``label`` is of the colour
+    bar; ``mark`` (3,) a target to show. Places in a plane that are no lattice are averaged in square cells if ``gathered``, as
+    those of spatial arms always are; else each is a dot.
     """
     from holdfast.report.places import Plane, binned, place_maps
 
