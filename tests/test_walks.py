@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
-TABLE = re.compile(r"tests/oracles.py, in ORACLES\[\"(.+)\"\]")
+TABLE = re.compile(r"(\S+), in \w+(?:\[(\".+\")\]|, after (\".+\"))")
 INDEX = ["index", "planar-3r", "--task", "planar", "--q", "0.3 0.5 0.7", "--index"]
 LAW = ["simulate", "planar-3r", "--start", "0.3 0.5 0.7", "--target", "1.5,1.5", "--lock", "2", "--json", "--law"]
 WALKS = {
@@ -39,12 +39,12 @@ def steps(anchor):
 def write(folder, where, text):
     """A new file, an entry of a table, or a line at the end of a stub."""
     if found := TABLE.match(where):
-        file, head = folder / "tests/oracles.py", f'    "{found[1]}": {{'
+        file, head = folder / found[1], f"    {found[2] or found[3]}: "
         whole = file.read_text(encoding="utf-8")
         assert head in whole
         first, rest = whole.split(head, 1)
-        comment, _, others = rest.partition("\n")
-        file.write_text(f"{first}{head}{comment}\n{text}{others}", encoding="utf-8")
+        line, _, others = rest.partition("\n")
+        file.write_text(f"{first}{head}{line}\n{text}{others}", encoding="utf-8")
     else:
         file = folder / where
         assert file.exists() == where.endswith(".pyi")
@@ -52,9 +52,9 @@ def write(folder, where, text):
             out.write(text)
 
 
-@pytest.mark.parametrize("walk", WALKS)
-def test_the_walk(walk, tmp_path):
-    anchor, name, command, said, kind = WALKS[walk]
+@pytest.fixture
+def run(tmp_path):
+    """A call of a module in a copy of sources and tests: its exit code, and what it said."""
     for part in ("src", "tests"):
         shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
@@ -66,6 +66,13 @@ def test_the_walk(walk, tmp_path):
             [sys.executable, "-m", *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
         )
         return done.returncode, done.stdout + done.stderr
+
+    return run
+
+
+@pytest.mark.parametrize("walk", WALKS)
+def test_the_walk(walk, run, tmp_path):
+    anchor, name, command, said, kind = WALKS[walk]
 
     def tests(*chosen):
         return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "tests/test_registry.py", "-k", " or ".join(chosen))
@@ -89,3 +96,22 @@ def test_the_walk(walk, tmp_path):
     picked = ["-k", f"{name} or against_singular_values and (planar or rows)"] if kind == "index" else ["-k", "rates"]
     code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen, *picked)
     assert code == 0, told
+
+
+def test_the_walk_of_a_command(run, tmp_path):
+    def tests(*chosen):
+        return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen)
+
+    file, line, test = steps("add-a-command")
+    write(tmp_path, *file)
+    code, told = tests("tests/cli/test_imports.py", "-k", "in_the_table")
+    assert code == 1
+    assert "no line of COMMANDS in src/holdfast/cli/program.py names before.price" in told
+    write(tmp_path, *line)
+    write(tmp_path, *test)
+    chosen = ["tests/cli/test_imports.py", "tests/cli/test_examples.py", "tests/cli/test_price_command.py"]
+    code, told = tests(*chosen, "-k", "price or in_the_table or lists_every_command")
+    assert code == 0, told
+    code, told = run("holdfast", "price", "planar-3r", "--error", "0.2")
+    assert code == 0, told
+    assert "pseudoinverse" in told

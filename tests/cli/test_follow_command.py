@@ -116,8 +116,8 @@ def test_a_hand_off_its_path_is_said_first(cli, tmp_path):
         ((*WISH, "--q", "0,0,0"), "from the first pose of the path"),
         ((*WISH, "--wanted", "1"), "augmented Jacobian keeps"),
         ((*WISH, "--task", "pose"), "no self-motion to use"),
-        ((*WISH, "--csv", "/nowhere/t.csv", "--samples", "5"), "cannot be written"),
-        ((*WISH, "--out", "/dev/null/x", "--samples", "5"), "cannot be made"),
+        ((*WISH, "--csv", "/nowhere/t.csv", "--samples", "5"), "cannot write motion"),
+        ((*WISH, "--out", "/dev/null/x", "--samples", "5"), "cannot write to"),
         ((*WISH, "--torque-bound", "-1", "--samples", "5"), "bound"),
     ],
 )

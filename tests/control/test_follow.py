@@ -208,7 +208,7 @@ def test_files_hold_every_digit(projected, torque, tmp_path):
     assert read.column_names == names
     for name, column in table.items():
         np.testing.assert_array_equal(read[name].to_numpy(), column)
-    with pytest.raises(hf.StoreError, match="cannot be written"):
+    with pytest.raises(hf.StoreError, match="cannot write motion"):
         projected.to_csv(tmp_path / "none" / "t.csv")
 
 

@@ -34,7 +34,7 @@ APART = {
 }
 NO_NUMBERS = {"Assessment", "Comparison", "Recovery"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
-NO_SENTENCES = {"Assessment", "Comparison", "Designs"}
+NO_SENTENCES = {"Assessment", "Comparison"}
 
 
 def named(classes):

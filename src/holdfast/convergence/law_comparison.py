@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.convergence.detours import HealthyCost
@@ -326,7 +325,7 @@ class LawComparison(Result):
 
 def at_rest(law: Law) -> float:
     """Norm of the error, m and rad, below which a target counts as reached at rest."""
-    return ARRIVES if law.task.angular else ARRIVES * length_unit(law.arm)
+    return ARRIVES if law.task.angular else ARRIVES * law.arm.length_unit
 
 
 def _arrived(case: Case, generous: bool) -> Flags:

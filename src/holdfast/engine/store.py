@@ -20,11 +20,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.engine.folder import digest, held, is_plain, too_many
+from holdfast.engine.folder import SAFE, difference, digest, held, is_plain, shortened, taken_for, too_many
 from holdfast.engine.journal import Entry, Journal
 from holdfast.errors import StoreError
 from holdfast.files import reading
-from holdfast.files.output import replaced
+from holdfast.files.output import guarded, made, replaced
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -79,7 +79,15 @@ class Store:
 
     @classmethod
     def create(
-        cls, path: str | Path, plan: Mapping[str, Any], columns: list[Column], rows: int, chunk: int, journal: bool = False
+        cls,
+        path: str | Path,
+        plan: Mapping[str, Any],
+        columns: list[Column],
+        rows: int,
+        chunk: int,
+        *,
+        journal: bool = False,
+        formerly: Mapping[str, Any] | None = None,
     ) -> Store:
         """A new folder, or the existing one if it belongs to the same plan, ready to go on.
 
@@ -90,6 +98,8 @@ class Store:
             rows: Number of rows.
             chunk: Rows per chunk.
             journal: Name chunks that are done in a journal, with checksums, instead of in ``run.json``.
+            formerly: Entries of the plan as earlier versions wrote them, None for those that they did not have; a folder with
+                these is of the same run.
 
         Raises:
             StoreError: Not writable, not a results folder, or a folder of another plan; the message names the difference.
@@ -98,19 +108,17 @@ class Store:
         plan = json.loads(json.dumps(plan))
         if reading.exists(folder / _RUN):
             store = cls.open(folder)
-            old = store.plan
+            old = taken_for(plan, store.plan, formerly)
             if old != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
+                sizes = f"it has {store.rows} rows in chunks of {store.shape[1]}, asked for are {rows} in chunks of {chunk}"
                 raise StoreError(
-                    f"'{folder}' holds another run: {_difference(old, plan, store._run, rows, chunk)}; "
-                    "give another folder, or the same options to go on with it"
+                    f"'{folder}' holds another run: {difference(old, plan) or sizes}; "
+                    "give another folder, or the same options to resume it"
                 )
             if not store.complete:
                 store.check_current()
             if not store.done:  # perhaps stopped while it was being made
-                try:
-                    store._make_arrays(columns)
-                except OSError as error:
-                    raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+                store._make_arrays(columns)
             return store
         if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
@@ -128,12 +136,10 @@ class Store:
             **({"journal": True} if journal else {}),
         }
         store = cls(folder, run)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            store._commit()  # first, so that a stop before the arrays are there does not make the folder foreign
-            store._make_arrays(columns)
-        except OSError as error:
-            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        made(folder)
+        # First, so that a stop before the arrays are there does not make the folder foreign.
+        store._commit("", "choose another folder")
+        store._make_arrays(columns)
         return store
 
     @classmethod
@@ -245,10 +251,7 @@ class Store:
             StoreError: It cannot be read.
         """
         if self._entries is None:
-            try:
-                found = {} if self._journal is None else self._journal.read()
-            except OSError as error:
-                raise StoreError(f"'{self.path / self.JOURNAL}' cannot be read: {error.strerror or error}") from error
+            found = {} if self._journal is None else self._journal.read()
             self._entries = {k: e for k, e in found.items() if 0 <= k < self.count}
         return self._entries
 
@@ -287,22 +290,18 @@ class Store:
             arrays = self._arrays
         except (OSError, KeyError, ValueError) as error:
             raise self._damaged(error) from error
-        try:
+        what = f"chunk {chunk + 1} to"
+        with guarded(self.path, what, SAFE):
             for name, values in columns.items():
                 arrays[name][start:stop] = values
             if self._journal is None:
                 self._run["done"] = sorted({*self.done, chunk})
-                self._commit()
+                self._commit(what)
             else:
                 stored = {name: np.ascontiguousarray(values, arrays[name].dtype) for name, values in columns.items()}
                 entry = Entry(digest(stored), self._settled(chunk), seconds, maker)
                 self._journal.add(chunk, entry)
                 self.entries[chunk] = entry
-        except OSError as error:
-            raise StoreError(
-                f"cannot write chunk {chunk + 1} to '{self.path}': {error.strerror or error}; "
-                "what was committed before is safe: make room and run the same command again"
-            ) from error
 
     def drop(self, chunks: Sequence[int]) -> None:
         """Chunks of a journal that are damaged: they are missing from now on.
@@ -312,10 +311,7 @@ class Store:
         """
         if self._journal is None:
             raise StoreError(f"'{self.path}' keeps no journal, so no chunk of it can be dropped; run it in a new folder")
-        try:
-            self._journal.drop(chunks)
-        except OSError as error:
-            raise StoreError(f"cannot write to '{self.path}': {error.strerror or error}; make room") from error
+        self._journal.drop(chunks)
         for k in chunks:
             self.entries.pop(k, None)
 
@@ -358,13 +354,7 @@ class Store:
     def note(self, **facts: Any) -> None:
         """Add facts about how the run went."""
         self._run["notes"].update(facts)
-        try:
-            self._commit()
-        except OSError as error:
-            raise StoreError(
-                f"cannot write to '{self.path}': {error.strerror or error}; "
-                "the rows are safe: make room and run the same command again"
-            ) from error
+        self._commit()
 
     def read(self, chunk: int, names: Sequence[str]) -> dict[str, NDArray[Any]]:
         """Columns of one chunk, and nothing else in memory.
@@ -416,7 +406,7 @@ class Store:
         return data
 
     def _damaged(self, error: Exception) -> StoreError:
-        reason = _short(" ".join(str(error).split()) or type(error).__name__, 200)
+        reason = shortened(" ".join(str(error).split()) or type(error).__name__, 200)
         return StoreError(f"'{self.path / _SAMPLES}' is damaged ({reason}); start the run again in a new folder")
 
     # ---- files -----------------------------------------------------------------------------------------------------
@@ -424,23 +414,24 @@ class Store:
     def _make_arrays(self, columns: list[Column]) -> None:
         import zarr
 
-        group = zarr.open_group(self.path / _SAMPLES, mode="w")
-        group.attrs["plan"] = json.dumps(self.plan)
-        for c in columns:
-            lengths = [n for _, n in c.dims]
-            array = group.create_array(
-                c.name,
-                shape=(self.rows, *lengths),
-                chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
-                dtype=c.dtype,
-                fill_value=c.fill,
-                compressors=zarr.codecs.ZstdCodec(checksum=True),
-                dimension_names=["row", *[d for d, _ in c.dims]],
-            )
-            array.attrs.update({"units": c.units, "long_name": c.about})
+        with guarded(self.path):
+            group = zarr.open_group(self.path / _SAMPLES, mode="w")
+            group.attrs["plan"] = json.dumps(self.plan)
+            for c in columns:
+                lengths = [n for _, n in c.dims]
+                array = group.create_array(
+                    c.name,
+                    shape=(self.rows, *lengths),
+                    chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
+                    dtype=c.dtype,
+                    fill_value=c.fill,
+                    compressors=zarr.codecs.ZstdCodec(checksum=True),
+                    dimension_names=["row", *[d for d, _ in c.dims]],
+                )
+                array.attrs.update({"units": c.units, "long_name": c.about})
 
-    def _commit(self) -> None:
-        replaced(self.path / _RUN, json.dumps(self._run, indent=1))
+    def _commit(self, what: str = "", advice: str = SAFE) -> None:
+        replaced(self.path / _RUN, json.dumps(self._run, indent=1), what, advice)
 
 
 def _wrong(run: Mapping[str, Any]) -> str | None:
@@ -473,15 +464,3 @@ def _is_number(dtype: str) -> bool:
         return not dtype.startswith("a") and np.dtype(dtype).kind in "fiu"  # 'a', bytes, is an alias that numpy warns of
     except (TypeError, ValueError):
         return False
-
-
-def _difference(old: Mapping[str, Any], new: Mapping[str, Any], run: Mapping[str, Any], rows: int, chunk: int) -> str:
-    for key in sorted({*old, *new}):
-        if old.get(key) != new.get(key):
-            a, b = json.dumps(old.get(key)), json.dumps(new.get(key))
-            return f"its {key} is {_short(a)}, asked for is {_short(b)}"
-    return f"it has {run['rows']} rows in chunks of {run['chunk']}, asked for are {rows} in chunks of {chunk}"
-
-
-def _short(text: str, most: int = 60) -> str:
-    return text if len(text) <= most else text[: most - 3] + "..."

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import guarded, writing
 from holdfast.files.spreadsheet import cell
 from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
@@ -179,13 +179,10 @@ class Trajectory(Result):
             StoreError: The file cannot be written.
         """
         table = self.columns()
-        try:
-            with writing(Path(path)) as file:
-                writer = csv.writer(file)
-                writer.writerow(map(cell, table))
-                writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
-        except OSError as error:
-            raise StoreError(f"'{path}' cannot be written: {error.strerror or error}") from error
+        with writing(Path(path), "motion") as file:
+            writer = csv.writer(file)
+            writer.writerow(map(cell, table))
+            writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
         return Path(path)
 
     def to_parquet(self, path: str | Path) -> Path:
@@ -198,11 +195,10 @@ class Trajectory(Result):
             import pyarrow
             from pyarrow import parquet
 
-            parquet.write_table(pyarrow.table(self.columns()), Path(path))
+            with guarded(Path(path), "motion", "choose another path"):
+                parquet.write_table(pyarrow.table(self.columns()), Path(path))
         except ImportError as error:
             raise StoreError(f"'{path}': Parquet needs pyarrow; install holdfast[parquet], or write CSV") from error
-        except OSError as error:
-            raise StoreError(f"'{path}' cannot be written: {error.strerror or error}") from error
         return Path(path)
 
     def slowness(self, bound: float) -> list[SlowMotion]:

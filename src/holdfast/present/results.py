@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from holdfast.errors import StoreError
+from holdfast.files.output import made
 from holdfast.notice import says
 from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
 from holdfast.result import Result
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def printed(result: Result, as_json: bool, files: Sequence[Path | None] = ()) -> None:
-    """What a command prints: JSON for machines, or what people read and which files were written."""
+def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False) -> None:
+    """What a command prints: JSON for machines, with the files if they are listed; or what people read, and the files."""
     if as_json:
-        print_json(result.to_dict())
+        print_json(result.to_dict() | ({"files": list(map(str, files))} if listed else {}))
         return
     out = console()
     result._presented("show", out)
@@ -98,19 +98,6 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     folder = made(folder)
     pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in result.figures().items()]
     return [*pictures, result.report(folder / "report.html", command=command)]
-
-
-def made(folder: Path) -> Path:
-    """The folder, made where need be.
-
-    Raises:
-        StoreError: It cannot be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(f"--out: folder '{folder}' cannot be made: {error.strerror or error}; choose another") from error
-    return folder
 
 
 def in_notebook(result: Result) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 
 from holdfast import arms
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.output import replaced
 from holdfast.registry import INDICES, LAWS, Registry
@@ -54,7 +54,7 @@ assess:
   keep: rows                # every pose; counts keeps only how values are distributed, for very many samples
   # thresholds: {{relative-manipulability: 0.3}}    # what the report asks for; half of the bound, or the median, if not given
 
-# Whether an arm with an unidentified locked joint still arrives, under each control law: see 'holdfast convergence-map --help'.
+# Whether an arm with an unidentified locked joint still reaches the target, by law: see 'holdfast convergence-map --help'.
 {convergence}
 # Further jobs: workspace (laws, targets, starts, configurations, points) and bank (laws, sets, distance); see the guide
 # "From laptop to cluster".
@@ -125,10 +125,7 @@ def write(
         optimise=str(optimise).lower(),
         convergence=block,
     )
-    try:
-        replaced(path, text)
-    except OSError as error:
-        raise StoreError(f"cannot write study file '{path}': {error.strerror or error}; choose another path") from error
+    replaced(path, text, "study file")
     try:
         read(path)
     except InputError:

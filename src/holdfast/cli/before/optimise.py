@@ -31,7 +31,7 @@ from holdfast.cli.options import (
     read_pose,
     read_task,
 )
-from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.errors import HoldfastError, InputError
 from holdfast.files.output import writing
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import console, number, print_json, print_written
@@ -384,14 +384,11 @@ def _write(result: _Result, path: Path) -> None:
     optimum = result.optimum
     names = [f"{joint.name}_{joint.unit}" for joint in result.arm.joints]
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
-    try:
-        with writing(path) as file:
-            table = csv.writer(file)
-            table.writerow(map(cell, columns + names))
-            for k in range(len(result.targets)):
-                errors = optimum.position_error[k], optimum.rotation_error[k]
-                facts = [result.values_before[k], optimum.value[k], optimum.starts[k], optimum.agreeing[k], *errors]
-                cells = [f"{x:.12g}" for x in [*facts, *optimum.q[k]]]
-                table.writerow([k + 1, Status(int(optimum.status[k])).name.lower(), *cells])
-    except OSError as error:
-        raise StoreError(f"cannot write configurations '{path}': {error.strerror or error}; choose another path") from error
+    with writing(path, "configurations") as file:
+        table = csv.writer(file)
+        table.writerow(map(cell, columns + names))
+        for k in range(len(result.targets)):
+            errors = optimum.position_error[k], optimum.rotation_error[k]
+            facts = [result.values_before[k], optimum.value[k], optimum.starts[k], optimum.agreeing[k], *errors]
+            cells = [f"{x:.12g}" for x in [*facts, *optimum.q[k]]]
+            table.writerow([k + 1, Status(int(optimum.status[k])).name.lower(), *cells])

@@ -26,12 +26,13 @@ from holdfast.cli.options import (
     read_target,
     read_task,
 )
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.files.output import writing
 from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
-    from holdfast.arm.model import Arm, Joint
+    from holdfast.arm.machine import Joint
+    from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.reach.bounds import Arcs
     from holdfast.reach.tolerance import TolerantWorkspace
@@ -178,11 +179,8 @@ def _write(arm: Arm, motion: SelfMotion, degrees: bool, file: Path) -> None:
     curve = np.repeat(np.arange(1, len(sizes) + 1), sizes)
     rows = np.column_stack([curve, np.where(turning, np.rad2deg(motion.q), motion.q)])
     header = ",".join(["curve", *(f"{j.name}_{u}" for j, u in zip(arm.joints, units, strict=True))])
-    try:
-        with writing(file) as stream:
-            np.savetxt(stream, rows, fmt=["%d", *["%.12g"] * arm.n], delimiter=",", header=header, comments="")
-    except OSError as error:
-        raise StoreError(f"cannot write points '{file}': {error.strerror or error}; choose another path") from error
+    with writing(file, "points") as stream:
+        np.savetxt(stream, rows, fmt=["%d", *["%.12g"] * arm.n], delimiter=",", header=header, comments="")
 
 
 def _draw(arm: Arm, motion: SelfMotion, arcs: list[Arcs], file: Path) -> None:

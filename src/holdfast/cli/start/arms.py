@@ -8,7 +8,8 @@ from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption
 from holdfast.present.printing import console, number, print_json
 
 if TYPE_CHECKING:
-    from holdfast.arm.model import Arm, Joint
+    from holdfast.arm.machine import Joint
+    from holdfast.arm.model import Arm
 
 
 def command(json_: JsonOption = False) -> None:

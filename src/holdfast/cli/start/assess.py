@@ -220,10 +220,7 @@ def report(
 def _write_candidates(out: Path, names: Sequence[str], tools: Sequence[str | None]) -> None:
     """Which folders in ``out`` are compared, and in which order."""
     listed = [{"name": name, "tool": tool} for name, tool in zip(names, tools, strict=True)]
-    try:
-        replaced(out / _CANDIDATES, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
-    except OSError as error:
-        raise StoreError(f"cannot write to '{out}': {error.strerror or error}; choose another folder") from error
+    replaced(out / _CANDIDATES, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
 
 
 def _report_comparison(folder: Path, to: Path | None, at_least: list[float] | None, json_: bool) -> None:

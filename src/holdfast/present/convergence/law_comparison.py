@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.convergence.law_comparison import HEALTHY, LawComparison
-from holdfast.errors import StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import made, writing
 from holdfast.files.spreadsheet import cell
 from holdfast.notice import says
 from holdfast.present.convergence.law_figures import error_figure, gains_figure, healthy_figure, outcome_figure
@@ -26,7 +25,6 @@ from holdfast.present.convergence.law_rows import (
     signed,
     time_unit,
 )
-from holdfast.present.results import made
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.figures import svg
@@ -101,19 +99,12 @@ def save(c: LawComparison, folder: Path, command: str = "") -> list[Path]:
     tables = {"outcomes": c.table, "healthy": healthy_rows(c), "runs": run_rows(c)}
     if pairs(c):
         tables["gains"] = gain_rows(c)
-    files = []
-    for name, rows in tables.items():
-        file = made(folder) / f"{name}.csv"
-        try:
-            with writing(file) as stream:
-                writer = csv.writer(stream)
-                writer.writerow(map(cell, rows[0]))
-                writer.writerows([cell(row[name]) for name in rows[0]] for row in rows)
-        except OSError as error:
-            raise StoreError(
-                f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder"
-            ) from error
-        files.append(file)
+    files = [made(folder) / f"{name}.csv" for name in tables]
+    for file, rows in zip(files, tables.values(), strict=True):
+        with writing(file) as stream:
+            writer = csv.writer(stream)
+            writer.writerow(map(cell, rows[0]))
+            writer.writerows([cell(row[name]) for name in rows[0]] for row in rows)
     return [*files, c.report(folder / "report.html", command=command)]
 
 

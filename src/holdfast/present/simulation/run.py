@@ -10,12 +10,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
-from holdfast.errors import StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import made, writing
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
-from holdfast.present.results import made
-from holdfast.present.stick_figure import corners, projections
+from holdfast.present.stick_figure import projections
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
@@ -57,11 +55,8 @@ def to_csv(runs: Runs, file: File, k: int) -> File:
     time = "time_cycles" if runs.cycles else "time_s"
     header = ",".join([time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"])
     rows = np.column_stack([path.time, path.q, path.x, path.error])
-    try:
-        with writing(file) as stream:
-            np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
-    except OSError as error:
-        raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error
+    with writing(file, "motion") as stream:
+        np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     return file
 
 
@@ -129,7 +124,7 @@ class _RunReport:
         """The stick figure over time."""
         seen, law = self.seen, self.runs.law
         few = np.unique(np.linspace(0, len(seen.time) - 1, _FRAMES).astype(int))
-        chain = corners(self.arm, seen.q[few])
+        chain = self.arm.frames(seen.q[few])[..., :3, 3]
         start = chain[0, -1]
         linear = law.task.rows[:, :3]
         into = linear.T @ linear if law.task.frame == "base" else np.eye(3)

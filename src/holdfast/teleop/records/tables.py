@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import HoldfastError, StoreError
+from holdfast.errors import HoldfastError
+from holdfast.files.output import guarded, made, replaced
 from holdfast.files.spreadsheet import csv_text
 from holdfast.notice import says
 from holdfast.teleop.bank.tasks import TaskBank, in_every_scenario
@@ -46,7 +47,7 @@ _COLUMNS = {
     "joint": ("", "joint that the task has fail; empty for none"),
     "end": ("", "arrived, still, time, aborted or broken_off"),
     "cycles": ("1", "control cycles from start to end"),
-    **{m.name: (m.unit, m.about + "; empty where the hand did not arrive") for m in MEASURES[:RECORDED]},
+    **{m.name: (m.unit, m.about + "; empty where the end effector did not reach it") for m in MEASURES[:RECORDED]},
     MEASURES[RECORDED].name: ("1", "step of the rating, from 0; empty where there is none"),
     "began": ("", "UTC, ISO 8601"),
     "ended": ("", "UTC, ISO 8601; empty for a trial that was broken off"),
@@ -88,7 +89,8 @@ def computer_table(protocol: Protocol) -> pd.DataFrame:
 def computer_trials(protocol: Protocol) -> Trials:
     """The protocol's tasks under computer control: scenario by scenario, in each all tasks.
 
-    A trial is over after a way of 50 m at full speed, or when the hand has stood still for 2.5 m of it: 1000 and 50 of the
+    A trial is over after a way of 50 m at full speed, or when the end effector has stood still for 2.5 m of it: 1000
+    and 50 of the
     paper's cycles.
     """
     limit = protocol.stick.limit
@@ -145,8 +147,9 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
     Returns:
         ``task`` (from 1), ``joint`` (that fails; empty for none), the start (joint names, rad and m), the target (``target_x``
-        and so on, m), then for each scenario its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where the hand
-        did not arrive.
+        and so on, m), then for each scenario its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where
+        the end effector
+        did not reach it.
     """
     import pandas as pd
 
@@ -168,7 +171,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
 
 def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
-    """Where the hand was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
+    """Where the end effector was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
 
     Returns:
         From a subject's code (None means the computer), a task's and a scenario's number (from 1) it makes (K, m) tool points,
@@ -265,20 +268,16 @@ def export(records: Records, folder: str | Path, parquet: bool = False) -> list[
         "subjects": pd.DataFrame(subjects),
         "events": pd.DataFrame(events),
     }
-    path = Path(folder)
+    path = made(folder)
     written = []
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-        for name, table in tables.items():
-            file = path / f"{name}.{'parquet' if parquet else 'csv'}"
-            if parquet:
+    for name, table in tables.items():
+        file = path / f"{name}.{'parquet' if parquet else 'csv'}"
+        if parquet:
+            with guarded(path):
                 table.to_parquet(file, index=False)
-            else:
-                file.write_text(csv_text(table), encoding="utf-8", newline="\n")
-            written.append(file)
-        file = path / "dictionary.csv"
-        file.write_text(csv_text(dictionary(records.protocol)), encoding="utf-8", newline="\n")
-        written += [file, records.protocol.write(path / "protocol.yaml")]
-    except OSError as error:
-        raise StoreError(f"cannot write to '{path}': {error.strerror or error}; choose another folder") from error
-    return written
+        else:
+            replaced(file, csv_text(table))
+        written.append(file)
+    file = path / "dictionary.csv"
+    replaced(file, csv_text(dictionary(records.protocol)))
+    return [*written, file, records.protocol.write(path / "protocol.yaml")]
