@@ -209,3 +209,12 @@ def test_words_that_are_none_are_told(sampled, spatial):
         hf.best_law([law, law], 1, 1)
     with pytest.raises(hf.InputError, match="one arm and task"):
         hf.best_law({"a": law, "b": pseudoinverse(hf.arms.load("planar-3r"), "planar")}, 1, 1)
+
+
+def test_motions_as_a_data_set(sampled):
+    data = sampled.to_xarray()
+    for k, name in enumerate(sampled.columns):
+        share = float((data.code.sel(locked=name) == 0).mean())
+        assert share == pytest.approx(sampled.shares()[name].value)
+        assert np.array_equal(data.in_reach[..., k], sampled.in_reach[..., k])
+    assert np.array_equal(data.q0.sel(joint=sampled.law.arm.joint_names[0]), sampled.q0[..., 0])

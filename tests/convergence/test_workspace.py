@@ -258,3 +258,13 @@ def test_an_arm_without_redundancy_is_refused():
     panda = pseudoinverse(hf.arms.load("panda"), "position")
     with pytest.raises(hf.TaskError, match="lattice"):
         hf.workspace(panda, [0.5, 0, 0.5], "grid:5")
+
+
+def test_measures_as_a_data_set(small):
+    w = small["procedure"]
+    data = w.to_xarray()
+    mean = data.Ravg.sel(joint="any").mean("place", skipna=True)
+    assert float(mean) == pytest.approx(w.means()["Ravg"][-1])
+    assert int(data.ends.sel(ending="converged").sum()) == w.ends[:, 0].sum()
+    at = int(np.argmax(w.configurations))
+    assert [float(data[axis][at]) for axis in "xyz"] == w.places.points[at].tolist()

@@ -86,3 +86,10 @@ def test_wrong_input_is_one_sentence(three):
         orbit(runs)
     with pytest.raises(InputError, match="there is no run 1"):
         orbit(runs, 1)
+
+
+def test_starts_and_ends_as_a_data_set(three):
+    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(140), starts=5)
+    data = found.to_xarray()
+    assert data.start.sel(joint="joint2").values == pytest.approx(RAD(140))
+    assert np.array_equal(data.end, found.end)

@@ -15,6 +15,9 @@ from holdfast.notice import says
 from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
 from holdfast.result import Result
 
+_NARROW = 5  # columns
+_HARD = "\N{NO-BREAK SPACE}"
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
@@ -76,10 +79,18 @@ def write(result: Result, path: Path, command: str = "") -> Path:
     first, *others = result.describe()
     blocks: list[page.Block] = [page.Text(line) for line in others]
     for table in result._presented("tables"):
-        rows = [[re.sub("\n(.*)", r" (\1)", cell) for cell in row] for row in table.rows]
-        blocks.append(page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title))
+        rows = [[_beside(cell) for cell in row] for row in table.rows]
+        blocks.append(
+            page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=len(rows[0]) > _NARROW)
+        )
     title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
     return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path)
+
+
+def _beside(cell: str) -> str:
+    """With what is below a value beside it, or as a whole on the next line."""
+    value, _, below = cell.partition("\n")
+    return f"{value} ({_HARD.join(below.split())})" if below else value
 
 
 def shown(result: Result, command: str = "") -> list[Any]:

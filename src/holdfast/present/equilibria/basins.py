@@ -29,7 +29,7 @@ def tables(found: Basins) -> list[Rows]:
     rows = [
         [name, str(share), number(found.points.error[codes[name]]) if name in codes else ""] for name, share in found.shares
     ]
-    return [Rows(["ends at", "share of starts", "error"], rows)]
+    return [Rows(["ends at", "fraction of starts", points.error_head(found.points.law)], rows)]
 
 
 def figures(found: Basins) -> dict[str, Figure]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.equilibria.curves import Curves
+from holdfast.present.equilibria.points import error_head
 from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def tables(curves: Curves) -> list[Rows]:
             error = c.error[s.first : s.last + 1]
             ends = f"{factor * c.locked[s.first]:.3f} to {factor * c.locked[s.last]:.3f}"
             rows.append([str(k + 1), ends, s.kind.word, f"{number(error.min())} to {number(error.max())}"])
-    head = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind", "error, least to most"]
+    head = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind", f"{error_head(curves.law)}, least to most"]
     return [Rows(head, rows)] if curves.curves else []
 
 

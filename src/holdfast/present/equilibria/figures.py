@@ -26,7 +26,7 @@ def curves_figure(curves: Curves) -> Figure:
     arm, joint, system = curves.law.arm, curves.joint, curves._system
     others = [k for k in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MOST_JOINTS]
     size = "m and rad" if curves.law.task.angular else "m"
-    shown = [f"error of the hand, {size}", *(_axis(arm, k) for k in others)]
+    shown = [f"error of the end effector, {size}", *(_axis(arm, k) for k in others)]
 
     def rows(q: Array, error: Array) -> list[Array]:
         return [error, *(_values(arm, q, k) for k in others)]

@@ -13,6 +13,8 @@ from holdfast.present.printing import Rows, number, print_rows
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from holdfast.control.law import Law
+
 SHOWN = 12  # points of a kind on the console
 MANY = 3  # eigenvalues: of more only the ends of their range
 
@@ -44,7 +46,7 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
 def tables(points: StationaryPoints) -> list[Rows]:
     """A row for each point; joints in degrees or m."""
     joints = points.law.arm.joints
-    head = ["kind", *(f"{j.name}, {j.shown[1]}" for j in joints), "error", "eigenvalues, Ke", ""]
+    head = ["kind", *(f"{j.name}, {j.shown[1]}" for j in joints), error_head(points.law), "eigenvalues, Ke", ""]
     rows = []
     attracting = points.attracting
     for k, kind in enumerate(points.kinds):
@@ -67,6 +69,11 @@ def show(points: StationaryPoints, out: Console) -> None:
     print_rows(out, table._replace(rows=shown))
     if len(shown) < len(points):
         out.print(f"and {len(points) - len(shown)} more; --json has all", soft_wrap=True)
+
+
+def error_head(law: Law) -> str:
+    """What the norm of the task's error is, with its unit."""
+    return "error, m and rad" if law.task.angular else "error, m"
 
 
 def _spread(values: Any) -> str:
