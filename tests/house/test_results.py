@@ -29,11 +29,8 @@ APART = {
     "recovery.Replay",
     "recovery.WhatIsLeft",
     "solvers.SelfMotion",
-    "teleop.Replay",
-    "teleop.TaskBank",
 }
 NO_NUMBERS = {"Assessment", "Comparison", "Recovery"}
-NO_NUMBERS |= {"teleop.analysis.Analysis"}
 NO_SENTENCES = {"Assessment", "Comparison"}
 
 
@@ -50,7 +47,7 @@ RESULTS = named(
         "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "Replay WhatIsLeft",
         "solvers": "SelfMotion",
-        "teleop": "Replay TaskBank",
+        "teleop": "Replay TaskChoice",
         "teleop.analysis": "Analysis",
     }
 )
@@ -73,7 +70,7 @@ VALUES = named(
         "recovery": "Leg RestOfPath RowsGivenUp",
         "simulation": "Path",
         "solvers": "Component FibrePath",
-        "teleop": "Binning CPM Entry Next RecordedCycles Subject Trials",
+        "teleop": "Binning CPM Entry Next RecordedCycles Subject TaskBank Trials",
         "teleop.analysis": "Anova Cells Condition Correlation Effect Groups Mixed Observed Paired WaldTest",
     }
 )

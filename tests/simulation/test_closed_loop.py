@@ -118,8 +118,8 @@ def test_a_run_caught_at_half_a_turn_is_told_soon_and_is_not_called_singular(rng
 
     taken, run = [], Loop.run
 
-    def counted(self, *given):
-        result = run(self, *given)
+    def counted(self, *given, **told):
+        result = run(self, *given, **told)
         taken.append(int(result.steps.max(initial=0)))
         return result
 

@@ -9,7 +9,7 @@ from typing import Any
 # What presents a result, by the name of its class: the module of its words and numbers (to_dict, show, tables), which draws
 # nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
-    "Analysis": ("", "teleop.page"),
+    "Analysis": ("teleop.numbers", "teleop.page"),
     "Assessment": ("", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "Comparison": ("", "assessment.comparison"),
@@ -25,6 +25,7 @@ PRESENTERS = {
     "Runs": ("simulation.console", "simulation.run"),
     "StationaryPoints": ("equilibria.points", ""),
     "TargetMeasures": ("convergence.targets", "convergence.targets"),
+    "TaskChoice": ("teleop.choice", "teleop.bank"),
     "TradeOff": ("control.console", "control.trade_offs"),
     "Trajectory": ("motion.console", "motion.trajectory"),
     "Workspace": ("convergence.origins", "convergence.origins"),

@@ -24,7 +24,7 @@ class Rows(NamedTuple):
 
 
 def plain(value: Any) -> Any:
-    """JSON types of NumPy ones; infinity and NaN become null, which JSON has."""
+    """JSON types of NumPy ones; infinity and NaN become null, which JSON has, complex numbers their two parts."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
@@ -33,6 +33,8 @@ def plain(value: Any) -> Any:
         return plain(value.tolist())
     if isinstance(value, np.generic):
         return plain(value.item())
+    if isinstance(value, complex):
+        return {"real": plain(value.real), "imaginary": plain(value.imag)}
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value

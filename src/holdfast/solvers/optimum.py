@@ -28,7 +28,7 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
-from holdfast.notice import says
+from holdfast.notice import Count, each, says
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solvers.maximin import maximin_step
@@ -168,7 +168,7 @@ class Ascent:
             return q, trust
         state = np.concatenate([q, trust[:, None], np.zeros_like(q)], axis=1)
         p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
-        for _ in range(steps):
+        for _ in each("steps of the ascent", range(steps)):
             before = state
             more = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
             state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], p, r, *more)
@@ -369,12 +369,15 @@ def optimise(
         part = targets[blocks[number]]
         first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
         reach = ascent.engine.solve(part, first, restarts, within)
-        return ascent.solve(part, reach, others, most, within)
+        found = ascent.solve(part, reach, others, most, within)
+        tell(len(part))
+        return found
 
-    if len(blocks) == 1 or in_pool() or thread_count() == 1:
-        parts = [work(k) for k in range(len(blocks))]
-    else:
-        parts = list(pool().map(work, range(len(blocks))))
+    with Count("poses", len(targets), whole=len(blocks) > 4 * thread_count()) as tell:
+        if len(blocks) == 1 or in_pool() or thread_count() == 1:
+            parts = [work(k) for k in range(len(blocks))]
+        else:
+            parts = list(pool().map(work, range(len(blocks))))
     names = list(Optimum.__dataclass_fields__)
     joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
     if np.ndim(poses) == 2:

@@ -136,7 +136,7 @@ def configure(
     optimum = optimise(model, targets, objective, seed, starts, task=chosen, clearance=apart, margin=margin or 0.0)
     if not optimum.success.any():
         first = Status(int(optimum.status[0]))
-        advice = first.advice
+        advice = first.sentence
         if first == Status.INFEASIBLE and apart is not None:
             advice = (
                 f"the arm {too_close(margin or 0.0)} in each that was found ({shape_text(apart, 0.0)}): choose another pose, "
@@ -306,7 +306,7 @@ def _print(result: _Result, file: Path | None) -> None:
         out.print(f"before: the {first}; configurations go to --csv FILE or --json", soft_wrap=True)
     _print_clearance(result, out)
     for status in sorted({int(s) for s in optimum.status if s != Status.OK}):
-        out.print(f"[yellow]{Status(status).name.lower().replace('_', ' ')}: {Status(status).advice}[/]", soft_wrap=True)
+        out.print(f"[yellow]{Status(status).name.lower().replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
     if result.given is not None and result.worse.any():
         which = "" if len(result.targets) == 1 else f" of {int(result.worse.sum())} poses"
         out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)

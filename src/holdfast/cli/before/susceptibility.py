@@ -26,6 +26,7 @@ from holdfast.cli.options import (
 )
 from holdfast.present.printing import console, number, print_json
 from holdfast.registry import SUSCEPTIBILITIES
+from holdfast.status import Status
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -74,8 +75,6 @@ def command(
 
 
 def _evaluate(measure: Susceptibility, q: Array) -> dict[str, Any]:
-    from holdfast.indices.susceptibility.measure import JointStatus
-
     result = measure.evaluate(q)
     arm = measure.arm
     return {
@@ -91,7 +90,7 @@ def _evaluate(measure: Susceptibility, q: Array) -> dict[str, Any]:
         "by_joint": dict(zip(arm.joint_names, result.by_joint.tolist(), strict=True)),
         "joint_unit": dict(zip(arm.joint_names, measure.joint_unit, strict=True)),
         "joint_status": {
-            name: JointStatus(int(s)).name.lower() for name, s in zip(arm.joint_names, result.joint_status, strict=True)
+            name: Status(int(s)).name.lower() for name, s in zip(arm.joint_names, result.joint_status, strict=True)
         },
         "gradient": dict(zip(arm.joint_names, measure.gradient(q).tolist(), strict=True)),
     }
@@ -100,8 +99,6 @@ def _evaluate(measure: Susceptibility, q: Array) -> dict[str, Any]:
 def _print(measure: Susceptibility, configurations: Array, results: list[dict[str, Any]]) -> None:
     from rich.markup import escape
     from rich.table import Table
-
-    from holdfast.indices.susceptibility.measure import JointStatus
 
     out = console()
     unit = "" if measure.unit == "1" else f" {measure.unit}"
@@ -120,6 +117,6 @@ def _print(measure: Susceptibility, configurations: Array, results: list[dict[st
         out.print(table)
         for flag in dict.fromkeys(r["joint_status"].values()):
             if flag != "ok":
-                out.print(f"[yellow]{flag.replace('_', ' ')}: {JointStatus[flag.upper()].advice}[/]", soft_wrap=True)
+                out.print(f"[yellow]{flag.replace('_', ' ')}: {Status[flag.upper()].sentence}[/]", soft_wrap=True)
         gradient = ", ".join(f"{name} {number(value)}" for name, value in r["gradient"].items())
         out.print(f"gradient of the value, per rad or m: {escape(gradient)}", soft_wrap=True)

@@ -6,20 +6,20 @@ import holdfast as hf
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import FolderOption, MapConfigurationsOption, MapStartsOption, MapTimeOption, OverOption
+from holdfast.cli.unnoticed import measures
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: FolderOption = None,
-    starts: MapStartsOption = "1000",
-    configurations: MapConfigurationsOption = 20,
-    over: OverOption = "starts",
+    out: measures.FolderOption = None,
+    starts: measures.MapStartsOption = "1000",
+    configurations: measures.MapConfigurationsOption = 20,
+    over: measures.OverOption = "starts",
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    time_limit: MapTimeOption = None,
+    time_limit: measures.MapTimeOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,

@@ -8,30 +8,22 @@ import holdfast as hf
 from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
 from holdfast.cli.progress import progress_bar
-from holdfast.cli.unnoticed.measures import (
-    ConfigurationsOption,
-    FolderOption,
-    MeasureTimeOption,
-    MethodOption,
-    PointsOption,
-    RelativeOption,
-    StartsOption,
-)
+from holdfast.cli.unnoticed import measures
 from holdfast.present.results import printed, said
 
 
 def command(
     arm: ArmArgument,
     target: TargetsOption,
-    out: FolderOption = None,
-    starts: StartsOption = None,
-    configurations: ConfigurationsOption = None,
-    points: PointsOption = None,
-    method: MethodOption = None,
-    relative_to: RelativeOption = "inside",
+    out: measures.FolderOption = None,
+    starts: measures.StartsOption = None,
+    configurations: measures.ConfigurationsOption = None,
+    points: measures.PointsOption = None,
+    method: measures.MethodOption = None,
+    relative_to: measures.RelativeOption = "inside",
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    time_limit: MeasureTimeOption = None,
+    time_limit: measures.MeasureTimeOption = None,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,

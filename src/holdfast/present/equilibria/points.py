@@ -33,7 +33,7 @@ def to_dict(points: StationaryPoints) -> dict[str, Any]:
                 "kind": points.kinds[k],
                 "q": dict(zip(arm.joint_names, points.q[k], strict=True)),
                 "error": points.error[k],
-                "eigenvalues": [{"real": x.real, "imaginary": x.imag} for x in points.eigenvalues[k]],
+                "eigenvalues": points.eigenvalues[k],
                 "continuum": points.continuum[k],
                 "attracting": points.attracting[k],
                 "within_limits": points.within_limits[k],
