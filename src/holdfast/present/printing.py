@@ -75,9 +75,9 @@ def print_written(out: Console, files: Iterable[Path | None]) -> None:
             out.print(f"written: {escape(str(file))}", soft_wrap=True)
 
 
-def console() -> Console:
+def console(stderr: bool = False) -> Console:
     """Where tables for people go; wide when no terminal says how wide it is, so that names are not cut."""
     from rich.console import Console
 
-    wide = Console(highlight=False)
-    return wide if wide.is_terminal else Console(highlight=False, width=140)
+    wide = Console(stderr=stderr, highlight=False)
+    return wide if wide.is_terminal else Console(stderr=stderr, highlight=False, width=140)
