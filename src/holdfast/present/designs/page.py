@@ -16,9 +16,8 @@ from holdfast.arms.dh_file import text as table_text
 from holdfast.assessment.rows import provenance
 from holdfast.designs.designs import Checked, Designs, chosen, interval_text
 from holdfast.designs.space import DesignSpace
-from holdfast.errors import StoreError
 from holdfast.failures import failure_sets
-from holdfast.files.output import replaced
+from holdfast.files.output import put
 from holdfast.notice import says
 from holdfast.present.commands import failures_option, region_file, region_files, task_option
 from holdfast.present.designs.console import at_bound
@@ -62,23 +61,8 @@ def save(d: Designs, folder: Path) -> list[Path]:
         texts["region.yaml"] = region_file(d.region) + "\n"
         if d.region.listed is not None:
             texts["poses.csv"] = d.region.listed.table()
-    files = written(folder, texts)
+    files = put(folder, texts)
     return [d.report(folder / "report.html"), *files]
-
-
-def written(folder: Path, texts: dict[str, str]) -> list[Path]:
-    """The files, written one by one.
-
-    Raises:
-        StoreError: The folder cannot be made, or a file not written.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            replaced(folder / name, text)
-    except OSError as error:
-        raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
-    return [folder / name for name in texts]
 
 
 def _table(d: Designs) -> str:

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import arms
-from holdfast.errors import StoreError
-from holdfast.files.output import replaced
+from holdfast.files.output import put
 from holdfast.files.spreadsheet import csv_text
 from holdfast.teleop.bank.selection import Binning, TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
@@ -41,14 +40,9 @@ def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
     """
     from holdfast.report.figures import save_png
 
-    file = folder / "bank.csv"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        replaced(file, csv_text(bank_table(choice.bank, choice.arm, choice.cells)))
-    except OSError as error:
-        raise StoreError(f"--out: folder '{folder}' cannot be written: {error.strerror or error}; choose another") from error
+    written = put(folder, {"bank.csv": csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
     protocol = _protocol(choice, spec).write(folder / "protocol.yaml")
-    return [file, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+    return [*written, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
 
 
 def _protocol(choice: TaskChoice, spec: str) -> Protocol:
