@@ -359,7 +359,10 @@ def test_rows_that_are_not_kept(pa10, tmp_path):
 
 
 def test_save_and_load(paper, tmp_path):
-    folder = paper.save(tmp_path / "a" / "run")
+    folder = tmp_path / "a" / "run"
+    files = [folder / "run.json", folder / "report.html"]
+    assert paper.save(folder) == files
+    assert all(file.exists() for file in files)
     back = load(folder)
     identical(columns(back), columns(paper))
     assert back.arm.fingerprint == paper.arm.fingerprint
@@ -369,8 +372,8 @@ def test_save_and_load(paper, tmp_path):
     np.testing.assert_array_equal(back.worst_counts, paper.worst_counts)
     assert (back.poses, back.seed, back.sampling, back.restarts, back.complete) == (3000, 4, "random", 100, True)
     assert back.seconds == paper.seconds
-    assert back.save(folder) == folder
-    assert paper.save(folder) == folder
+    assert back.save(folder) == files
+    assert paper.save(folder) == files
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "mine.txt").write_text("keep")
     with pytest.raises(StoreError, match="is not a holdfast run"):
@@ -382,7 +385,8 @@ def test_save_and_load_of_mixed_arms_with_tasks_of_their_own(mixed8, tmp_path):
     region = Region.joints(np.full(8, -1.0), np.full(8, 1.0))
     index = by_name("manipulability", mixed8, ["vx", "wz"], [["j1", "j2"], ["j5"]], 0.3)
     run = assess(mixed8, region, index, poses=64)
-    back = load(run.save(tmp_path / "run"))
+    run.save(tmp_path / "run")
+    back = load(tmp_path / "run")
     assert back.index.failures == ((1, 2), (5,))
     assert back.index.task.length == 0.3
     q = columns(run)["q"]

@@ -14,7 +14,7 @@ import holdfast as hf
 import oracles
 from holdfast import arms, load
 
-COMMANDS = ["arms", "describe", "index", "susceptibility", "configure", "assess", "report"]
+COMMANDS = ["arms", "describe", "index", "susceptibility", "optimise", "assess", "report"]
 HOME9 = "0 30 0 90 0 18 0 36 0"
 RHO9 = (0.61245, 0.12725, 0.67622, 0.47972, 0.66629, 0.76427, 0.79161, 0.41179, 0.31151)
 

@@ -26,7 +26,6 @@ APART = {
     "ConvergenceMap",
     "FreeSwing",
     "LawChoice",
-    "Optimum",
     "TolerantWorkspace",
     "Workspace",
     "equilibria.Basins",
@@ -39,9 +38,9 @@ APART = {
     "teleop.Replay",
     "teleop.TaskBank",
 }
-NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures", "Trajectory", "control.TradeOff"}
+NO_NUMBERS = {"LawComparison", "Recovery", "TargetMeasures", "Trajectory", "control.TradeOff"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
-NO_SENTENCES = {"Assessment", "Comparison", "Designs"}
+NO_SENTENCES = {"Designs"}
 
 
 def named(classes):
@@ -51,7 +50,7 @@ def named(classes):
 
 RESULTS = named(
     {
-        "": "Assessment Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison Optimum "
+        "": "Assessment Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison Optima "
         "PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "TradeOff",
         "equilibria": "Basins Curves Orbit RestPoints",

@@ -18,7 +18,7 @@ COMMANDS = {  # the module of each, in the order of the help
     "describe": "start.arms",
     "index": "before.index",
     "susceptibility": "before.susceptibility",
-    "configure": "before.optimise",
+    "optimise": "before.optimise",
     "assess": "start.assess",
     "report": "start.assess",
     "design": "before.design",

@@ -10,11 +10,12 @@ from typing import Any
 # nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
     "Analysis": ("", "teleop.page"),
-    "Assessment": ("", "assessment.page"),
-    "Comparison": ("", "assessment.comparison"),
+    "Assessment": ("assessment.console", "assessment.page"),
+    "Comparison": ("assessment.comparison_console", "assessment.comparison"),
     "ConvergenceDesigns": ("", "designs.convergence"),
     "Designs": ("", "designs.page"),
     "LawComparison": ("", "convergence.law_comparison"),
+    "Optima": ("solvers.console", "solvers.console"),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("", "recovery.figures"),
     "Runs": ("simulation.console", "simulation.run"),

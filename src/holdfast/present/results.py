@@ -18,13 +18,16 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def printed(result: Result, as_json: bool, files: Sequence[Path | None] = ()) -> None:
-    """What a command prints: JSON for machines, or what people read and which files were written."""
+def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), **options: Any) -> None:
+    """What a command prints: JSON for machines, or what people read and which files were written.
+
+    The options are what was asked about the result: its ``to_dict`` and ``show`` take them.
+    """
     if as_json:
-        print_json(result.to_dict())
+        print_json(result.to_dict(**options))
         return
     out = console()
-    result._presented("show", out)
+    result._presented("show", out, **options)
     print_written(out, files)
 
 

@@ -1,0 +1,1 @@
+"""Where arms come from, as people read it."""
