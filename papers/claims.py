@@ -73,7 +73,7 @@ holdfast makes the figures, tables and numbers of four papers again. This page l
 false, beside what we computed. The command under each heading, run in a checkout of holdfast, computes everything in its
 table again and writes it, with the figures, into `papers/NAME/RESULTS.md`.
 
-These papers are the ground that holdfast stands on, and most of what they say holds. Where a statement does not hold *as it
+These papers are the ground of holdfast, and most of what they say holds. Where a statement does not hold *as it
 is written*, the row says how it can be read so that it does. Scans and lost displays make some places hard to read;
 where a number depends on our reading, the row says so.
 

@@ -1,4 +1,4 @@
-"""Which tests ``make check`` leaves out: those in ``slow.txt``, written by ``pytest --write-slow`` from processor time.
+"""Which tests ``make check`` leaves out: those in ``slow.txt``, written by ``pytest --write-slow`` from the time they take.
 
 Tests are listed by file and function. What was not run keeps its line; what is new counts as quick.
 """
@@ -6,13 +6,15 @@ Tests are listed by file and function. What was not run keeps its line; what is 
 from __future__ import annotations
 
 import os
+import time
 from pathlib import Path
 
 import pytest
 
 LIST = Path(__file__).with_name("slow.txt")
 LIMIT = 0.5  # s of processor time, set-up and processes that it starts included
-_TIMES = pytest.StashKey[dict[str, float]]()
+WAIT = 3.0  # s by the clock, for what waits for a server or a browser
+_TIMES = pytest.StashKey[dict[str, float]]()  # as parts of the limit
 
 
 def name_of(nodeid: str) -> str:
@@ -31,8 +33,8 @@ def _is_there(name: str) -> bool:
     return path.is_file() and f"def {function}(" in path.read_text(encoding="utf-8")
 
 
-def _now() -> float:
-    return sum(os.times()[:4])
+def _now() -> tuple[float, float]:
+    return sum(os.times()[:4]), time.monotonic()
 
 
 def pytest_addoption(parser):
@@ -40,7 +42,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    config.addinivalue_line("markers", f"slow: more than {LIMIT:g} s of processor time when last measured; see slow.py")
+    config.addinivalue_line("markers", f"slow: took more than {LIMIT:g} s of processor time when last measured; see slow.py")
     config.stash[_TIMES] = {}
 
 
@@ -57,8 +59,9 @@ def pytest_runtest_protocol(item):
     try:
         return (yield)
     finally:
-        item.config.stash[_TIMES].setdefault(name_of(item.nodeid), 0.0)
-        item.config.stash[_TIMES][name_of(item.nodeid)] += _now() - begin
+        processor, clock = (end - start for start, end in zip(begin, _now(), strict=True))
+        times = item.config.stash[_TIMES]
+        times[name_of(item.nodeid)] = times.get(name_of(item.nodeid), 0.0) + max(processor / LIMIT, clock / WAIT)
 
 
 def pytest_sessionfinish(session):
@@ -67,7 +70,7 @@ def pytest_sessionfinish(session):
         session.config.workeroutput["times"] = times
     elif session.config.getoption("--write-slow"):
         slow = {name for name in listed() if name not in times and _is_there(name)}
-        slow |= {name for name, spent in times.items() if spent > LIMIT}
+        slow |= {name for name, spent in times.items() if spent > 1}
         LIST.write_text("".join(f"{name}\n" for name in sorted(slow)), encoding="utf-8")
 
 

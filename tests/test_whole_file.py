@@ -34,12 +34,12 @@ def test_all_or_nothing(tmp_path):
     path = tmp_path / "a.txt"
     path.write_text("before")
     for write in (lambda: replaced(path, "x" * 1000), lambda: replaced(path, b"x" * 1000), lambda: _lines(path, 1000)):
-        with full_disk(), pytest.raises(OSError, match="too large"):
+        with full_disk(), pytest.raises(hf.StoreError, match="too large"):
             write()
         assert path.read_text() == "before"
         assert list(tmp_path.iterdir()) == [path]
         path.unlink()
-        with full_disk(), pytest.raises(OSError, match="too large"):
+        with full_disk(), pytest.raises(hf.StoreError, match="too large"):
             write()
         assert list(tmp_path.iterdir()) == []
         write()

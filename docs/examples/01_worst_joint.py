@@ -20,7 +20,7 @@ worst = int(result.worst)
 print(f"worst case {result.value:.4f}, when {index.failure_names[worst]} locks")
 
 # %%
-# The squares of the nine values add up to n - m = 3, the joints that the arm has to spare. So no configuration of this
+# The squares of the nine values add up to n - m = 3, its degree of redundancy. So no configuration of this
 # arm can keep more than the dashed line for *every* joint.
 
 print(f"sum of squares: {np.sum(result.by_failure**2):.12f}")

@@ -2,7 +2,7 @@
 Your own index
 ==============
 
-An index is one function of the reduced Jacobian. This one asks a plain question: how fast can the hand still be lifted,
+An index is one function of the reduced Jacobian. This one asks a plain question: how fast can the end effector still be lifted,
 straight up, per unit of joint speed? With the task Jacobian J and the unit vector u (up), that is
 
 .. math:: v = \\frac{1}{\\sqrt{u^\\top (J J^\\top)^{-1} u}}

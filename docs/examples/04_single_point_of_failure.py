@@ -2,7 +2,7 @@
 An arm with a single point of failure, and one without
 ======================================================
 
-The seven-joint PA10 and the Panda have the same number of joints. Lock the elbow of the PA10 and its hand cannot do all
+The seven-joint PA10 and the Panda have the same number of joints. Lock the elbow of the PA10 and its end effector cannot do all
 six motions any more, in *no* configuration: the self-motion of this arm never moves the elbow. The Panda
 is built differently (its last axis is offset from the wrist, for one) and has no such joint.
 """

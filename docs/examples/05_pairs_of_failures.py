@@ -3,7 +3,7 @@ Pairs of failures
 =================
 
 After the first failure the arm may have to go on working for a while. What does a *second* one do? The nine-joint PA10 has
-three joints to spare for a pose, so any two may lock and the count of joints still suffices. The geometry often does not.
+three degrees of redundancy for a pose, so any two may lock and the count of joints still suffices. The geometry often does not.
 """
 
 import matplotlib.pyplot as plt

@@ -18,7 +18,7 @@ STEP = {"m": 0.005, "rad": np.deg2rad(5.0)}  # to which a workshop would round
 
 
 def vary() -> dict[str, tuple[float, float]]:
-    """What is open of the tool: rows 7 to 9, without the last row's theta, which turns the hand about its own axis."""
+    """What is open of the tool: rows 7 to 9, without the last row's theta, which turns the end effector about its own axis."""
     deg = np.pi / 180
     return {
         "a7": (-0.2, 0.2),

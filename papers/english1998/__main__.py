@@ -181,9 +181,9 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
             Verdict.HOLDS,
         ),
         Claim(
-            "Fig. 8 rate norm capped at 1 rad/s: hand",
+            "Fig. 8 rate norm capped at 1 rad/s: end effector",
             "end-effector trajectory not changed",
-            f"rate norm at most {capped.rate_norm.max():.4f} rad/s; hand within {capped.position_error.max():.1e} m of its "
+            f"rate norm at most {capped.rate_norm.max():.4f} rad/s; tool within {capped.position_error.max():.1e} m of its "
             f"path, without the cap {motion.position_error.max():.1e} m",
             "agrees: only the self-motion is slowed",
             Verdict.HOLDS,
@@ -201,7 +201,7 @@ def swing_line(p: Planar, motion: hf.Trajectory, capped: hf.Trajectory, best: Gl
         Claim(
             "beyond the paper: extended Jacobian on the same line",
             "not given",
-            f"largest joint-rate norm {exact.rate_norm.max():.0f} rad/s, criterion up to {exact.value.max():.1%}, hand off its "
+            f"largest joint-rate norm {exact.rate_norm.max():.0f} rad/s, criterion up to {exact.value.max():.1%}, tool off its "
             f"path by up to {exact.position_error.max():.1e} m",
             "it stays at the extremum, which behind the border is a maximum, and is lost at the next singularity: not a method "
             "for a cost that can be zero",
@@ -227,7 +227,7 @@ def rule(borders: list[Border], lines: int, barred: int) -> Claim:
         f"self-motion is below {flattest:.0e} of that outside; the arm is singular at none (smallest singular value of J "
         f"{nearest:.2f} and above)",
         "no exception found among these borders, each an algorithmic singularity (by bisection in closed form, no controller "
-        "in between); that is no proof of 'always'",
+        "in between); this does not prove 'always'",
         Verdict.PARTLY,
     )
 
@@ -242,8 +242,8 @@ def arm_on_its_side(h: Hardware) -> list[Claim]:
     return [
         Claim(
             "VI-C arm and path",
-            "Robotics Research K-1207i; its parameters and the two hand poses are not in the text",
-            f"Franka Panda with published inertials, axis 1 horizontal, hand from {hardware.START} by {hardware.TRAVEL} m, "
+            "Robotics Research K-1207i; its parameters and the two tool poses are not in the text",
+            f"Franka Panda with published inertials, axis 1 horizontal, tool from {hardware.START} by {hardware.TRAVEL} m, "
             "orientation kept; 20 % of the time speeding up, 20 % slowing down",
             "another arm: magnitudes cannot be compared, only what the paper concludes from them",
         ),

@@ -24,7 +24,7 @@ DOTTED = (0, (1.2, 1.6))
 
 
 def draw_arm(axes: Axes, places: Array, color: str = INK, width: float = 2.0, size: float = 4.5) -> None:
-    """A chain of links: places (K, 2) of the joints, the last one the hand."""
+    """A chain of links: places (K, 2) of the joints, the last one the end effector."""
     axes.plot(*places.T, "-", color=color, linewidth=width, solid_capstyle="round", zorder=3)
     axes.plot(*places[:-1].T, "o", color=color, markersize=size, markerfacecolor="white", zorder=4)
     axes.plot(*places[-1], "s", color=color, markersize=size, zorder=4)
@@ -206,7 +206,7 @@ def _arms_along(axes: Axes, planar: Planar, motion: hf.Trajectory, count: int = 
 
 
 def _criterion(axes: Axes, x: Array, label: str) -> None:
-    axes.set(xlabel="x of the hand, m", ylabel=label, xlim=(float(x.min()), float(x.max())))
+    axes.set(xlabel="x of the end effector, m", ylabel=label, xlim=(float(x.min()), float(x.max())))
     axes.set_ylim(bottom=0)
 
 

@@ -72,6 +72,6 @@ class Hardware:
         return [replace(arm, joints=arm.joints[:k], links=arm.links[:k], tool=np.eye(4)) for k in range(1, arm.n + 1)]
 
     def joints(self, q: Array) -> Array:
-        """(n + 2, 3) places of the base, the joints and the hand, m."""
+        """(n + 2, 3) places of the base, the joints and the end effector, m."""
         places = [part.forward_kinematics(q[: part.n])[:3, 3] for part in self._parts]
         return np.array([self.arm.base[:3, 3], *places, self.arm.forward_kinematics(q)[:3, 3]])

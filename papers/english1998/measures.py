@@ -1,4 +1,4 @@
-"""Which measure to minimise: what configurations chosen by each do in the other measures, and when a joint lets go."""
+"""Which measure to minimise: what configurations chosen by each do in the other measures, and when a joint swings free."""
 
 from __future__ import annotations
 

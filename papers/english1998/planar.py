@@ -72,14 +72,14 @@ class Planar:
         return hf.follow(self.arm, path, minimise=measure, **settings)  # type: ignore[arg-type]
 
     def joints(self, q: Array) -> Array:
-        """(..., 4, 2) places of the base, the joints and the hand, m."""
+        """(..., 4, 2) places of the base, the joints and the end effector, m."""
         direction = np.cumsum(q, axis=-1)
         steps = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
         return np.concatenate([np.zeros_like(steps[..., :1, :]), np.cumsum(steps, axis=-2)], axis=-2)
 
 
 def pose(x: float, y: float) -> Array:
-    """A pose of the hand at a point."""
+    """A pose of the end effector at a point."""
     out = np.eye(4)
     out[:2, 3] = x, y
     return out

@@ -297,9 +297,9 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
         Claim(
             "task 24, drawn into a stationary configuration",
             "the computer does not complete scenario 3; operators can",
-            f"computer: stands still in scenario 3 and completes scenario 4; {who}: {s.end(24, 3)} complete scenario "
+            f"computer: is still in scenario 3 and completes scenario 4; {who}: {s.end(24, 3)} complete scenario "
             f"3, {s.end(24, 4)} "
-            "scenario 4, by turning aside where the hand does not follow",
+            "scenario 4, by turning aside where the end effector does not follow",
             "our task 24 is constructed so (joint 1 locked at the folded angle of the target), our operators are simulated, "
             "and the paper's task is not printed",
             Verdict.PARTLY,
@@ -309,7 +309,8 @@ def _operator_claims(s: Study, who: str) -> list[Claim]:
             "a compromise of the healthy arm's performance",
             f"{who}, healthy arm: {time['second_mean'] / time['first_mean'] - 1:.0%} more cycles ({time['first_mean']:.1f} to "
             f"{time['second_mean']:.1f}), rating {rated['first_mean']:.2f} to {rated['second_mean']:.2f} of 0 to 3",
-            "the damping makes the hand slower than commanded by up to half (e_pre = 0.5). True of simulated operators; they "
+            "the damping makes the end effector slower than commanded by up to half (e_pre = 0.5). True of simulated "
+            "operators; they "
             "say nothing about people",
             Verdict.PARTLY,
         ),

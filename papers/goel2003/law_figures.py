@@ -40,7 +40,7 @@ def trade_off(curves: Sequence[hf.control.TradeOff], path: Path) -> None:
     with style():
         figure = Figure(figsize=(WIDTH, 7.6))
         for row, curve in zip(figure.subplots(len(curves), 2), curves, strict=True):
-            curve.draw(*row)
+            curve.figures(row)
             row[0].set_title(f"{curve.arm.name}, {curve.task.name}: what the failed arm gains")
             for axes in row:
                 axes.axvline(0.5, color=SOFT, linestyle=(0, (1.2, 1.6)), label="the paper's choice")

@@ -41,7 +41,7 @@ class Study:
         training: (P,) training tasks of each operator.
         differs: Trials that replay differently.
         recorded: Trials recorded.
-        paths: Where the hand was, of the tasks that are drawn.
+        paths: Where the end effector was, of the tasks that are drawn.
     """
 
     protocol: Protocol

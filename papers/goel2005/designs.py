@@ -57,7 +57,7 @@ class Validation:
         lengths: (3,) m.
         free, held: Runs with the target in reach that were predicted to be held by nothing, and those that something can
             hold: arrived, stuck, moving, lost at a singularity, slow; an arrived run is within 1 mm.
-        locks: Failures of the second kind, and of them those in which a start or more did not arrive.
+        locks: Failures of the second kind, and of them those in which a start or more did not reach it.
     """
 
     lengths: Array
@@ -220,7 +220,7 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "gone and a "
         "singular configuration, all links in a line with the forearm folded, draws the arm in instead, in a finite "
         "time. Where the "
-        "difference is just the first link, the hand comes to the first joint, and is caught there too.",
+        "difference is just the first link, the end effector comes to the first joint, and is caught there too.",
         "- Only with equal links 2 and 3 all of that shrinks to single locked angles of no width: with the "
         "pseudoinverse equal "
         "links are what guarantees convergence. The paper's arm has them. It is not guaranteed at 0.29 to 0.35 of "

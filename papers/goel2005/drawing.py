@@ -17,7 +17,7 @@ DASHED, DOTTED = (0, (4.5, 2)), (0, (1.2, 1.6))
 
 
 def joints(q: Array) -> Array:
-    """(..., n + 1, 2) places of the joints and the hand of an arm with unit links."""
+    """(..., n + 1, 2) places of the joints and the end effector of an arm with unit links."""
     direction = np.cumsum(q, axis=-1)
     steps = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
     return np.concatenate([np.zeros_like(steps[..., :1, :]), np.cumsum(steps, axis=-2)], axis=-2)
@@ -33,7 +33,7 @@ def arm(axes: Axes, q: Array, locked: int | None = None, color: str = INK, width
 
 
 def target(axes: Axes, place: Array, text: str = "") -> None:
-    """A cross where the hand should go."""
+    """A cross where the end effector should go."""
     axes.plot(*place, "x", color=ORANGE, markersize=8, markeredgewidth=2, zorder=6)
     if text:
         axes.annotate(text, point(place), (7, 5), textcoords="offset points", color=ORANGE)

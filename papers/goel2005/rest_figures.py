@@ -49,7 +49,8 @@ def figure_9(found: Sequence[Curves], path: Path) -> None:
         figure.legend(handles=handles, loc="outside upper center", ncols=4)
         drawing.caption(
             figure,
-            "Fig. 9, for all three joints, target (1.5, 1.5) m. Above: every curve of erroneous rest points over the locked "
+            "Fig. 9, for all three joints, target (1.5, 1.5) m. Above: every curve of erroneous stationary points "
+            "over the locked "
             "angle, by kind; S1, S2: seeds for joint 1. Below: determinant of the linearised motion of the two healthy joints "
             "(logarithmic outside the dashed lines); curves of degenerate points, on which it is 0, are left out.",
         )

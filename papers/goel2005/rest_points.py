@@ -1,4 +1,4 @@
-"""Sections 4.4 to 4.6: where the failed three-link arm can come to rest, which of these points attract, and Figs. 8 and 9."""
+"""Sections 4.4 to 4.6: where the failed three-link arm can stop, which of these points attract, and Figs. 8 and 9."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ TABLE: dict[tuple[int, float], tuple[Row, ...]] = {
         ((-108.2331, 115, 130), "saddle", (1.31303, -5.08737)),
     ),
 }
-# Locked angles (deg) at which the specification has a sink, those of whole lines of rest points, and those at which a curve
-# turns back, for joints 1, 2, 3.
+# Locked angles (deg) at which the specification has a sink, those of whole lines of stationary points, and those at
+# which a curve turns back, for joints 1, 2, 3.
 SINKS = (((114.295, 335.705),), ((111.80, 248.20),), ((111.80, 248.20),))
 LINES = ((-16.8745, 106.8745), (180.0,), (180.0,))
 FOLDS = ((-9.141, 99.141), (-96.92, 96.92), (-71.84, 71.84))
@@ -116,7 +116,7 @@ def range_table(found: Sequence[Curves]) -> list[str]:
         for number, curve in enumerate(c.curves, 1):
             if curve.degenerate:
                 at = float(wrapped(np.degrees(np.median(curve.locked)) - 1e-6) + 1e-6)
-                lines.append(f"| {c.joint + 1} | {number} | degenerate | {at:.4f} only | whole line of rest points |")
+                lines.append(f"| {c.joint + 1} | {number} | degenerate | {at:.4f} only | whole line of stationary points |")
                 continue
             for s in curve.segments:
                 first, last = np.degrees(curve.locked[[s.first, s.last]])
@@ -140,9 +140,9 @@ def family(joint: int, q: Array) -> str:
 
 
 def sinks(found: Sequence[Curves]) -> list[str]:
-    """Locked angles with a sink, folds, and whole lines of rest points, beside the specification."""
+    """Locked angles with a sink, folds, and whole lines of stationary points, beside the specification."""
     lines = [
-        "| joint | sinks at locked angles (deg) | folds at (deg) | whole lines of rest points at (deg) |",
+        "| joint | sinks at locked angles (deg) | folds at (deg) | whole lines of stationary points at (deg) |",
         "|---|---|---|---|",
     ]
     for c, expected, folds, points in zip(found, SINKS, FOLDS, LINES, strict=True):
@@ -280,7 +280,7 @@ def _arc(c: Curves) -> str:
 
 
 def result(folder: Path) -> Part:
-    """Tables of rest points and sinks, and Figs. 8 and 9."""
+    """Tables of stationary points and sinks, and Figs. 8 and 9."""
     from papers.goel2005.rest_figures import figure_9
 
     table, angle, eigenvalue, more = point_table()
@@ -288,7 +288,7 @@ def result(folder: Path) -> Part:
     figure_9(found, folder / "figure-9.png")
     basins, split = figure_8(folder / "figure-8.png")
     sections = [
-        "## Where the arm can come to rest, beside the specification",
+        "## Where the arm can stop, beside the specification",
         "",
         "x_d = (1.5, 1.5), pseudoinverse; every regular rest point at seven locked angles. Ours, and how far they are from the "
         f"specification's (at most {angle:.0e} deg and {eigenvalue:.0e} Ke; it prints four and five digits); {more} points "
@@ -299,7 +299,7 @@ def result(folder: Path) -> Part:
         "",
         "### Over the locked angle",
         "",
-        "Sinks, folds and lines of rest points of the three joints, ours minus the specification's in parentheses:",
+        "Sinks, folds and lines of stationary points of the three joints, ours minus the specification's in parentheses:",
         "",
         *sinks(found),
         "",

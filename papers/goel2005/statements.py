@@ -51,7 +51,7 @@ def theorem() -> list[Claim]:
             "healthy "
             f"joints are commanded in {np.mean(others):.0%} of {TRIALS} random cases",
             "the proof also uses that the failed rates are orthogonal, by W, to the null space. With that condition named, the "
-            "statement is true. For n = m there is no null space, and it is true as it stands",
+            "statement is true. For n = m there is no null space, and it is true as written",
             Verdict.FALSE,
         ),
         Claim(
@@ -117,7 +117,7 @@ GONE = 168.50  # deg
 
 @dataclass(frozen=True)
 class Window:
-    """Where a curve of rest points is a sink although the target is within reach.
+    """Where a curve of stationary points is a sink although the target is within reach.
 
     Attributes:
         fold, hopf: Ends of the window: joint 2, deg.
@@ -146,7 +146,7 @@ def window() -> Window:
 
 
 def at(degrees: float) -> RestPoints:
-    """All rest points of the near target with joint 2 at an angle."""
+    """All stationary points of the near target with joint 2 at an angle."""
     return hf.stationary(law(), NEAR, locked=JOINT, at=np.deg2rad(degrees))
 
 

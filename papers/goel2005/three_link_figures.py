@@ -27,7 +27,7 @@ def figure_5_6(found: Sequence[hf.Runs], title: str, path: Path) -> None:
         drawing.caption(
             figure,
             f"{title} (filled). Poses at the start (grey), on the way (light) and at the end (black) after {time:.1f}/Ke; "
-            "blue: the hand; cross: the target. One panel for each elbow.",
+            "blue: the end effector; cross: the target. One panel for each elbow.",
             100,
         )
         save_png(finished(figure), path, dpi=110)
@@ -46,7 +46,8 @@ def figure_7(turning: hf.Runs, resting: hf.Runs, path: Path) -> None:
             below.set(xlabel="time, 1/Ke", ylabel="joint 1, deg (not wrapped)", xlim=(0, 40))
         drawing.caption(
             figure,
-            "Fig. 7. Above: start (grey), poses on the way (light), the last one (black) after 12/Ke, path of the hand (blue), "
+            "Fig. 7. Above: start (grey), poses on the way (light), the last one (black) after 12/Ke, path of the end "
+            "effector (blue), "
             "target (cross), locked joint (filled). Below: joint 1 over time.",
             100,
         )

@@ -208,9 +208,10 @@ def claims(found: dict[str, hf.Runs]) -> list[Claim]:
             "erroneous convergence although the target is reachable: x_c and j1 line up, (j2 j3) is singular",
             f"theta1 = {FOLDED:.4f} deg: {folded.outcome} at {degrees(folded.q_final)} deg, error {folded.error:.5f} m; the "
             "other "
-            f"elbow arrives. Random starts at this angle: {int((exact.outcome == 'stuck').sum())} of {len(exact)} stuck, 1 deg "
+            f"elbow converges. Random starts at this angle: {int((exact.outcome == 'stuck').sum())} of {len(exact)} "
+            f"stuck, 1 deg "
             f"beside it {int((beyond.outcome == 'stuck').sum())}",
-            "it happens, but with a reachable target only where joint 1 stands at 45 deg +- arccos(1 / norm(x_d)) exactly; "
+            "it happens, but with a reachable target only where joint 1 is at 45 deg +- arccos(1 / norm(x_d)) exactly; "
             "the sign of "
             "x_i is hard to read in our text, and the angle is not stated",
             Verdict.PARTLY,
@@ -220,7 +221,7 @@ def claims(found: dict[str, hf.Runs]) -> list[Claim]:
             "no convergence: the target is outside the post-failure workspace and nothing is stationary",
             f"theta3 = 30 deg: {turning.outcome}, from both elbows; out of reach below abs(theta3) = {reach:.3f} deg, never at "
             f"rest below {still:.3f} deg (by bisection; closed forms {LIMITS_7[0]} and {LIMITS_7[1]})",
-            "agrees; between the two angles the arm comes to rest short of the target. The angle is not stated",
+            "agrees; between the two angles the arm stops short of the target. The angle is not stated",
             Verdict.HOLDS,
         ),
     ]
@@ -246,7 +247,8 @@ def result(folder: Path) -> Part:
     sections = [
         "## The three-link arm beside the specification",
         "",
-        "The paper gives no joint angles; these are the specification's. Starts are solved from the place of the hand and the "
+        "The paper gives no joint angles; these are the specification's. Starts are solved from the place of the end "
+        "effector and the "
         "locked angle; configurations are wrapped. Errors with ours minus the specification's in parentheses.",
         "",
         *case_table(found),

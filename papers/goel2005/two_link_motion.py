@@ -61,7 +61,7 @@ def target(rho: ArrayLike, phi: ArrayLike) -> Array:
 
 
 def hand(angle: ArrayLike) -> Array:
-    """(..., 2) where the hand is when joint 2 is at an angle, rad, and joint 1 at 0."""
+    """(..., 2) where the end effector is when joint 2 is at an angle, rad, and joint 1 at 0."""
     return np.stack([1 + np.cos(angle), np.sin(angle)], axis=-1)
 
 

@@ -30,7 +30,7 @@ NEARLY_60 = 60.001  # deg: the limit that the specification gives is that of phi
 
 
 def period(moving: Ended) -> float:
-    """Of the error of a run that never comes to rest, s."""
+    """Of the error of a run that never stops, s."""
     middle = moving.path.error - moving.path.error.mean()
     k = np.flatnonzero((middle[1:] > 0) & (middle[:-1] <= 0))
     time, step = moving.path.time, moving.path.time[1]
@@ -132,8 +132,8 @@ def sweep() -> list[Claim]:
         ),
         Claim(
             "4.2 case 2: other distances from joint 2",
-            "the hand almost always does not converge to the point closest to the target",
-            f"rho = 2 m: {int(rest.sum())} of {len(phi)} come to rest, {np.mean(excess[rest] > 1e-6):.0%} of them elsewhere "
+            "the end effector almost always does not converge to the point closest to the target",
+            f"rho = 2 m: {int(rest.sum())} of {len(phi)} stop, {np.mean(excess[rest] > 1e-6):.0%} of them elsewhere "
             "than "
             f"at the closest point; their error is largest, {far.error[worst]:.3f} m, at phi = {phi[worst]:g} deg",
             "agrees, and with it that the error is least at phi = 180 deg and largest close to 60",

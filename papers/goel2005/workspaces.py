@@ -145,7 +145,8 @@ def figure_10(w: hf.Workspace, path: Path) -> None:
     caption = (
         f"Fig. 10: {len(w.places)} starts, {int(w.configurations.sum())} configurations, an arbitrary joint locks. R: share "
         "of the "
-        f"way from which\nthe target stays in reach. F: share of that part from which the failed arm arrives{unknown}"
+        f"way from which\nthe target stays in reach. F: share of that part from which the failed arm reaches the "
+        f"target{unknown}"
     )
     columns = ("R100, F100", "Ravg, Favg", "Rsens, Fsens")
     save_png(place_maps(plane, rows, columns, "percent", caption), path, dpi=110)
@@ -160,7 +161,7 @@ def work(w: hf.Workspace, seconds: float) -> list[str]:
         f"Procedure, this run: {w.simulated} of {int(w.ends.sum())} failures simulated ({w.saved:.2%} saved), {seconds:.0f} s "
         "of "
         f"processor time. Of those simulated {slow / max(w.simulated, 1):.0%} were undecided at 2000/Ke, all but "
-        f"{int(w.ends[:, 3].sum())} of them next to a solution that attracts, counted as arriving: the procedure simulates "
+        f"{int(w.ends[:, 3].sum())} of them next to a solution that attracts, counted as converged: the procedure simulates "
         "only what locks where a sink is, and that is within 0.06 deg of the ends of the ranges, where the arm creeps.",
         "",
         f"Brute force, measured on {BRUTE.date}: all {every} failures simulated, {BRUTE.ends[0]} converged, {BRUTE.ends[1]} "
@@ -215,7 +216,7 @@ def starts_of_figures(w: hf.Workspace) -> list[Claim]:
             "low: incorrect convergence for a significant number of failure configurations",
             f"F100 = {both.finish.full[1, 0]:.0f}% ({both.configurations[1]} configurations, {ended[1]} failures of the three "
             f"joints within their ranges, {both.ends[1, 1]} stuck, {both.ends[1, 3]} undecided without a solution near by)",
-            "with a reachable target the arm is caught only where joint 1 stands at one of two exact angles, on the folded "
+            "with a reachable target the arm is caught only where joint 1 is at one of two exact angles, on the folded "
             "lines of "
             "Fig. 9. Beside them it creeps past, for 600/Ke at 0.1 deg and for 3500/Ke at 0.01 deg (specification): a short "
             "time "
@@ -246,11 +247,13 @@ def claims(w: hf.Workspace, grid: hf.Workspace, gaps: Array) -> list[Claim]:
         Claim(
             "5, measures",
             "percentage length of the nominal trajectory; a set of initial configurations on the self-motion manifold",
-            f"with the length of the hand's path, {STARTS} configurations on each manifold and {CELLS} cells, R100, Ravg and "
+            f"with the length of the end effector's path, {STARTS} configurations on each manifold and {CELLS} cells, "
+            f"R100, Ravg and "
             "Rsens "
             f"of twelve starts are within {gaps[0]:.2f}, {gaps[1]:.2f} and {gaps[2]:.2f} percentage points of the "
             "specification's",
-            "neither the length that is meant, of the hand or of the joints, nor the number of configurations, nor the limits "
+            "neither the length that is meant, of the end effector or of the joints, nor the number of "
+            "configurations, nor the limits "
             "of "
             "the simulation are given",
             Verdict.OPEN,
@@ -266,7 +269,7 @@ def claims(w: hf.Workspace, grid: hf.Workspace, gaps: Array) -> list[Claim]:
         ),
         Claim(
             "5.1 regions with nonzero reachability",
-            "high values of F100 and Favg: where the target stays in reach the arm mostly arrives",
+            "high values of F100 and Favg: where the target stays in reach the arm mostly reaches it",
             f"mean Favg {np.mean(shown[positive]):.2f}%, least {np.min(shown[positive]):.2f}%, least F100 "
             f"{np.nanmin(grid.finish.full[:, 3]):.1f}% over {int(positive.sum())} starts; by brute force {BRUTE.ends[1]} of "
             f"{sum(BRUTE.ends)} failures within the ranges get stuck and {BRUTE.ends[2]} keep moving",
@@ -288,7 +291,7 @@ def claims(w: hf.Workspace, grid: hf.Workspace, gaps: Array) -> list[Claim]:
             f"{grid.simulated} of {int(grid.ends.sum())} failures need a simulation, {grid.saved:.2%} do not; the measures "
             "differ "
             f"from brute force by at most {BRUTE.difference:.2g} percentage points",
-            "agrees, for this target; that no sink means arrival is a rule of thumb (see section 5, pseudocode)",
+            "agrees, for this target; that no sink means convergence is a rule of thumb (see section 5, pseudocode)",
             Verdict.HOLDS,
         ),
     ]

@@ -21,8 +21,9 @@ NEAR = 5e-3  # m: ends of the same run
 READING = """\
 ## What this says, and where it does not hold
 
-- **Where the hand ends is not a matter of dynamics.** The law is given the measured configuration, so an error that servos
-  make on the way is corrected as any other, and what stands still for the law stands still in MuJoCo. At the end of a run the
+- **Where the end effector ends is not a matter of dynamics.** The law is given the measured configuration, so an error
+that servos
+  make on the way is corrected as any other, and what is still for the law is still in MuJoCo. At the end of a run the
   hands are much closer together than they ever were on the way.
 - **The way is a matter of servos and speed.** The kinematic hand has its full speed at once, the real arm has to accelerate,
   and light and heavy joints do not do so alike. The distance was largest 24 ms after the start in the median of the position
@@ -30,10 +31,10 @@ READING = """\
   bandwidth, is about three times the distance. Starting with a ramp was not tried.
 - **It does not hold where motions are fast for the motors.** At a gain of 10/s motors reach their efforts, the
   references are held back, and the paths are centimetres apart. They still end at the same place, in these runs.
-- **Different ends are possible, and were not met.** Where a failed arm has several places to come to rest, a start close to
+- **Different ends are possible, and were not met.** Where a failed arm has several places to stop, a start close to
   the border between their basins may go either way with any disturbance; none of these few starts was so close.
-- **What slow runs do is left open.** Kinematically, half of the pose runs take more than 177 s to come to rest; in
-  MuJoCo they are stopped at the time limit, and only the distances and whether the hand is there can be compared.
+- **What slow runs do is left open.** Kinematically, half of the pose runs take more than 177 s to stop; in
+  MuJoCo they are stopped at the time limit, and only the distances and whether the end effector is there can be compared.
 - Not looked at: joint limits, contacts, sensor noise, dry friction, backlash, flexible joints, payloads that the controller
   does not know of, and controllers that stop when a joint does not follow, as many do.
 """
@@ -47,7 +48,8 @@ def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
     """Do both end in the same way?"""
     lines = [
         "| arm, task | runs | decided in both | of these, the same outcome "
-        "| undecided in MuJoCo at the time limit, kinematically | same answer to: is the hand there | hand moved, median |",
+        "| undecided in MuJoCo at the time limit, kinematically | same answer to: is the end effector there | hand "
+        "moved, median |",
         "|---|---|---|---|---|---|---|",
     ]
     for setting in sorted(MAIN, key=lambda s: (s.arm, s.task)):
@@ -74,7 +76,7 @@ def outcomes(found: dict[Setting, list[Row]]) -> list[str]:
 def distances(found: dict[Setting, list[Row]], settings: Sequence[Setting], name: str) -> list[str]:
     """How far apart: medians, 95 % quantiles and the largest."""
     lines = [
-        f"| {name} | hand paths apart, mm: median / 95 % / largest | ends apart, mm: median / 95 % / largest "
+        f"| {name} | tool paths apart, mm: median / 95 % / largest | ends apart, mm: median / 95 % / largest "
         f"| ends more than {1000 * NEAR:g} mm apart | servo error, rad: median | a motor at its effort | unstable |",
         "|---|---|---|---|---|---|---|",
     ]
@@ -118,7 +120,7 @@ def worst(found: dict[Setting, list[Row]]) -> list[str]:
 
 
 def figure(found: dict[Setting, list[Row]], settings: Sequence[Setting], title: str, file: str) -> None:
-    """Cumulative distributions of the distance of the hand paths."""
+    """Cumulative distributions of the distance of the tool paths."""
     curves, grid = [], np.geomspace(0.01, 100, 400)
     for setting in settings:
         x = np.sort([1000 * r.path for r in found[setting]])
@@ -126,7 +128,7 @@ def figure(found: dict[Setting, list[Row]], settings: Sequence[Setting], title: 
     made = compare_cdf_figure(
         [(f"Panda, position, each joint locked: {title}", curves)],
         [Mark(1.0, "1 mm")],
-        "largest distance between kinematic and MuJoCo hand path, mm",
+        "largest distance between kinematic and MuJoCo tool path, mm",
         f"share of {len(found[settings[0]])} runs",
         log=True,
     )
@@ -170,8 +172,8 @@ def main() -> None:
         "",
         *distances(found, FAST, "gain"),
         "",
-        "![Distances of the hand paths by servo bandwidth](by-bandwidth.png)",
-        "![Distances of the hand paths by gain](by-gain.png)",
+        "![Distances of the tool paths by servo bandwidth](by-bandwidth.png)",
+        "![Distances of the tool paths by gain](by-gain.png)",
         "",
         "## The worst",
         "",

@@ -14,7 +14,7 @@ MOTIONS = 4  # for each arm, task and locked joint
 SPREAD = 0.5  # rad: starts about home, and configurations of the targets about the starts
 RATE = 250.0  # Hz
 LIMIT = 50.0  # s
-ARRIVED = 1e-3  # m (and rad): close enough to the target to say that the hand is there
+ARRIVED = 1e-3  # m (and rad): close enough to the target to say that the end effector is there
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Row:
     kinematic: str
     physical: str
     reason: str
-    there: tuple[bool, bool]  # at the end of the physical run: is the hand at the target, kinematically and in MuJoCo
+    there: tuple[bool, bool]  # at the end of the physical run: is the end effector at the target, kinematically and in MuJoCo
     path: float
     end: float
     turn: float

@@ -1,4 +1,5 @@
-"""A joint of a real seven-joint arm locks and nobody notices: which control law still arrives, and what does it cost?
+"""A joint of a real seven-joint arm locks and nobody notices: which control law still reaches the target, and what
+does it cost?
 
 Not a paper's study but the one that Goel, Maciejewski, Balakrishnan, Proctor 2003 and Goel, Maciejewski, Balakrishnan 2005
 leave open: theirs are planar arms. ``python -m papers.seven_dof`` runs it and writes RESULTS.md; ``--position`` and ``--pose``

@@ -125,7 +125,8 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         "## Who arrives, every joint as likely to lock as any other",
         "",
-        "In percent of the runs. Within reach: the failed arm has some configuration with the hand at the target, as far as "
+        "In percent of the runs. Within reach: the failed arm has some configuration with the end effector at the "
+        "target, as far as "
         "was found and joint limits left aside. Astray: median, and 90 % quantile, of the end error of the runs that do not "
         "arrive (m, or m and rad).",
         "",
@@ -170,7 +171,8 @@ def results(parts: Sequence[Part]) -> list[str]:
         "",
         f"- Joint limits are not enforced, only reported: with a joint locked {percent(fewest)} to {percent(limits)} of the "
         "runs pass one (by arm, task and law). A real arm would stop there. The column *arrives within limits* counts the runs "
-        f"that arrive without passing any: that is what is left for sure. Of the healthy runs {_span(healthy)} pass a limit: "
+        f"that reach the target without passing any: that is what is left for sure. Of the healthy runs "
+        f"{_span(healthy)} pass a limit: "
         "these laws do not look at limits at all.",
         "- Nor do the arms collide with themselves, nor do drives saturate; rates are unlimited.",
         "- Starts and targets are spread over all joint values, also folded and nearly singular ones, which no task planner "
@@ -221,9 +223,8 @@ def _verdict(parts: Sequence[Part], name: str) -> str:
         clear = g["error_low"] > 0 or g["error_high"] < 0
         error = f"mean end error {g['error']:+.3f} {size(p)}" if clear else "end error alike"
         before, after = (p["any"][n]["astray"] for n in (p["names"][0], name))
-        astray = (
-            f"median error of those that do not arrive {before:.2f} with the pseudoinverse and {after:.2f} {size(p)} with it"
-        )
+        errors = f"{before:.2f} with the pseudoinverse and {after:.2f} {size(p)} with it"
+        astray = f"median error of those that do not reach the target {errors}"
         words.append(f"{p['arm']}: {arrive}, {error}, {astray}")
     return f"{'; '.join(words)}."
 

@@ -72,7 +72,7 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
         "",
         f"Written by `python -m papers.stuck_panda`, seed {SEED}. All numbers are measured here; no paper has them.",
         "",
-        f"The `{ARM}`, seven joints, should bring its hand to the pose it has in its home configuration, at "
+        f"The `{ARM}`, seven joints, should bring its end effector to the pose it has in its home configuration, at "
         f"({goal[0]:.3f}, {goal[1]:.3f}, {goal[2]:.3f}) m and pointing down; task *position* asks for the place alone. One "
         "joint "
         "is locked from the start and the controller goes on as if nothing had happened. Motions start from random places of "
@@ -81,7 +81,7 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
         f"{sizes}. "
         f"Runs are given {TIME_LIMIT:g}/Ke. Joint limits are not heeded: on average {' and '.join(map(percent, limits))} "
         "percent of "
-        "the runs pass one. *Trapped*: did not arrive although some configuration on the target was found with the joint "
+        "the runs pass one. *Trapped*: did not reach it although some configuration on the target was found with the joint "
         "where it "
         "stands. Intervals are of 95 %, over the places.",
         "",
@@ -109,7 +109,7 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
         "",
         "![Outcomes by law](figures/laws.png)",
         "",
-        "## Points of rest with joint 4 locked",
+        "## Stationary points with joint 4 locked",
         "",
         "Found by Newton's method from random starts, before any run; then "
         f"{sum(found[0].outcomes.values())} runs from random configurations with joint 4 at the same angle. *Continuum*: "
@@ -131,7 +131,7 @@ def results(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow], seconds
         "of "
         "reach. Runs themselves do not heed limits, and may arrive where the other would not.",
         "- Undecided runs were still creeping when time was up, or met a singular configuration. They count as not arrived.",
-        "- Points of rest are those that random starts found; with the failure-tolerant law they were not looked for.",
+        "- Stationary points are those that random starts found; with the failure-tolerant law they were not looked for.",
         f"- {seconds:.0f} s of processor time, all threads.",
         "",
     ]
@@ -166,12 +166,12 @@ def answers(choices: Mapping[str, hf.LawChoice], found: Sequence[Elbow]) -> list
         astray = (
             f"; their error is {np.median(errors):.3f} {size} in the median, where {np.median(errors - excess):.3f} could be "
             "had "
-            "with the joint where it stands"
+            "with the joint where it is"
             if stuck
             else ""
         )
         lines.append(
-            f"Task {task}: of {stuck} stuck runs with joint 4 locked {alone} ended at an isolated point of rest and {level} "
+            f"Task {task}: of {stuck} stuck runs with joint 4 locked {alone} ended at an isolated stationary point and {level} "
             "on a "
             f"continuum that had been found before, {other} elsewhere{astray}."
         )
@@ -233,7 +233,7 @@ def law_table(choices: Mapping[str, hf.LawChoice]) -> list[str]:
 
 
 def elbow_table(found: Sequence[Elbow]) -> list[str]:
-    """Points of rest and runs by angle."""
+    """Stationary points and runs by angle."""
     lines = [
         "| task | law | joint 4 at, deg | isolated erroneous points | continua, by error | runs: arrive, stuck, moving, "
         "undecided "

@@ -71,7 +71,7 @@ def draw_map(task: str, choice: hf.LawChoice, goal: Array, path: Path) -> None:
     caption = (
         f"{arm().name}, task {task}, joint 4 locked from the start: {int(maps[0].known.sum())} motions from {len(points)} "
         "places "
-        "of the hand\nseen from the side, mean over the places in a cell, whatever their depth"
+        "of the end effector\nseen from the side, mean over the places in a cell, whatever their depth"
     )
     save_png(place_maps(plane, rows, SHOWN, "of the motions, percent", caption), path, dpi=80)
 
@@ -101,7 +101,7 @@ def draw_elbow(found: Sequence[Elbow], path: Path) -> None:
                         )
                 axes.plot(np.full(len(e.errors), e.angle + 5), e.errors, "_", color=INK, markersize=9, alpha=0.5)
             size = "m" if task == "position" else "m and rad"
-            axes.set(title=f"task {task}, {law}", ylabel=f"error of the hand, {size}", xlim=(-180, 0))
+            axes.set(title=f"task {task}, {law}", ylabel=f"error of the end effector, {size}", xlim=(-180, 0))
             axes.set_xticks(range(-180, 1, 30))
         for axes in every[-2:]:
             axes.set_xlabel("joint 4 locked at, deg")

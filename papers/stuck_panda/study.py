@@ -1,4 +1,4 @@
-"""What is computed: maps of outcomes under several laws, and points of rest with the elbow locked."""
+"""What is computed: maps of outcomes under several laws, and stationary points with the elbow locked."""
 
 from __future__ import annotations
 
@@ -87,12 +87,12 @@ def open_share(choice: hf.LawChoice, name: str) -> float:
     return float(((m.code == Outcome.UNDECIDED) & m.in_reach)[m.known][:, :-1].mean())
 
 
-# ---- points of rest with the elbow locked ----------------------------------------------------------------------------------
+# ---- stationary points with the elbow locked ---------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Elbow:
-    """Points of rest with the elbow at an angle, and what random starts did.
+    """Stationary points with the elbow at an angle, and what random starts did.
 
     Attributes:
         task, law: Of the controller, by name.
@@ -161,7 +161,7 @@ def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
 def explained(points: RestPoints, q: Array, error: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Of ends (S, n) with errors (S,): at an isolated point; else, with the error of a continuum that attracts."""
     q = q.copy()
-    q[:, list(idle_joints(points.law))] = 0.0  # as points of rest have them
+    q[:, list(idle_joints(points.law))] = 0.0  # as stationary points have them
     wrong = points.kind != Kind.SOLUTION
     alone = np.zeros(len(q), dtype=bool)
     among = points.q[wrong & ~points.continuum]

@@ -30,6 +30,11 @@ class Probability(Protocol):
         """Of the interval, 0 to 1."""
 
 
+def capitalised(text: str) -> str:
+    """The first letter large, the others as they are."""
+    return text[:1].upper() + text[1:]
+
+
 def number(x: float) -> str:
     """Three digits or so, alike in a column of values of one kind; what is below 1e-9 is rounding and reads 0."""
     if np.isnan(x):

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from holdfast.cli.program import COMMANDS, assembled
+from holdfast.cli.program import COMMANDS, PANELS, assembled
 
 # What is slow to import. The list of each command is exact: what it no longer loads is taken from it and stays away.
 HEAVY = {"scipy", "scipy.stats", "matplotlib", "jinja2", "xarray", "zarr", "pydantic", "mujoco"}
@@ -82,8 +82,8 @@ def test_a_command_imports_what_it_uses(arguments, heavy, monkeypatch):
     loads_only(found, heavy)
     assert "casadi" not in found or not {"--help", "--version"} & set(arguments)
     if not arguments[0].startswith("-"):
-        every = {f"holdfast.cli.{module}" for module in COMMANDS.values()}
-        assert found & every == {f"holdfast.cli.{COMMANDS[arguments[0]]}"}
+        module = {name: f"holdfast.cli.{place.partition(':')[0]}" for name, place in COMMANDS.items()}
+        assert found & set(module.values()) == {module[arguments[0]]}
 
 
 @pytest.mark.parametrize(("arguments", "heavy"), RICHER, ids=label)
@@ -122,16 +122,20 @@ def test_the_library_waits_for_what_is_asked():
     assert done.stdout == "[]\n"
 
 
-def test_the_help_lists_every_command_in_its_order():
-    registered = [c.name or c.callback.__name__ for c in assembled().registered_commands]
-    groups = [g.name or g.typer_instance.info.name for g in assembled().registered_groups]
-    assert sorted([*registered, *groups]) == sorted(COMMANDS)
-    assert registered == [name for name in COMMANDS if name not in groups]
-    for name in COMMANDS:
-        one = assembled(name)
-        assert name in [c.name or c.callback.__name__ for c in one.registered_commands] + [
-            g.name or g.typer_instance.info.name for g in one.registered_groups
-        ]
+def test_the_help_lists_every_command_in_its_order_and_panel(cli):
+    lines = [line.strip("│╭╮─ ") for line in cli("--help")[1].splitlines()]
+    shown = [line.split()[0] for line in lines if line.split()[:1] and line.split()[0] in COMMANDS]
+    assert shown == list(COMMANDS)
+    panels = [line for line in lines if line in PANELS.values()]
+    assert panels == list(PANELS.values())
+    folders = [place.partition(".")[0] for place in COMMANDS.values()]
+    assert folders == sorted(folders, key=list(PANELS).index)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_command_is_found_alone(name):
+    one = assembled(name)
+    assert [each.name for each in [*one.registered_commands, *one.registered_groups]] == [name]
 
 
 def test_a_mistyped_command_is_still_guessed(refused):

@@ -112,7 +112,7 @@ def test_the_wrong_way_on_purpose(panda, rng):
         ("torque:elbow", "weights 'elbow' of torque are not known"),
         ("torque:2", "torque has 1 weights and 'panda' has 7 joints"),
         ("torque:1,1,1,1,1,1,-1", "not positive semidefinite"),
-        ("torque:nowhere.csv", "cannot read nowhere.csv"),
+        ("torque:nowhere.csv", "'nowhere.csv' cannot be read"),
         ("0*torque", "the weight of torque susceptibility is 0"),
         ("torque + relative-manipulability", "change the sign of one of them"),
     ],

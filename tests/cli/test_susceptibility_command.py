@@ -102,7 +102,7 @@ def test_weights_in_words_numbers_and_files(ask, tmp_path, rng):
         (["panda", "--q", IN_RADIANS, "--weights", "heavy"], "--weights: 'heavy' is not a number"),
         (["panda", "--q", IN_RADIANS, "--weights", "1,2"], "weights have shape (2,)"),
         (["panda", "--q", IN_RADIANS, "--weights", "1,1,1,1,1,1,-1"], "not positive semidefinite"),
-        (["panda", "--q", IN_RADIANS, "--weights", "nowhere.csv"], "cannot read nowhere.csv"),
+        (["panda", "--q", IN_RADIANS, "--weights", "nowhere.csv"], "'nowhere.csv' cannot be read"),
         (["planar-3r", "--q", "0 0 0", "--weights", "effort"], "no largest effort above 0"),
         (["panda", "--q", IN_RADIANS, "--measure", "swing-angle", "--weights", "effort"], "weights 'effort' are of torques"),
     ],

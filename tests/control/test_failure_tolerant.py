@@ -245,7 +245,7 @@ def test_trade_off(planar):
     assert "300 configurations" in curve.describe()[0]
     again = trade_off(planar.arm, "planar", samples=300, allowed=[0.2], seed=3)
     np.testing.assert_array_equal(again.peak_error[:, 0], curve.peak_error[:, 1])
-    assert len(curve.figure().axes) == 2
+    assert len(curve.figures()["trade-off"].axes) == 2
     with pytest.raises(InputError, match="in increasing order"):
         trade_off(planar.arm, "planar", allowed=[0.5, 0.2])
     with pytest.raises(InputError, match="give 10 or more"):

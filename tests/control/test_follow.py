@@ -200,16 +200,16 @@ def test_files_hold_every_digit(projected, torque, tmp_path):
     assert list(table)[:2] == ["time_s", "joint1_rad"]
     np.testing.assert_array_equal(table["joint2_torque_N m"], torque.by_joint(projected.q)[:, 1])
     assert "best_objective" in table
-    with projected.save(tmp_path / "t.csv").open(newline="") as file:
+    with projected.to_csv(tmp_path / "t.csv").open(newline="") as file:
         names, *rows = csv.reader(file)
     assert names == list(table)
     np.testing.assert_array_equal(np.array(rows, dtype=float).T, list(table.values()))
-    read = parquet.read_table(projected.save(tmp_path / "t.parquet"))
+    read = parquet.read_table(projected.to_parquet(tmp_path / "t.parquet"))
     assert read.column_names == names
     for name, column in table.items():
         np.testing.assert_array_equal(read[name].to_numpy(), column)
-    with pytest.raises(hf.StoreError, match="cannot be written"):
-        projected.save(tmp_path / "none" / "t.csv")
+    with pytest.raises(hf.StoreError, match="cannot write motion"):
+        projected.to_csv(tmp_path / "none" / "t.csv")
 
 
 # ---- bad input -------------------------------------------------------------------------------------------------------------

@@ -35,7 +35,7 @@ def stopped():
 
 
 def test_a_calm_motion(calm, tmp_path):
-    file = calm.report(tmp_path / "r.html", "holdfast follow x", torque_bound=5.0)
+    file = replace(calm, torque_bound=5.0).report(tmp_path / "r.html", "holdfast follow x")
     html = file.read_text(encoding="utf-8")
     check(html, scripts=1)
     for text in (
@@ -85,7 +85,7 @@ def test_an_arm_in_space_without_inertia(rng, tmp_path):
     assert "Side view" in html
     assert "Top view" in html
     with pytest.raises(hf.ArmError):
-        t.report(tmp_path / "no.html", torque_bound=1.0)
+        replace(t, torque_bound=1.0).report(tmp_path / "no.html")
     points = corners(arm, t.q[[0, 30]])
     assert points.shape == (2, 6, 3)
     np.testing.assert_allclose(points[:, -1], oracles.forward(arm, t.q[[0, 30]])[:, :3, 3], atol=1e-12)

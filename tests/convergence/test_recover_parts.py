@@ -121,7 +121,7 @@ def test_a_wrong_file_of_waypoints_is_refused(tmp_path, text, sentence):
     file.write_text(text)
     with pytest.raises(hf.InputError, match=sentence):
         read_waypoints(arm, file)
-    with pytest.raises(hf.InputError, match="cannot read"):
+    with pytest.raises(hf.InputError, match="cannot be read"):
         read_waypoints(arm, tmp_path / "none.csv")
 
 

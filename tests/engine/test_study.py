@@ -16,7 +16,7 @@ from toy import Toy, cells
 
 from holdfast.engine import Cell, Column, Store, Study, Threads, journal, merge
 from holdfast.engine.folder import digest, held
-from holdfast.engine.journal import Entry, Journal
+from holdfast.engine.journal import Entry, Journal, Lines
 from holdfast.errors import StoreError
 
 HERE = str(Path(__file__).parent)
@@ -141,7 +141,7 @@ def test_a_full_disk_leaves_the_journal_as_it_was(tmp_path, monkeypatch):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(journal.os, "write", full)
-    with pytest.raises(OSError, match="No space"):
+    with pytest.raises(StoreError, match="No space"):
         j.add(1, Entry("b", 1, 0.0, 0))
     assert j.path.read_bytes() == before
 
@@ -402,8 +402,8 @@ def test_status_of_very_many_chunks(tmp_path):
         j.add(k, Entry("ab" * 16, 100, 0.5, 0))
     assert len(one.read_bytes().splitlines()) == 2
     for k in range(99_999):
-        lines.append(journal.line(k, Entry("ab" * 16, 100, 0.5, 0)))
-    (study.folder(0) / Store.JOURNAL).write_bytes(b"".join(lines))
+        lines.append(b"%d %s 100 0.5 0" % (k, b"ab" * 16))
+    Lines(study.folder(0) / Store.JOURNAL).add(*lines)
     (status,) = study.status()
     assert (status.chunks, status.chunks_done, status.rows_done, status.seconds) == (100_000, 99_999, 9_999_900, 49_999.5)
 

@@ -38,7 +38,7 @@ APART = {
     "teleop.Replay",
     "teleop.TaskBank",
 }
-NO_NUMBERS = {"LawComparison", "Recovery", "TargetMeasures", "Trajectory", "control.TradeOff"}
+NO_NUMBERS = {"LawComparison", "Recovery", "TargetMeasures"}
 NO_NUMBERS |= {"teleop.analysis.Analysis"}
 NO_SENTENCES = {"Designs"}
 

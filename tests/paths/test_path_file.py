@@ -64,7 +64,7 @@ def test_timing(write):
     )
     assert (timed.timing.accelerate, timed.timing.decelerate, timed.stop) == (0.1, 0.2, True)
     file = write("poses: [{xyz: [0, 0, 0]}, {xyz: [1, 0, 0]}]")
-    with pytest.raises(InputError, match="has no timing; add for example"):
+    with pytest.raises(InputError, match="has no timing; write 'timing"):
         TimedPath.load(file)
 
 

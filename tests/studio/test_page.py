@@ -195,7 +195,7 @@ def test_a_motion_is_opened_scrubbed_and_played(studio, visit, tmp_path):
     window.ask("play")
     window.panel.file.value = "nowhere.csv"
     page.get_by_role("button", name="Open the motion").click()
-    wait_for(page, lambda: "cannot read motion 'nowhere.csv'" in text_of(page).replace("Cannot", "cannot"))
+    wait_for(page, lambda: "'nowhere.csv' cannot be read" in text_of(page))
 
 
 def test_moving_under_both_laws_before_a_drag_says_what_to_do(studio, visit):

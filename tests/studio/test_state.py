@@ -182,7 +182,7 @@ def test_motions_that_the_library_writes_are_read(tmp_path):
     trajectory = hf.follow(
         arm, hf.paths.TimedPath(line, hf.paths.Constant(1.0)), hf.indices.relative_manipulability(arm, "planar")
     )
-    found = read_motion(arm, trajectory.save(tmp_path / "trajectory.csv"))
+    found = read_motion(arm, trajectory.to_csv(tmp_path / "trajectory.csv"))
     np.testing.assert_array_equal(found.q, trajectory.q)
     np.testing.assert_array_equal(found.time, trajectory.time)
 

@@ -41,9 +41,8 @@ def check(path: Path) -> str:
 
 def _text(path: Path) -> str:
     try:
-        return reading.text(path, _LARGEST)
-    except OSError as error:
-        raise ArmError(f"the file cannot be read ({error.strerror}); give the path of an MJCF file") from error
+        with reading.guarded(advice="give the path of an MJCF file", kind=ArmError):
+            return reading.text(path, _LARGEST)
     except UnicodeDecodeError as error:
         raise ArmError(f"this is not sound XML ({error}); give an MJCF file") from error
 
@@ -117,10 +116,8 @@ def _check_file(place: Path, tag: str, folder: Path, seen: set[Path]) -> None:
             except ArmError as error:
                 raise ArmError(f"{named}: {error}") from error
         return
-    try:
+    with reading.guarded(f"{named},", kind=ArmError):
         head = reading.raw(place, _LARGEST_FILE)[:24]
-    except OSError as error:
-        raise ArmError(f"{named}, cannot be read ({error.strerror})") from error
     if head.startswith(_PNG):
         width, height = int.from_bytes(head[16:20]), int.from_bytes(head[20:24])
         if width * height > _MOST["texture"][1]:

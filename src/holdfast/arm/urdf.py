@@ -105,10 +105,8 @@ def expand_first(path: Path) -> str:
 
 def _element(path: Path, kind: str) -> ElementTree.Element:
     """The ``<robot>`` of a file; prefixes of tags are left as they stand, declared or not, as the readers of ROS do."""
-    try:
+    with reading.guarded(advice=f"give the path of a {kind} file", kind=ArmError):
         content = reading.raw(path, _LARGEST)
-    except OSError as error:
-        raise ArmError(f"the file cannot be read ({error.strerror}); give the path of a {kind} file") from error
     builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = builder.start, builder.end, builder.data
     # The only place where an XML file can define entities that blow up or reach other files.

@@ -209,10 +209,7 @@ class Comparison(Result):
         for name, run in zip(self.names, self.assessments, strict=True):
             run.save(target / name, self.threshold)
         listed = [{"name": name, "tool": tool} for name, tool in zip(self.names, self.tools, strict=True)]
-        try:
-            replaced(target / LIST, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
-        except OSError as error:
-            raise StoreError(f"cannot write to '{target}': {error.strerror or error}; choose another folder") from error
+        replaced(target / LIST, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
         return [target / LIST, self.report(target / "report.html")]
 
     @says("drawing the report")

@@ -173,9 +173,8 @@ def read_weights(option: str, text: str) -> Any:
     if file.suffix.lower() != ".csv":
         return read_numbers(option, text, "effort, worst-case, a .csv file, or one number per joint")
     try:
-        lines = reading.text(file).splitlines()
-    except OSError as error:
-        raise InputError(f"{option}: cannot read {file}: {error.strerror or error}") from error
+        with reading.guarded(f"{option}: '{file}'"):
+            lines = reading.text(file).splitlines()
     except UnicodeDecodeError as error:
         raise InputError(f"{option}: {file} is not text; give numbers separated by commas") from error
     rows = [read_numbers(f"{option} {file}", line, "numbers") for line in lines if line.strip()]

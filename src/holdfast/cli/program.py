@@ -5,45 +5,61 @@ from __future__ import annotations
 import os
 import sys
 from importlib import import_module
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
 from holdfast.cli.interrupt import STOPPED
 from holdfast.errors import HoldfastError
 
-COMMANDS = {  # the module of each, in the order of the help
+PANELS = {  # of the help, in its order, by the folder
+    "start": "Start here",
+    "before": "Before a failure",
+    "unnoticed": "A failure nobody has noticed",
+    "known": "A failure you know of",
+    "larger": "Larger work",
+}
+COMMANDS = {  # the module of each, in the order of the help; what it defines is `command`, or stands after the colon
+    "assess": "start.assess",
+    "studio": "start.studio",
+    "describe": "start.arms:describe",
     "arms": "start.arms",
-    "describe": "start.arms",
+    "report": "start.assess:report",
     "index": "before.index",
     "susceptibility": "before.susceptibility",
     "optimise": "before.optimise",
-    "assess": "start.assess",
-    "report": "start.assess",
-    "design": "before.design",
     "follow": "before.follow",
-    "swing": "known.free_swing",
-    "simulate": "unnoticed.simulate",
-    "recover": "known.recover",
-    "compare": "unnoticed.compare_laws",
-    "self-motion": "known.self_motion",
-    "tolerant-workspace": "known.self_motion",
-    "workspace": "unnoticed.workspace",
-    "stationary": "unnoticed.stationary_points",
-    "basins": "unnoticed.stationary_points",
     "trade-off": "before.trade_off",
-    "studio": "start.studio",
+    "design": "before.design",
+    "simulate": "unnoticed.simulate",
+    "compare": "unnoticed.compare_laws:compare",
+    "stationary": "unnoticed.stationary_points:stationary",
+    "basins": "unnoticed.stationary_points:basins",
+    "workspace": "unnoticed.workspace",
+    "recover": "known.recover",
+    "self-motion": "known.self_motion",
+    "tolerant-workspace": "known.self_motion:tolerant_workspace",
+    "swing": "known.free_swing:swing",
     "study": "larger.study",
     "teleop": "larger.teleop",
     "export": "larger.export",
 }
 
 
+class _InOrder(TyperGroup):
+    """Its commands in the order of the table; typer would show groups of commands last."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        return [name for name in COMMANDS if name in self.commands]
+
+
 def assembled(command: str | None = None) -> typer.Typer:
-    """The program with all commands, or with those of the module that has ``command``: others would only cost time."""
+    """The program with all commands, or with ``command`` alone: others would only cost time."""
     app = typer.Typer(
         name="holdfast",
+        cls=_InOrder,
         help="Fault tolerance of redundant robot arms: what happens to the task when a joint fails.\n\n"
         "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
         "Joints are given by name, or by number from 1.",
@@ -53,8 +69,14 @@ def assembled(command: str | None = None) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_root)
-    for module in [COMMANDS[command]] if command in COMMANDS else dict.fromkeys(COMMANDS.values()):
-        import_module(f"holdfast.cli.{module}").add(app)
+    for name in [command] if command in COMMANDS else COMMANDS:
+        module, _, function = COMMANDS[name].partition(":")
+        panel = PANELS[module.partition(".")[0]]
+        made = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
+        if isinstance(made, typer.Typer):
+            app.add_typer(made, name=name, rich_help_panel=panel)
+        else:
+            app.command(name, rich_help_panel=panel)(made)
     return app
 
 

@@ -14,8 +14,8 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
-from holdfast.errors import InputError, StoreError
-from holdfast.files.output import replaced
+from holdfast.errors import InputError
+from holdfast.files.output import made, replaced
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled_data
 from holdfast.notice import says
@@ -274,16 +274,10 @@ def write(law: _Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, P
         StoreError: They cannot be written.
     """
     texts = c_files(law, name)
-    target = Path(folder)
+    target = made(folder)
     source, header, example, test = (target / file for file in texts)
-    try:
-        target.mkdir(parents=True, exist_ok=True)
-        for file, text in texts.items():
-            replaced(target / file, text)
-    except OSError as error:
-        raise StoreError(
-            f"cannot write '{name}.c' into '{target}': {error.strerror or error}; choose another folder"
-        ) from error
+    for file, text in texts.items():
+        replaced(target / file, text)
     return source, header, example, test
 
 

@@ -6,8 +6,7 @@ Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 2 and conclusion.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
 
 import casadi as ca
 import numpy as np
@@ -23,10 +22,6 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
 from holdfast.notice import working
 from holdfast.result import Result
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -44,6 +39,7 @@ class TradeOff(Result):
         gain: (N, E) PKE with the best damping within e, by PKE of the pseudoinverse: below 1 the failed arm gains.
         healthy_error: (N, E) velocity error of the healthy arm that it costs.
         peak_error: (N, E) PKE itself.
+        seed: Of the samples.
     """
 
     arm: Arm
@@ -52,6 +48,7 @@ class TradeOff(Result):
     gain: Array
     healthy_error: Array
     peak_error: Array
+    seed: int = field(kw_only=True)
 
     def quantiles(self, of: str = "gain", levels: Sequence[float] = QUANTILES) -> Array:
         """(L, E) quantiles over the samples of ``gain``, ``healthy_error`` or ``peak_error``."""
@@ -76,15 +73,6 @@ class TradeOff(Result):
                 f"(95% interval {low[k]:.3f} to {high[k]:.3f}), median error of the healthy arm {paid[k]:.3f}"
             )
         return lines
-
-    def figure(self) -> Figure:
-        """Median and quantile bands of the post-failure gain and of what it costs the healthy arm."""
-        figure: Figure = self._presented("figure")
-        return figure
-
-    def draw(self, gain: Axes, price: Axes) -> None:
-        """The two panels of :meth:`figure`, into axes that are there."""
-        self._presented("draw", gain, price)
 
 
 @checked
@@ -137,7 +125,7 @@ def trade_off(
             peak[:, k], healthy[:, k] = out[:, 0], out[:, 1]
             advance(k + 1, len(e) + 1)
         none = kernel.rows(q, u, np.full(samples, 1e-9))[:, 0]
-    return TradeOff(arm, chosen, e, peak / none[:, None], healthy, peak)
+    return TradeOff(arm, chosen, e, peak / none[:, None], healthy, peak, seed=seed)
 
 
 @recalled

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.convergence.places import Places
-from holdfast.errors import StoreError
-from holdfast.files.output import replaced, writing
+from holdfast.files.output import made, replaced, writing
 
 
 def axis_label(direction: NDArray[np.float64]) -> str:
@@ -37,16 +36,12 @@ def save_places(
     Raises:
         StoreError: The folder cannot be written.
     """
-    place = Path(folder)
+    place = made(folder)
     files = [place / f"{name}.csv", place / f"{name}.json"]
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-        with writing(files[0]) as stream:
-            writer = csv.writer(stream)
-            writer.writerow(["x_m", "y_m", "z_m", *columns])
-            for row in np.column_stack([places.points, *values]):
-                writer.writerow(["" if np.isnan(x) else f"{x:.9g}" for x in row])
-        replaced(files[1], json.dumps(summary, indent=2) + "\n")
-    except OSError as error:
-        raise StoreError(f"cannot write to '{place}': {error.strerror or error}; choose another folder") from error
+    with writing(files[0]) as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["x_m", "y_m", "z_m", *columns])
+        for row in np.column_stack([places.points, *values]):
+            writer.writerow(["" if np.isnan(x) else f"{x:.9g}" for x in row])
+    replaced(files[1], json.dumps(summary, indent=2) + "\n")
     return files

@@ -23,7 +23,7 @@ from holdfast.designs.memory import Memory, Parts
 from holdfast.designs.pattern import Box, improved
 from holdfast.designs.planar import PlanarRest, Radial
 from holdfast.designs.space import DesignSpace, Vary, design_space
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.registry import LAWS
@@ -136,19 +136,16 @@ class ConvergenceDesigns(Result):
         Raises:
             StoreError: The folder cannot be written.
         """
-        from holdfast.files.output import replaced
+        from holdfast.files.output import made, replaced
 
         lines = [",".join((*self.space.names, *self.measures))]
         columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
         lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        files = [Path(folder) / "designs.csv", Path(folder) / "best-arm.yaml"]
-        try:
-            Path(folder).mkdir(parents=True, exist_ok=True)
-            for path, content in zip(files, ("\n".join(lines) + "\n", self.arm_file()), strict=True):
-                replaced(path, content)
-        except OSError as error:
-            raise StoreError(f"folder '{folder}' cannot be written: {error.strerror or error}") from error
-        return [*files, self.report(Path(folder) / "report.html")]
+        place = made(folder)
+        files = [place / "designs.csv", place / "best-arm.yaml"]
+        for path, content in zip(files, ("\n".join(lines) + "\n", self.arm_file()), strict=True):
+            replaced(path, content)
+        return [*files, self.report(place / "report.html")]
 
     def arm_file(self) -> str:
         """The best arm as a file that every command takes."""

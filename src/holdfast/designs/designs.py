@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.designs.space import DesignSpace
-from holdfast.errors import StoreError
-from holdfast.files.output import replaced
+from holdfast.files.output import made, replaced
 from holdfast.indices.index import Index
 from holdfast.notice import says
 from holdfast.probability.distribution import Distribution
@@ -135,14 +134,10 @@ class Designs(Result):
         Raises:
             StoreError: A file cannot be written.
         """
-        place = Path(folder)
         texts: dict[str, str] = self._presented("files", self._table())
-        try:
-            place.mkdir(parents=True, exist_ok=True)
-            for name, text in texts.items():
-                replaced(place / name, text)
-        except OSError as error:
-            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        place = made(folder)
+        for name, text in texts.items():
+            replaced(place / name, text)
         return [self.report(place / "report.html"), *(place / name for name in texts)]
 
     def _table(self) -> str:

@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
+from holdfast.files.output import guarded
 
+SAFE = "what was committed is safe: make room and run the same command again"
 MOST_ROWS, MOST_CHUNKS = 10**15, 10**7
 
 
@@ -39,10 +41,8 @@ def held(folder: Path, name: str) -> Iterator[None]:
     Raises:
         StoreError: Another program holds it, or the folder is not writable.
     """
-    try:
+    with guarded(folder):
         handle = os.open(folder / name, os.O_CREAT | os.O_RDWR, 0o644)
-    except OSError as error:
-        raise StoreError(f"cannot write to '{folder}': {error.strerror}; choose another folder") from error
     try:
         try:
             import fcntl

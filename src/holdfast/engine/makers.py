@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from holdfast.engine.folder import SAFE
 from holdfast.errors import StoreError
 from holdfast.files import reading
 from holdfast.files.output import replaced
@@ -63,10 +64,4 @@ class Made:
             raise StoreError(f"'{file}' is damaged ({error}); remove it to go on without knowing what made the rows") from error
 
     def _write(self, data: dict[str, list[Any]]) -> None:
-        try:
-            replaced(self._folder / _FILE, json.dumps(data, indent=1))
-        except OSError as error:
-            raise StoreError(
-                f"cannot write to '{self._folder}': {error.strerror or error}; what was committed is safe: make room and run "
-                "the same command again"
-            ) from error
+        replaced(self._folder / _FILE, json.dumps(data, indent=1), advice=SAFE)

@@ -20,11 +20,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.engine.folder import digest, held, is_plain, too_many
+from holdfast.engine.folder import SAFE, digest, held, is_plain, too_many
 from holdfast.engine.journal import Entry, Journal
 from holdfast.errors import StoreError
 from holdfast.files import reading
-from holdfast.files.output import replaced
+from holdfast.files.output import guarded, made, replaced
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -107,10 +107,7 @@ class Store:
             if not store.complete:
                 store.check_current()
             if not store.done:  # perhaps stopped while it was being made
-                try:
-                    store._make_arrays(columns)
-                except OSError as error:
-                    raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+                store._make_arrays(columns)
             return store
         if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
@@ -128,12 +125,10 @@ class Store:
             **({"journal": True} if journal else {}),
         }
         store = cls(folder, run)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            store._commit()  # first, so that a stop before the arrays are there does not make the folder foreign
-            store._make_arrays(columns)
-        except OSError as error:
-            raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+        made(folder)
+        # First, so that a stop before the arrays are there does not make the folder foreign.
+        store._commit("", "choose another folder")
+        store._make_arrays(columns)
         return store
 
     @classmethod
@@ -245,10 +240,7 @@ class Store:
             StoreError: It cannot be read.
         """
         if self._entries is None:
-            try:
-                found = {} if self._journal is None else self._journal.read()
-            except OSError as error:
-                raise StoreError(f"'{self.path / self.JOURNAL}' cannot be read: {error.strerror or error}") from error
+            found = {} if self._journal is None else self._journal.read()
             self._entries = {k: e for k, e in found.items() if 0 <= k < self.count}
         return self._entries
 
@@ -287,22 +279,18 @@ class Store:
             arrays = self._arrays
         except (OSError, KeyError, ValueError) as error:
             raise self._damaged(error) from error
-        try:
+        what = f"chunk {chunk + 1} to"
+        with guarded(self.path, what, SAFE):
             for name, values in columns.items():
                 arrays[name][start:stop] = values
             if self._journal is None:
                 self._run["done"] = sorted({*self.done, chunk})
-                self._commit()
+                self._commit(what)
             else:
                 stored = {name: np.ascontiguousarray(values, arrays[name].dtype) for name, values in columns.items()}
                 entry = Entry(digest(stored), self._settled(chunk), seconds, maker)
                 self._journal.add(chunk, entry)
                 self.entries[chunk] = entry
-        except OSError as error:
-            raise StoreError(
-                f"cannot write chunk {chunk + 1} to '{self.path}': {error.strerror or error}; "
-                "what was committed before is safe: make room and run the same command again"
-            ) from error
 
     def drop(self, chunks: Sequence[int]) -> None:
         """Chunks of a journal that are damaged: they are missing from now on.
@@ -312,10 +300,7 @@ class Store:
         """
         if self._journal is None:
             raise StoreError(f"'{self.path}' keeps no journal, so no chunk of it can be dropped; run it in a new folder")
-        try:
-            self._journal.drop(chunks)
-        except OSError as error:
-            raise StoreError(f"cannot write to '{self.path}': {error.strerror or error}; make room") from error
+        self._journal.drop(chunks)
         for k in chunks:
             self.entries.pop(k, None)
 
@@ -358,13 +343,7 @@ class Store:
     def note(self, **facts: Any) -> None:
         """Add facts about how the run went."""
         self._run["notes"].update(facts)
-        try:
-            self._commit()
-        except OSError as error:
-            raise StoreError(
-                f"cannot write to '{self.path}': {error.strerror or error}; "
-                "the rows are safe: make room and run the same command again"
-            ) from error
+        self._commit()
 
     def read(self, chunk: int, names: Sequence[str]) -> dict[str, NDArray[Any]]:
         """Columns of one chunk, and nothing else in memory.
@@ -424,23 +403,24 @@ class Store:
     def _make_arrays(self, columns: list[Column]) -> None:
         import zarr
 
-        group = zarr.open_group(self.path / _SAMPLES, mode="w")
-        group.attrs["plan"] = json.dumps(self.plan)
-        for c in columns:
-            lengths = [n for _, n in c.dims]
-            array = group.create_array(
-                c.name,
-                shape=(self.rows, *lengths),
-                chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
-                dtype=c.dtype,
-                fill_value=c.fill,
-                compressors=zarr.codecs.ZstdCodec(checksum=True),
-                dimension_names=["row", *[d for d, _ in c.dims]],
-            )
-            array.attrs.update({"units": c.units, "long_name": c.about})
+        with guarded(self.path):
+            group = zarr.open_group(self.path / _SAMPLES, mode="w")
+            group.attrs["plan"] = json.dumps(self.plan)
+            for c in columns:
+                lengths = [n for _, n in c.dims]
+                array = group.create_array(
+                    c.name,
+                    shape=(self.rows, *lengths),
+                    chunks=(min(int(self._run["chunk"]), max(self.rows, 1)), *[max(n, 1) for n in lengths]),
+                    dtype=c.dtype,
+                    fill_value=c.fill,
+                    compressors=zarr.codecs.ZstdCodec(checksum=True),
+                    dimension_names=["row", *[d for d, _ in c.dims]],
+                )
+                array.attrs.update({"units": c.units, "long_name": c.about})
 
-    def _commit(self) -> None:
-        replaced(self.path / _RUN, json.dumps(self._run, indent=1))
+    def _commit(self, what: str = "", advice: str = SAFE) -> None:
+        replaced(self.path / _RUN, json.dumps(self._run, indent=1), what, advice)
 
 
 def _wrong(run: Mapping[str, Any]) -> str | None:

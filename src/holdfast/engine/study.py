@@ -18,7 +18,7 @@ from holdfast.engine.store import Store
 from holdfast.engine.work import Progress, Work
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.files import reading
-from holdfast.files.output import replaced
+from holdfast.files.output import guarded, replaced
 from holdfast.notice import says
 
 _FORMAT, _VERSION = "holdfast-study", 1
@@ -107,12 +107,11 @@ class Study:
             return study
         if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
-        try:
-            if reading.exists(folder) and any(folder.iterdir()):
-                raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
+        with guarded(folder):
             folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise _unwritable(folder, error) from error
+            occupied = any(folder.iterdir())
+        if occupied:
+            raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
         study = cls(folder, data)
         study._write(data)
         return study
@@ -155,19 +154,14 @@ class Study:
             StoreError: It exists, or cannot be written.
         """
         folder = Path(path)
-        try:
+        with guarded(folder):
             folder.mkdir(parents=True)
-        except OSError as error:
-            raise _unwritable(folder, error) from error
         study = Study(folder, self._data)
         study._write(self._data)
         return study
 
     def _write(self, data: dict[str, Any]) -> None:
-        try:
-            replaced(self.path / _FILE, json.dumps(data, indent=1))
-        except OSError as error:
-            raise _unwritable(self.path, error) from error
+        replaced(self.path / _FILE, json.dumps(data, indent=1))
         self._data = data
 
     def check_same(self, other: Study) -> None:
@@ -241,10 +235,7 @@ class Study:
         Raises:
             StoreError: The disk refuses.
         """
-        try:
-            self._begun.add(cell, Entry("begun", 0, 0.0, 0))
-        except OSError as error:
-            raise _unwritable(self.path, error) from error
+        self._begun.add(cell, Entry("begun", 0, 0.0, 0))
 
     @property
     def begun(self) -> frozenset[int]:
@@ -253,10 +244,7 @@ class Study:
         Raises:
             StoreError: It cannot be read.
         """
-        try:
-            return frozenset(self._begun.read())
-        except OSError as error:
-            raise StoreError(f"'{self._begun.path}' cannot be read: {error.strerror or error}") from error
+        return frozenset(self._begun.read())
 
     def entries(self, cell: int) -> dict[int, Entry]:
         """What is done of a cell, by number of the chunk.
@@ -264,10 +252,7 @@ class Study:
         Raises:
             StoreError: Its journal cannot be read.
         """
-        try:
-            return Journal(self.folder(cell) / Store.JOURNAL).read()
-        except OSError as error:
-            raise StoreError(f"the journal of '{self.folder(cell)}' cannot be read: {error.strerror or error}") from error
+        return Journal(self.folder(cell) / Store.JOURNAL).read()
 
     def status(self) -> list[CellStatus]:
         """How far each cell is, from the journals alone.
@@ -361,7 +346,7 @@ class Study:
             for k, c in enumerate(self._data["cells"]):
                 if k in begun and not self.entries(k):
                     found.append(Damage(c["name"], None, "it was begun, and nothing of it is left"))
-                    self._forget(k)
+                    self._begun.drop([k])
                 if not reading.exists(self.folder(k)):
                     continue
                 store = self.store(k)
@@ -378,18 +363,8 @@ class Study:
                 if bad:
                     store.drop(bad)
                     if not store.done:
-                        self._forget(k)
+                        self._begun.drop([k])
         return found
-
-    def _forget(self, cell: int) -> None:
-        try:
-            self._begun.drop([cell])
-        except OSError as error:
-            raise _unwritable(self.path, error) from error
-
-
-def _unwritable(folder: Path, error: OSError) -> StoreError:
-    return StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder")
 
 
 def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[str, Any]:

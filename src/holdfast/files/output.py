@@ -9,30 +9,71 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
 
+from holdfast.errors import StoreError
 
-def replaced(path: Path, content: str | bytes, errors: str = "strict") -> None:
+
+@contextmanager
+def guarded(place: str | Path, what: str = "to", advice: str = "choose another folder") -> Iterator[None]:
+    """A block that writes; where the disk refuses, one sentence says so.
+
+    Args:
+        place: The file or folder that the sentence names.
+        what: It is: ``report``, ``tables into``.
+        advice: How the sentence ends.
+
+    Raises:
+        StoreError: The disk refused.
+    """
+    try:
+        yield
+    except OSError as error:
+        named = f"{what} '{place}'".lstrip()
+        raise StoreError(f"cannot write {named}: {error.strerror or error}; {advice}") from error
+
+
+def made(folder: str | Path) -> Path:
+    """The folder, made where need be.
+
+    Raises:
+        StoreError: It cannot be made.
+    """
+    place = Path(folder)
+    with guarded(place):
+        place.mkdir(parents=True, exist_ok=True)
+    return place
+
+
+def replaced(
+    path: Path, content: str | bytes, what: str = "", advice: str = "choose another path", errors: str = "strict"
+) -> None:
     """Write a file, all of it or nothing, with the permissions that every new file gets.
 
     Args:
         path: The file.
         content: Its content; text is written as UTF-8.
+        what: It is, for the sentence where the disk refuses; see :func:`guarded`.
+        advice: How that sentence ends.
         errors: What becomes of characters that UTF-8 does not have, as :meth:`str.encode` takes it.
 
     Raises:
-        OSError: The disk refuses; what was there is as it was.
+        StoreError: The disk refuses; what was there is as it was.
     """
-    with _beside(path) as temporary:
+    with guarded(path, what, advice), _beside(path) as temporary:
         temporary.write_bytes(content.encode(errors=errors) if isinstance(content, str) else content)
 
 
 @contextmanager
-def writing(path: Path) -> Iterator[TextIO]:
+def writing(path: Path, what: str = "") -> Iterator[TextIO]:
     """A file of text in UTF-8 to write into, line ends as given; it takes its place once the block ends, if nothing was wrong.
 
     Raises:
-        OSError: The disk refuses; what was there is as it was.
+        StoreError: The disk refuses; what was there is as it was.
     """
-    with _beside(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+    with (
+        guarded(path, what, "choose another path"),
+        _beside(path) as temporary,
+        temporary.open("w", encoding="utf-8", newline="") as file,
+    ):
         yield file
 
 

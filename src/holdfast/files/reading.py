@@ -4,9 +4,29 @@ from __future__ import annotations
 
 import errno
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from holdfast.errors import HoldfastError, InputError
+
 LARGEST = 256 << 20
+
+
+@contextmanager
+def guarded(what: str = "the file", advice: str = "", kind: type[HoldfastError] = InputError) -> Iterator[None]:
+    """A block that reads; where that cannot be done, one sentence says so.
+
+    Args:
+        what: The file, as the sentence names it.
+        advice: How the sentence ends.
+        kind: Of the error.
+    """
+    try:
+        yield
+    except OSError as error:
+        ending = f"; {advice}" if advice else ""
+        raise kind(f"{what} cannot be read ({error.strerror or error}){ending}") from error
 
 
 def raw(path: str | Path, largest: int = LARGEST) -> bytes:

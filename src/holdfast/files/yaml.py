@@ -110,9 +110,8 @@ def content(path: Path, example: str, least: str) -> dict[str, Any]:
         InputError: The file cannot be read, or is not YAML with keys and values.
     """
     try:
-        data = parse(reading.text(path, _LARGEST), f"; see {example} for an example")
-    except OSError as error:
-        raise InputError(f"the file cannot be read ({error.strerror}); give the path of a YAML file") from error
+        with reading.guarded(advice="give the path of a YAML file"):
+            data = parse(reading.text(path, _LARGEST), f"; see {example} for an example")
     except UnicodeDecodeError as error:
         raise InputError(f"this is not sound YAML ({error}); see {example} for an example") from error
     if not isinstance(data, dict):

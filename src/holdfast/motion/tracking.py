@@ -61,6 +61,8 @@ def follow(
     seed: int = 0,
     best: bool = False,
     spacing: float = 0.05,
+    *,
+    torque_bound: float | None = None,
 ) -> Trajectory:
     """Joint motion along a timed path of the hand, with redundancy resolution.
 
@@ -87,8 +89,11 @@ def follow(
             through these, by dynamic programming; for one or two degrees of redundancy. How fast it may move from one
             manifold to the next is the velocity limits of the joints, and the rate cap for each of them, if all have one.
         spacing: Of the points on these manifolds, rad.
+        torque_bound: If given, N m and N, the result says how slow the motion must be for its torques to stay this close to
+            gravity's; see :meth:`Trajectory.slowness`.
 
     Raises:
+        ArmError: A torque_bound for an arm without inertial data.
         InputError: Not exactly one objective, a start that is not on the first pose, options out of range.
         TaskError: No redundancy, or an objective of another task.
         HoldfastError: No configuration of the first pose was found.
@@ -136,7 +141,7 @@ def follow(
     few = slice(None, None, substeps)
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
     best_value, best_q = _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed) if best else (None, None)
-    return Trajectory(
+    found = Trajectory(
         arm,
         chosen,
         objective,
@@ -162,7 +167,11 @@ def follow(
         happened,
         best_value,
         best_q,
+        torque_bound=torque_bound,
     )
+    if torque_bound is not None:
+        found.slowness(torque_bound)  # it may be refused
+    return found
 
 
 def _course(

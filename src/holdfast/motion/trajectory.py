@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import guarded, writing
 from holdfast.files.spreadsheet import cell
 from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.motion.slowness import SlowMotion, slow_enough
-from holdfast.notice import says
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
@@ -69,6 +68,7 @@ class Trajectory(Result):
         events: What happened, in order.
         best_value: (T,) the best value over the whole self-motion manifold of each pose, or None if it was not asked for.
         best_path: (T, n) the best continuous motion through these manifolds, NaN where there is none; or None.
+        torque_bound: By which the report and :meth:`to_dict` judge whether the motion is slow enough, N m and N; or None.
     """
 
     arm: Arm
@@ -96,6 +96,7 @@ class Trajectory(Result):
     events: tuple[Event, ...]
     best_value: Array | None = None
     best_path: Array | None = None
+    torque_bound: float | None = field(default=None, kw_only=True)
 
     @property
     def rate_norm(self) -> Array:
@@ -171,47 +172,34 @@ class Trajectory(Result):
             table["best_objective"] = self.best_value
         return table
 
-    def save(self, path: str | Path) -> Path:  # type: ignore[override]
-        """Write the table as CSV, or as Parquet if the name ends in ``.parquet`` (needs pyarrow).
+    def to_csv(self, path: str | Path) -> Path:
+        """Write the table, a row for each sample; the unit is in the name of each column.
 
         Raises:
-            StoreError: The file cannot be written, or what Parquet needs is not installed.
+            StoreError: The file cannot be written.
         """
-        target = Path(path)
         table = self.columns()
-        try:
-            if target.suffix.lower() == ".parquet":
-                import pyarrow
-                from pyarrow import parquet
+        with writing(Path(path), "motion") as file:
+            writer = csv.writer(file)
+            writer.writerow(map(cell, table))
+            writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
+        return Path(path)
 
-                parquet.write_table(pyarrow.table(table), target)
-            else:
-                with writing(target) as file:
-                    writer = csv.writer(file)
-                    writer.writerow(map(cell, table))
-                    writer.writerows(zip(*[[repr(float(x)) for x in column] for column in table.values()], strict=True))
-        except ImportError as error:
-            raise StoreError(f"'{target}': Parquet needs pyarrow; install holdfast[parquet], or give a name in .csv") from error
-        except OSError as error:
-            raise StoreError(f"'{target}' cannot be written: {error.strerror or error}") from error
-        return target
-
-    @says("drawing the report")
-    def report(self, path: str | Path, command: str = "", torque_bound: float | None = None) -> Path:
-        """Write a report: one HTML file with curves, events and the arm in motion, that needs nothing else.
-
-        Args:
-            path: The file; it is replaced in one step.
-            command: The command line that makes the motion again, if there is one.
-            torque_bound: If given, N m and N, how slow the motion must be for its torques to stay this close to gravity's;
-                see :func:`holdfast.motion.slow_enough`.
+    def to_parquet(self, path: str | Path) -> Path:
+        """Write the same table as Parquet.
 
         Raises:
-            StoreError: The file cannot be written; what was there is as it was.
-            ArmError: A torque_bound for an arm without inertial data.
+            StoreError: The file cannot be written, or pyarrow is not installed.
         """
-        written: Path = self._presented("write", Path(path), command, torque_bound)
-        return written
+        try:
+            import pyarrow
+            from pyarrow import parquet
+
+            with guarded(Path(path), "motion", "choose another path"):
+                parquet.write_table(pyarrow.table(self.columns()), Path(path))
+        except ImportError as error:
+            raise StoreError(f"'{path}': Parquet needs pyarrow; install holdfast[parquet], or write CSV") from error
+        return Path(path)
 
     def slowness(self, bound: float) -> list[SlowMotion]:
         """How slow each joint asks the motion to be, n of them: see :func:`holdfast.motion.slow_enough`.

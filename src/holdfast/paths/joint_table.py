@@ -68,10 +68,9 @@ def read_joint_table(arm: Arm, file: Path, what: str, first: str) -> JointTable:
     """
     title = f"{what} '{file}'"
     try:
-        reader = csv.reader(reading.text(file).splitlines())
+        with reading.guarded(title, "give a CSV file"):
+            reader = csv.reader(reading.text(file).splitlines())
         lines = [(reader.line_num, cells) for cells in reader if cells]
-    except OSError as error:
-        raise InputError(f"cannot read {title}: {error.strerror or error}; give a CSV file") from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{title}: this is not a CSV table: {error}") from error
     head = tuple(cell.strip() for cell in lines[0][1]) if lines else ()

@@ -168,9 +168,8 @@ def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:
         InputError: What is wrong with which row.
     """
     try:
-        lines = [[cell.strip() for cell in row] for row in csv.reader(reading.text(file).splitlines()) if row]
-    except OSError as error:
-        raise InputError(f"{option}: '{file.name}' cannot be read ({error.strerror}); give a CSV file that exists") from error
+        with reading.guarded(f"{option}: '{file.name}'", "give a CSV file that exists"):
+            lines = [[cell.strip() for cell in row] for row in csv.reader(reading.text(file).splitlines()) if row]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{option}: '{file.name}' is not a CSV file ({error})") from error
     names = tuple(lines[0]) if lines else ()

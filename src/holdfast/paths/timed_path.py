@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pathlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,7 @@ from holdfast.arguments import checked, checked_class, real_numbers
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.path import Path, in_file
-from holdfast.paths.timing import Timing
+from holdfast.paths.timing import Timing, Trapezoid
 
 Array = NDArray[np.float64]
 
@@ -128,15 +128,24 @@ class TimedPath:
 
     @classmethod
     @checked
-    def load(cls, file: str | pathlib.Path) -> TimedPath:
+    def load(cls, file: str | pathlib.Path, duration: float | None = None) -> TimedPath:
         """A path with its timing from a YAML file; the format is in :mod:`holdfast.paths.path_file`.
+
+        Args:
+            file: The file.
+            duration: s, in place of the file's.
 
         Raises:
             InputError: Unreadable, without timing, or a key that is unknown, missing or wrong; the message names it.
         """
         path, timing, stop = in_file(file)
+        if duration is not None:
+            timing = Trapezoid(duration) if timing is None else replace(timing, duration=duration)
         if timing is None:
-            raise InputError(f"path file '{file}' has no timing; add for example 'timing: {{duration: 10}}'")
+            raise InputError(
+                f"path file '{file}' has no timing; write 'timing: {{duration: 10}}' into it, or give --duration 10 "
+                "(in Python, duration=10)"
+            )
         return cls(path, timing, stop)
 
     def _shares(self, t: Array) -> Array:

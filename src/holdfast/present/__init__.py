@@ -20,8 +20,8 @@ PRESENTERS = {
     "Recovery": ("", "recovery.figures"),
     "Runs": ("simulation.console", "simulation.run"),
     "TargetMeasures": ("", "convergence.targets"),
-    "TradeOff": ("", "control.trade_offs"),
-    "Trajectory": ("", "motion.trajectory"),
+    "TradeOff": ("control.console", "control.trade_offs"),
+    "Trajectory": ("motion.console", "motion.trajectory"),
 }
 _WORDS = {"to_dict", "show"}
 

@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from holdfast.errors import StoreError
+from holdfast.files.output import made
 from holdfast.present.printing import console, print_json, print_written
 from holdfast.result import Result
 
@@ -82,19 +82,6 @@ def save(result: Result, folder: Path, command: str = "") -> list[Path]:
     folder = made(folder)
     pictures = [save_png(figure, folder / f"{name}.png") for name, figure in result.figures().items()]
     return [*pictures, result.report(folder / "report.html", command=command)]
-
-
-def made(folder: Path) -> Path:
-    """The folder, made where need be.
-
-    Raises:
-        StoreError: It cannot be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise StoreError(f"--out: folder '{folder}' cannot be made: {error.strerror or error}; choose another") from error
-    return folder
 
 
 def in_notebook(result: Result) -> str:

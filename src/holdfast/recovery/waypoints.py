@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.clearance.clearance import Clearance
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.files.output import writing
 from holdfast.paths.joint_table import joint_columns, read_joint_table
 
@@ -48,13 +48,10 @@ def write_waypoints(arm: Arm, q: Array, path: str | Path) -> Path:
     """
     file = Path(path)
     name, values = parameter(arm, q)
-    try:
-        with writing(file) as stream:
-            writer = csv.writer(stream)
-            writer.writerow([name, *joint_columns(arm)])
-            writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])
-    except OSError as error:
-        raise StoreError(f"cannot write waypoints '{file}': {error.strerror or error}; choose another path") from error
+    with writing(file, "waypoints") as stream:
+        writer = csv.writer(stream)
+        writer.writerow([name, *joint_columns(arm)])
+        writer.writerows([[repr(float(x)) for x in row] for row in np.column_stack([values, q])])
     return file
 
 

@@ -132,9 +132,8 @@ class PoseList:
             InputError: Unreadable, or a column or number that is missing, unknown or wrong; the message names it.
         """
         try:
-            text = reading.text(path)
-        except OSError as error:
-            raise InputError(f"cannot read poses '{path}': {error.strerror}") from error
+            with reading.guarded(f"poses '{path}'"):
+                text = reading.text(path)
         except UnicodeDecodeError as error:
             raise InputError(f"poses '{path}' are not text in UTF-8; save the table as CSV") from error
         try:

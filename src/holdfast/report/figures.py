@@ -27,7 +27,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
-from holdfast.errors import StoreError
 from holdfast.files.output import replaced
 from holdfast.report.palette import AMBER as AMBER
 from holdfast.report.palette import BLUE as BLUE
@@ -135,10 +134,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
     with style():
         figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
         FigureCanvasAgg(figure).print_png(data)  # type: ignore[no-untyped-call]
-    try:
-        replaced(file, data.getvalue())
-    except OSError as error:
-        raise StoreError(f"cannot write picture '{file}': {error.strerror or error}; choose another path") from error
+    replaced(file, data.getvalue(), "picture")
     return file
 
 

@@ -11,7 +11,6 @@ from typing import ClassVar, Literal
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from holdfast.errors import StoreError
 from holdfast.files.output import replaced
 
 Cell = str | Markup
@@ -144,9 +143,5 @@ def write(page: Page, path: str | Path) -> Path:
         StoreError: The file cannot be written; what was there before is as it was.
     """
     file = Path(path)
-    text = render(page)
-    try:
-        replaced(file, text, errors="replace")
-    except OSError as error:
-        raise StoreError(f"cannot write report '{file}': {error.strerror or error}; choose another path") from error
+    replaced(file, render(page), "report", errors="replace")
     return file

@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 
 from holdfast import arms
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.output import replaced
 from holdfast.registry import INDICES, LAWS, Registry
@@ -125,10 +125,7 @@ def write(
         optimise=str(optimise).lower(),
         convergence=block,
     )
-    try:
-        replaced(path, text)
-    except OSError as error:
-        raise StoreError(f"cannot write study file '{path}': {error.strerror or error}; choose another path") from error
+    replaced(path, text, "study file")
     try:
         read(path)
     except InputError:

@@ -154,8 +154,3 @@ def _print(found: Designs) -> None:
         f"{escape(found.index.name)}, reach {number(found.reach[found.front[0]])} to {number(found.reach[found.front[-1]])} m",
         soft_wrap=True,
     )
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("design")(command)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import typer
-
 from holdfast.cli.measure_options import IndexOption
 from holdfast.cli.options import (
     ArmArgument,
@@ -48,8 +46,3 @@ def command(
     configurations = [read_configuration(model, text, degrees) for text in q]
     measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
     print_each(measure, configurations, json_, index_values, show_index)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("index")(command)

@@ -156,8 +156,3 @@ def _targets(arm: Arm, task: Task, texts: Sequence[str], file: Path | None) -> A
         else:
             target[:3, 3] = found
     return targets
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("optimise")(command)

@@ -59,8 +59,3 @@ def command(
     configurations = [read_configuration(model, text, degrees) for text in q]
     chosen = by_name(measure, model, None if weights is None else read_weights("--weights", weights))
     print_each(chosen, configurations, json_, susceptibility_values, show_susceptibility)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("susceptibility")(command)

@@ -18,7 +18,6 @@ from holdfast.cli.options import (
     read_configuration,
     read_joint,
 )
-from holdfast.errors import StoreError
 from holdfast.files.output import writing
 from holdfast.present.printing import console, number, print_json, print_written
 
@@ -166,11 +165,8 @@ def _write(result: FreeSwing, path: Path) -> None:
     unit = result.arm.joints[result.joint].unit
     header = f"time_s,moved_{unit},speed_{unit}_s,tool_x_m,tool_y_m,tool_z_m"
     rows = np.column_stack([result.time, result.angle, result.velocity, result.tool_position])
-    try:
-        with writing(path) as file:
-            np.savetxt(file, rows, fmt="%.9g", delimiter=",", header=header, comments="")
-    except OSError as error:
-        raise StoreError(f"cannot write motion '{path}': {error.strerror or error}; choose another path") from error
+    with writing(path, "motion") as file:
+        np.savetxt(file, rows, fmt="%.9g", delimiter=",", header=header, comments="")
 
 
 def _draw(result: FreeSwing, path: Path) -> None:
@@ -200,8 +196,3 @@ def _draw(result: FreeSwing, path: Path) -> None:
     friction = f"{result.damping:.3g} {'N s/m' if slides else 'N m s/rad'}"
     caption = f"{result.arm.name}: free swing of {failed.name}, all other joints held, friction {friction}, MuJoCo"
     save_png(motion_figure(panels, caption), path)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command()(swing)

@@ -25,8 +25,8 @@ from holdfast.cli.options import (
     read_pose,
     read_task,
 )
-from holdfast.errors import InputError, StoreError
-from holdfast.files.output import replaced
+from holdfast.errors import InputError
+from holdfast.files.output import made, replaced
 from holdfast.grammar import is_number
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import console, number, plain, print_json, print_written
@@ -261,12 +261,8 @@ def _replay_data(replay: Replay) -> dict[str, Any]:
 def _folder(result: Recovery, out: Path) -> list[Path]:
     from holdfast.report.figures import save_png
 
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        file = out / "recovery.json"
-        replaced(file, json.dumps(plain(_data(result)), indent=2) + "\n")
-    except OSError as error:
-        raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
+    file = made(out) / "recovery.json"
+    replaced(file, json.dumps(plain(_data(result)), indent=2) + "\n")
     files = [file, save_png(result.figure(), out / "motion.png", 150)]
     if len(result.q):
         files.append(result.save(out / "waypoints.csv"))
@@ -364,8 +360,3 @@ def _print(result: Recovery, files: list[Path]) -> None:
             table.add_row(escape(joint.name), *cells, "locked" if joint.name in result.locked else "")
         out.print(table)
     print_written(out, files)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("recover")(command)

@@ -26,7 +26,7 @@ from holdfast.cli.options import (
     read_target,
     read_task,
 )
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.files.output import writing
 from holdfast.present.printing import console, number, print_json, print_written
 
@@ -178,11 +178,8 @@ def _write(arm: Arm, motion: SelfMotion, degrees: bool, file: Path) -> None:
     curve = np.repeat(np.arange(1, len(sizes) + 1), sizes)
     rows = np.column_stack([curve, np.where(turning, np.rad2deg(motion.q), motion.q)])
     header = ",".join(["curve", *(f"{j.name}_{u}" for j, u in zip(arm.joints, units, strict=True))])
-    try:
-        with writing(file) as stream:
-            np.savetxt(stream, rows, fmt=["%d", *["%.12g"] * arm.n], delimiter=",", header=header, comments="")
-    except OSError as error:
-        raise StoreError(f"cannot write points '{file}': {error.strerror or error}; choose another path") from error
+    with writing(file, "points") as stream:
+        np.savetxt(stream, rows, fmt=["%d", *["%.12g"] * arm.n], delimiter=",", header=header, comments="")
 
 
 def _draw(arm: Arm, motion: SelfMotion, arcs: list[Arcs], file: Path) -> None:
@@ -297,9 +294,3 @@ def _print_region(region: TolerantWorkspace, plot: Path | None) -> None:
     if not region.exact:
         out.print("values between the tried ones, and configurations that were not found, are not in the interval")
     print_written(out, [plot])
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command("self-motion")(command)
-    app.command("tolerant-workspace")(tolerant_workspace)

@@ -50,8 +50,3 @@ def command(
         f"{escape(', '.join(x.name for x in files[1:]))}",
         soft_wrap=True,
     )
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("export")(command)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from holdfast.engine.study import Study
     from holdfast.studies.study_file import StudyFile
 
-group = typer.Typer(
+command = typer.Typer(
     name="study",
     help="Studies that outgrow one machine, one night or one crash: sweeps of arms, indices, regions and laws.",
     no_args_is_help=True,
@@ -33,7 +33,7 @@ FoldersArgument = Annotated[
 ]
 
 
-@group.command()
+@command.command()
 def new(
     file: FileArgument,
     arm: Annotated[list[str], typer.Option("--arm", help="Built-in name or arm file; may be given again.", show_default=False)],
@@ -67,7 +67,7 @@ def new(
     typer.echo(f"written: {written}")
 
 
-@group.command()
+@command.command()
 def run(
     file: FileArgument,
     out: Annotated[
@@ -128,7 +128,7 @@ def run(
         raise KeyboardInterrupt
 
 
-@group.command()
+@command.command()
 def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
     """How far a study is, also while it runs.
 
@@ -144,7 +144,7 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
         _print_status(study)
 
 
-@group.command()
+@command.command()
 def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
     """Read every chunk and compare its checksum. Damaged chunks are named, and computed again by the next run.
 
@@ -188,7 +188,7 @@ def _print_sound(folder: Path, study: Study) -> None:
         typer.echo(f"nothing is there of {len(empty)} cell{'s' * (len(empty) > 1)}: {', '.join(empty[:3])}{more}")
 
 
-@group.command()
+@command.command()
 def merge(
     folders: FoldersArgument,
     out: Annotated[
@@ -237,7 +237,7 @@ def merge(
     _print_status(study)
 
 
-@group.command()
+@command.command()
 def report(
     folders: FoldersArgument,
     to: Annotated[Path | None, typer.Option("--to", help="HTML file. Default: DIR/report.html.", show_default=False)] = None,
@@ -412,8 +412,3 @@ def _bytes(count: float) -> str:
             return f"{count:.3g} {unit}"
         count /= 1000
     return f"{count:.3g} TB"
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.add_typer(group)

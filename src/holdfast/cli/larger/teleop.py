@@ -27,12 +27,12 @@ ProtocolArgument = Annotated[
     str, typer.Argument(metavar="[PROTOCOL]", help="goel2003, goel2003-smooth, or a protocol file (YAML).")
 ]
 
-app = typer.Typer(
+command = typer.Typer(
     no_args_is_help=True, help="With a person at the stick: tasks, protocol, sessions and statistics.", add_completion=False
 )
 
 
-@app.command()
+@command.command()
 def run(
     out: Annotated[Path, typer.Option("--out", help="New folder for the records.", show_default=False)],
     simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
@@ -60,7 +60,7 @@ def run(
         _print_experiment(r)
 
 
-@app.command()
+@command.command()
 def analyse(
     folder: FolderArgument,
     groups: Annotated[int, typer.Option("--groups", min=2, help="Groups of difficulty that the tasks are sorted into.")] = 3,
@@ -92,7 +92,7 @@ def analyse(
     typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} tables as CSV beside it")
 
 
-@app.command()
+@command.command()
 def replay(folder: FolderArgument) -> None:
     """Drive the arm with the recorded commands again: does every trial give the same path?
 
@@ -113,7 +113,7 @@ def replay(folder: FolderArgument) -> None:
         raise typer.Exit(DIFFERS)
 
 
-@app.command()
+@command.command()
 def verify(folder: FolderArgument) -> None:
     """Is every trial, rating, answer and event as it was written? Compares the records with their digests.
 
@@ -137,7 +137,7 @@ def verify(folder: FolderArgument) -> None:
     typer.echo(f"sound: {found.trials} trials, {found.links} digests; all together {found.whole or 'none'}")
 
 
-@app.command()
+@command.command()
 def backup(
     folder: FolderArgument,
     out: Annotated[Path, typer.Argument(metavar="OUT", help="New folder for the copy.", show_default=False)],
@@ -153,7 +153,7 @@ def backup(
     typer.echo(f"written: {out}; sound: {found.trials} trials, {found.links} digests")
 
 
-@app.command()
+@command.command()
 def export(
     folder: FolderArgument,
     out: Annotated[Path | None, typer.Option("--out", help="Folder for the tables.", show_default="DIR/export")] = None,
@@ -168,7 +168,7 @@ def export(
         typer.echo(f"written: {file}")
 
 
-@app.command()
+@command.command()
 def allocation(
     protocol: ProtocolArgument = "goel2003",
     subjects: Annotated[
@@ -196,7 +196,7 @@ def allocation(
         typer.echo(f"{k + 1:7d}  {k % len(order) + 1:3d}  {words}")
 
 
-@app.command()
+@command.command()
 def subjects(
     folder: FolderArgument,
     drop: Annotated[
@@ -225,7 +225,7 @@ def subjects(
         _print_subjects(records)
 
 
-@app.command("protocol")
+@command.command("protocol")
 def protocol_(
     protocol: ProtocolArgument = "goel2003",
     write: Annotated[
@@ -246,9 +246,9 @@ def protocol_(
         typer.echo(f"written: {chosen.write(write)}")
 
 
-app.command()(teleop_serve.serve)
-app.command()(teleop_serve.texts)
-app.command()(teleop_tasks.tasks)
+command.command()(teleop_serve.serve)
+command.command()(teleop_serve.texts)
+command.command()(teleop_tasks.tasks)
 
 
 # ---- out -----------------------------------------------------------------------------------------------------------------
@@ -343,8 +343,3 @@ def _print_protocol(p: Protocol) -> None:
         away = float(((p.tasks.target[k] - start[k]) ** 2).sum() ** 0.5)
         tasks.add_row(str(k + 1), escape(joint), f"{away:.3f}", escape(note))
     out.print(tasks)
-
-
-def add(root: typer.Typer) -> None:
-    """Register the commands."""
-    root.add_typer(app, name="teleop")

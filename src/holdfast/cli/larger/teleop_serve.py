@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from holdfast.errors import HoldfastError, InputError
+from holdfast.files import reading
 
 _TLS = """Between computers use TLS, as browsers allow gamepads and passwords only there; for example with Caddy in front:
   caddy reverse-proxy --from {host} --to 127.0.0.1:{port}
@@ -89,12 +90,10 @@ def _token(given: str | None, file: Path | None) -> str | None:
         return given
     if given is not None:
         raise InputError("there is a token in --token or HOLDFAST_TOKEN, and a --token-file; give one of them")
+    with reading.guarded(f"--token-file: '{file}'"), file.open("rb") as stream:
+        first = stream.readline(1000)
     try:
-        with file.open("rb") as stream:
-            first = stream.readline(1000)
         return first.decode("ascii").strip()
-    except OSError as error:
-        raise InputError(f"--token-file: '{file}' cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"--token-file: the first line of '{file}' is not text; write the token there") from error
 

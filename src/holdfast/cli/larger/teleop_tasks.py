@@ -11,8 +11,7 @@ import typer
 
 from holdfast.cli.larger.stages import working
 from holdfast.cli.options import JsonOption, read_arm, read_task
-from holdfast.errors import StoreError
-from holdfast.files.output import replaced
+from holdfast.files.output import made, replaced
 from holdfast.present.printing import console, number, print_json
 
 if TYPE_CHECKING:
@@ -116,12 +115,8 @@ def _folder(
     from holdfast.teleop.records.tables import bank_table
 
     every = np.append(chosen, np.array(apart, dtype=np.int64)).astype(np.int64)
-    file = out / "bank.csv"
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        replaced(file, csv_text(bank_table(bank, arm, cells)))
-    except OSError as error:
-        raise StoreError(f"--out: folder '{out}' cannot be written: {error.strerror or error}; choose another") from error
+    file = made(out) / "bank.csv"
+    replaced(file, csv_text(bank_table(bank, arm, cells)))
     protocol = _protocol(spec, arm, rows, bank, every, seed)
     figure = bank_figure(bank, cells, chosen, np.array(apart, dtype=np.int64))
     return [file, protocol.write(out / "protocol.yaml"), save_png(figure, out / "bank.png", 150)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import typer
-
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
 from holdfast.present.printing import console, print_json
 
@@ -39,9 +37,3 @@ def describe(
         print_json(to_dict(model))
     else:
         show(model, console())
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command("arms")(command)
-    app.command()(describe)

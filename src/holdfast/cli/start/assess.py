@@ -236,9 +236,3 @@ def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
     from holdfast.regions.region import Region, default_region
 
     return default_region(spec, arm) if path is None else Region.load(path)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command("assess")(command)
-    app.command()(report)

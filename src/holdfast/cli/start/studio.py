@@ -206,8 +206,3 @@ def read_state(
         region=region,
         time=time,
     )
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("studio")(command)

@@ -241,8 +241,3 @@ def _print_costs(c: LawComparison, costs: list[dict[str, Any]]) -> None:
         table.add_row(escape(r["law"]), *cells)
     out.print(table)
     out.print("medians over the motions that arrive with every law", soft_wrap=True)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command()(compare)

@@ -108,8 +108,3 @@ def _one(option: str, text: str) -> float:
     if values.size != 1:
         raise InputError(f"{option} has {values.size} numbers after @; give one time")
     return float(values[0])
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("simulate")(command)

@@ -303,9 +303,3 @@ def _spread(values: Any) -> str:
 
 def _complex(value: complex) -> str:
     return number(value.real) if abs(value.imag) < 1e-9 else f"{number(value.real)}{value.imag:+.3g}i"
-
-
-def add(app: typer.Typer) -> None:
-    """Register the commands."""
-    app.command()(stationary)
-    app.command()(basins)

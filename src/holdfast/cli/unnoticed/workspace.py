@@ -266,8 +266,3 @@ def _map(laws: list[Law], options: dict[str, Any], out: Path | None, json_: bool
     show = console()
     for line in [*told, *(f"written: {file}" for file in files)]:
         show.print(escape(line), soft_wrap=True)
-
-
-def add(app: typer.Typer) -> None:
-    """Register the command."""
-    app.command("workspace")(command)

@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.convergence.law_comparison import ANY, HEALTHY, LawComparison
-from holdfast.errors import StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import made, writing
 from holdfast.files.spreadsheet import cell
 from holdfast.probability.intervals import Difference
 from holdfast.provenance import versions
@@ -401,15 +400,12 @@ def save(c: LawComparison, folder: Path) -> list[Path]:
     if pairs(c):
         tables["gains"] = gain_rows(c)
     written = []
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, rows in tables.items():
-            file = folder / f"{name}.csv"
-            with writing(file) as stream:
-                writer = csv.writer(stream)
-                writer.writerow(map(cell, rows[0]))
-                writer.writerows([cell(row[name]) for name in rows[0]] for row in rows)
-            written.append(file)
-    except OSError as error:
-        raise StoreError(f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder") from error
+    made(folder)
+    for name, rows in tables.items():
+        file = folder / f"{name}.csv"
+        with writing(file) as stream:
+            writer = csv.writer(stream)
+            writer.writerow(map(cell, rows[0]))
+            writer.writerows([cell(row[name]) for name in rows[0]] for row in rows)
+        written.append(file)
     return written

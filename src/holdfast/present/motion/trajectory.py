@@ -9,39 +9,48 @@ import numpy as np
 from markupsafe import Markup
 
 from holdfast.errors import ArmError
+from holdfast.files.output import made
 from holdfast.motion.slowness import SlowMotion
 from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
+from holdfast.notice import says
 from holdfast.present.stick_figure import corners, projections
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
 from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
-from holdfast.words import as_given
+from holdfast.words import as_given, capitalised
 
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
 _SERIOUS = {"hand slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
 
 
-def write(t: Trajectory, path: Path, command: str = "", torque_bound: float | None = None) -> Path:
-    """Write the report; see :meth:`holdfast.Trajectory.report`."""
-    return page.write(build(t, command, torque_bound), path)
+@says("drawing the report")
+def write(t: Trajectory, path: Path, command: str = "") -> Path:
+    """The motion as a page."""
+    return page.write(build(t, command), path)
 
 
-def build(t: Trajectory, command: str = "", torque_bound: float | None = None) -> Page:
-    """The report as blocks, before it becomes HTML."""
-    slowness = None if torque_bound is None else t.slowness(torque_bound)  # first: it may be refused
+def save(t: Trajectory, folder: Path, command: str = "") -> list[Path]:
+    """trajectory.csv and report.html."""
+    folder = made(folder)
+    return [t.to_csv(folder / "trajectory.csv"), t.report(folder / "report.html", command=command)]
+
+
+def build(t: Trajectory, command: str = "") -> Page:
+    """The page as blocks."""
+    slowness = None if t.torque_bound is None else t.slowness(t.torque_bound)  # first: it may be refused
     f = _Facts(t)
     alerts = [] if t.on_path else [Callout(f"{t.headline}.", "bad")]
     parts = [
         Section("Key numbers", f.numbers()),
         Section("The motion", f.motion()),
-        Section(f"{_upper(t.objective.name)} along the path", f.criterion()),
+        Section(f"{capitalised(t.objective.name)} along the path", f.criterion()),
         Section("What happened", f.events()),
         Section("Joint rates", f.rates()),
         Section("Joint positions", f.joints()),
-        Section("Torques, and how slow is slow enough", f.torques(torque_bound, slowness)),
+        Section("Torques, and how slow is slow enough", f.torques(slowness)),
         Section("Curvature along the self-motion", f.curvature()),
         Section("Where the hand was", f.hand()),
         Section("How it was computed", f.method(command)),
@@ -56,10 +65,6 @@ def build(t: Trajectory, command: str = "", torque_bound: float | None = None) -
     )
 
 
-def _upper(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
 class _Facts:
     def __init__(self, t: Trajectory) -> None:
         self.t = t
@@ -70,7 +75,7 @@ class _Facts:
     def headline(self) -> str:
         t = self.t
         unit = f" ({t.objective.unit})" if self.unit else ""
-        hand = _upper(t.headline) if t.on_path else "The hand does not stay on its path"
+        hand = capitalised(t.headline) if t.on_path else "The hand does not stay on its path"
         return (
             f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
             f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
@@ -130,7 +135,7 @@ class _Facts:
         """The objective, and each joint's measure."""
         t = self.t
         lines = [Line(t.value, t.method, "first")]
-        caption = f"{_upper(t.objective.name)} at {len(t.time):,} samples; {t.objective.better} is better."
+        caption = f"{capitalised(t.objective.name)} at {len(t.time):,} samples; {t.objective.better} is better."
         if t.best_value is not None:
             lines.append(Line(t.best_value, "best of each pose", "compared"))
             caption += (
@@ -154,9 +159,8 @@ class _Facts:
             values = measure.by_joint(t.q)
             units = ", ".join(dict.fromkeys(measure.joint_unit))
             each = [Line(v, j.name) for v, j in zip(values.T, t.arm.joints, strict=True)]
-            panels.append(
-                Timeline(each, f"{measure.formula.name}, {units}", f"{_upper(measure.formula.name)} of each joint if it fails")
-            )
+            name = measure.formula.name
+            panels.append(Timeline(each, f"{name}, {units}", f"{capitalised(name)} of each joint if it fails"))
         if len(panels) > 1:
             caption += " Below: the signed measure of each joint, without weights."
         return [self._figure(panels, f"{t.objective.name} along the path", caption)]
@@ -192,7 +196,7 @@ class _Facts:
         image = small_multiples(t.time, panels, "Joint positions over time")
         return [Picture(image, "Joint positions; dashed: a limit, where one is near.")]
 
-    def torques(self, bound: float | None, slowness: list[SlowMotion] | None) -> list[Block]:
+    def torques(self, slowness: list[SlowMotion] | None) -> list[Block]:
         """Torques that hold the arm, and those of the motion at three speeds."""
         t = self.t
         try:
@@ -232,7 +236,7 @@ class _Facts:
                 rows,
                 ("joint", "time scale", "duration, s", "decided at, s"),
                 frozenset({1, 2, 3}),
-                caption=f"{verdict}: to stay within {bound:g} N m (N) of the gravity torque it must take at least "
+                caption=f"{verdict}: to stay within {t.torque_bound:g} N m (N) of the gravity torque it must take at least "
                 f"{worst.time_scale:.3g} times as long. Eq. (6).",
             )
         )
@@ -289,7 +293,7 @@ class _Facts:
                 Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,
                 f"{e.start:.4g}",
                 f"{e.end:.4g}",
-                _upper(e.text.split(": ", 1)[1]),  # the times have columns of their own
+                capitalised(e.text.split(": ", 1)[1]),  # the times have columns of their own
             ]
             for e in t.events
         ]

@@ -10,11 +10,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
-from holdfast.errors import StoreError
-from holdfast.files.output import writing
+from holdfast.files.output import made, writing
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
-from holdfast.present.results import made
 from holdfast.present.stick_figure import corners, projections
 from holdfast.provenance import versions
 from holdfast.report import page
@@ -57,11 +55,8 @@ def to_csv(runs: Runs, file: File, k: int) -> File:
     time = "time_cycles" if runs.cycles else "time_s"
     header = ",".join([time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"])
     rows = np.column_stack([path.time, path.q, path.x, path.error])
-    try:
-        with writing(file) as stream:
-            np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
-    except OSError as error:
-        raise StoreError(f"cannot write motion '{file}': {error.strerror or error}; choose another path") from error
+    with writing(file, "motion") as stream:
+        np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
     return file
 
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import StoreError
 from holdfast.files.output import writing
 from holdfast.files.spreadsheet import cell
 from holdfast.indices.index import Index
@@ -163,14 +162,11 @@ def to_csv(optima: Optima, path: Path) -> Path:
     columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
     facts = (found.value_before, found.value, found.starts, found.agreeing, found.position_error, found.rotation_error)
     rows = np.column_stack([*facts, found.q])
-    try:
-        with writing(path) as file:
-            table = csv.writer(file)
-            table.writerow(map(cell, columns + names))
-            for k, row in enumerate(rows):
-                table.writerow([k + 1, _name(found.status[k]), *[f"{x:.12g}" for x in row]])
-    except OSError as error:
-        raise StoreError(f"cannot write configurations '{path}': {error.strerror or error}; choose another path") from error
+    with writing(path, "configurations") as file:
+        table = csv.writer(file)
+        table.writerow(map(cell, columns + names))
+        for k, row in enumerate(rows):
+            table.writerow([k + 1, _name(found.status[k]), *[f"{x:.12g}" for x in row]])
     return path
 
 

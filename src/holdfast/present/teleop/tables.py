@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from holdfast.errors import StoreError
+from holdfast.files.output import made, replaced
 from holdfast.files.spreadsheet import csv_text
 from holdfast.teleop.analysis.observations import CAUSES
 from holdfast.teleop.trials.performance import MEASURES
@@ -120,12 +120,9 @@ def write_tables(analysis: Analysis, folder: Path) -> None:
     Raises:
         StoreError: The folder or a file cannot be written.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, table in {**analysis.tables, "data_dictionary": dictionary(analysis)}.items():
-            (folder / f"{name}.csv").write_text(csv_text(table, "NA"), encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise StoreError(f"cannot write tables into '{folder}': {error.strerror or error}; choose another folder") from error
+    made(folder)
+    for name, table in {**analysis.tables, "data_dictionary": dictionary(analysis)}.items():
+        replaced(folder / f"{name}.csv", csv_text(table, "NA"))
 
 
 def dictionary(analysis: Analysis) -> DataFrame:

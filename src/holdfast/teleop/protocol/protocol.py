@@ -203,12 +203,10 @@ class Protocol:
             StoreError: It cannot be written.
         """
         file = Path(path)
-        try:
-            replaced(file, self.text())
-            if self.arm_file is not None and not reading.exists(beside := file.parent / self.arm_spec):
+        replaced(file, self.text())
+        if self.arm_file is not None and not reading.exists(beside := file.parent / self.arm_spec):
+            with reading.guarded(f"'{self.arm_file}'", kind=StoreError):
                 replaced(beside, reading.raw(self.arm_file))
-        except OSError as error:
-            raise StoreError(f"cannot write '{file}': {error.strerror or error}; choose another path") from error
         return file
 
 

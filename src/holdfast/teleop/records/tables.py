@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.errors import HoldfastError, StoreError
+from holdfast.errors import HoldfastError
+from holdfast.files.output import guarded, made, replaced
 from holdfast.files.spreadsheet import csv_text
 from holdfast.notice import says
 from holdfast.teleop.bank.tasks import TaskBank, in_every_scenario
@@ -265,20 +266,16 @@ def export(records: Records, folder: str | Path, parquet: bool = False) -> list[
         "subjects": pd.DataFrame(subjects),
         "events": pd.DataFrame(events),
     }
-    path = Path(folder)
+    path = made(folder)
     written = []
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-        for name, table in tables.items():
-            file = path / f"{name}.{'parquet' if parquet else 'csv'}"
-            if parquet:
+    for name, table in tables.items():
+        file = path / f"{name}.{'parquet' if parquet else 'csv'}"
+        if parquet:
+            with guarded(path):
                 table.to_parquet(file, index=False)
-            else:
-                file.write_text(csv_text(table), encoding="utf-8", newline="\n")
-            written.append(file)
-        file = path / "dictionary.csv"
-        file.write_text(csv_text(dictionary(records.protocol)), encoding="utf-8", newline="\n")
-        written += [file, records.protocol.write(path / "protocol.yaml")]
-    except OSError as error:
-        raise StoreError(f"cannot write to '{path}': {error.strerror or error}; choose another folder") from error
-    return written
+        else:
+            replaced(file, csv_text(table))
+        written.append(file)
+    file = path / "dictionary.csv"
+    replaced(file, csv_text(dictionary(records.protocol)))
+    return [*written, file, records.protocol.write(path / "protocol.yaml")]

@@ -1,4 +1,4 @@
-"""Takes the pictures of "Run your own study": ``python tools/study_pictures.py`` writes docs/_static/study/.
+"""Takes the pictures of "Run your own experiment": ``python tools/experiment_pictures.py`` writes docs/_static/experiment/.
 
 Needs Chromium, Playwright and the extras ``teleop`` and ``stats``. A short experiment is served, and the person of
 the browser's tests sits down at it.
@@ -18,7 +18,7 @@ from PIL import Image
 from playwright.sync_api import Page
 
 ROOT = Path(__file__).parents[1]
-OUT = ROOT / "docs" / "_static" / "study"
+OUT = ROOT / "docs" / "_static" / "experiment"
 sys.path.insert(0, str(ROOT / "tests"))
 
 import chromium  # noqa: E402
@@ -77,7 +77,7 @@ def take(served: Served) -> None:
         watcher.goto(served.experimenter)
         watcher.locator("[data-testid=live][data-steering=true]").wait_for(timeout=120_000)
         # The same on every computer.
-        for testid, text in (("folder", "/home/lab/study"), ("station-url", "http://127.0.0.1:8000/")):
+        for testid, text in (("folder", "/home/lab/experiment"), ("station-url", "http://127.0.0.1:8000/")):
             watcher.get_by_test_id(testid).evaluate("(element, text) => { element.textContent = text; }", text)
         keep(watcher, "experimenter")
         keep(station.page, "trial")
@@ -89,7 +89,7 @@ def main() -> None:
     """Take them all."""
     OUT.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary) / "study"
+        folder = Path(temporary) / "experiment"
         begin(folder)
         with subprocess.Popen(command_line(folder), stdout=subprocess.PIPE, text=True) as process:
             try:

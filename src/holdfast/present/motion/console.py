@@ -1,0 +1,98 @@
+"""A motion along a path in numbers and words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.motion.trajectory import Array, Trajectory
+from holdfast.present.printing import number, plain
+from holdfast.words import capitalised
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def to_dict(t: Trajectory) -> dict[str, Any]:
+    """The motion by name, with its start, end and events."""
+    names = t.arm.joint_names
+    data: dict[str, Any] = {
+        **t.arm.entry(),
+        "objective": t.objective.name,
+        "better": t.objective.better,
+        "unit": t.objective.unit,
+        "task": t.task.name,
+        "method": t.method,
+        "gain": t.gain,
+        "seed": t.seed,
+        "duration_s": t.time[-1],
+        "samples": len(t.time),
+        "hand_on_path": t.on_path,
+        "position_error_m": np.nanmax(t.position_error),
+        "rotation_error_rad": np.nanmax(t.rotation_error),
+        "value": _facts(t.value),
+        "best_value": None if t.best_value is None else _facts(t.best_value),
+        "largest_rate_norm_per_s": t.peak_rate,
+        "largest_rate_norm_at_s": t.peak_time,
+        "q_start": dict(zip(names, t.q[0], strict=True)),
+        "q_end": dict(zip(names, t.q[-1], strict=True)),
+        "events": [{"kind": e.kind, "start_s": e.start, "end_s": e.end, "text": e.text} for e in t.events],
+    }
+    if t.torque_bound is not None:
+        scales = [s.time_scale for s in t.slowness(t.torque_bound)]
+        data["torque_bound"] = t.torque_bound
+        data["time_scale"] = max(scales)
+        data["time_scale_by_joint"] = dict(zip(names, scales, strict=True))
+    made: dict[str, Any] = plain(data)
+    return made
+
+
+def show(t: Trajectory, out: Console) -> None:
+    """Whether the end effector stays on its path, the objective as a table, and what happened."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    first, _, *rest = t.describe()
+    look = "bold" if t.on_path else "bold red"
+    out.print(f"[{look}]{escape(capitalised(first))}[/]", soft_wrap=True)
+    facts = _facts(t.value)
+    table = Table(escape(t.objective.name), *facts, box=None, pad_edge=False)
+    unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
+    table.add_row(escape(f"{t.method}{unit}"), *map(number, facts.values()))
+    if t.best_value is not None:
+        table.add_row("best of each pose", *map(number, _facts(t.best_value).values()))
+    out.print(table)
+    for line in rest:
+        out.print(escape(capitalised(line)), soft_wrap=True)
+    if t.torque_bound is not None:
+        _show_slowness(t, t.torque_bound, out)
+
+
+def _facts(values: Array) -> dict[str, float]:
+    return {
+        "start": values[0],
+        "end": values[-1],
+        "mean": np.nanmean(values),
+        "smallest": np.nanmin(values),
+        "largest": np.nanmax(values),
+    }
+
+
+def _show_slowness(t: Trajectory, bound: float, out: Console) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    slowness = t.slowness(bound)
+    worst = max(slowness, key=lambda s: s.time_scale)
+    joint = escape(t.arm.joint_names[slowness.index(worst)])
+    verdict = (
+        f"slow enough: it could take {number(worst.time_scale)} of its time"
+        if worst.satisfied
+        else f"too fast: it must take {number(worst.time_scale)} times as long ({number(worst.time_scale * t.time[-1])} s)"
+    )
+    out.print(f"For torques within {bound:g} N m of gravity's the motion is {verdict}; '{joint}' decides.", soft_wrap=True)
+    table = Table("joint", "time scale", "decided at", box=None, pad_edge=False)
+    for name, s in zip(t.arm.joint_names, slowness, strict=True):
+        table.add_row(escape(name), number(s.time_scale), f"{t.time[s.worst_time_index]:.4g} s" if s.time_scale > 0 else "")
+    out.print(table)
