@@ -1,4 +1,4 @@
-"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows the new name."""
+"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows what is new."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
-TABLE = re.compile(r"tests/oracles.py, in ORACLES\[\"(.+)\"\]")
+TABLE = re.compile(r"(.+), in ([A-Z]+)(?:\[\"(.+)\"\])?")
 INDEX = ["index", "planar-3r", "--task", "planar", "--q", "0.3 0.5 0.7", "--index"]
 LAW = ["simulate", "planar-3r", "--start", "0.3 0.5 0.7", "--target", "1.5,1.5", "--lock", "2", "--json", "--law"]
 WALKS = {
@@ -37,9 +37,9 @@ def steps(anchor):
 
 
 def write(folder, where, text):
-    """A new file, an entry of a table, or a line at the end of a stub."""
+    """A new file, an entry of a table or list, or a line at the end of a stub."""
     if found := TABLE.match(where):
-        file, head = folder / "tests/oracles.py", f'    "{found[1]}": {{'
+        file, head = folder / found[1], f'    "{found[3]}": {{' if found[3] else f"{found[2]} = ("
         whole = file.read_text(encoding="utf-8")
         assert head in whole
         first, rest = whole.split(head, 1)
@@ -52,20 +52,27 @@ def write(folder, where, text):
             out.write(text)
 
 
-@pytest.mark.parametrize("walk", WALKS)
-def test_the_walk(walk, tmp_path):
-    anchor, name, command, said, kind = WALKS[walk]
+@pytest.fixture
+def run(tmp_path):
+    """A call of a module in a copy of sources and tests: its exit code, and what it says."""
     for part in ("src", "tests"):
         shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     python = f"{tmp_path / 'src'}{os.pathsep}{tmp_path / 'tests'}"
     environment = {**os.environ, "PYTHONPATH": python, "HOLDFAST_BACKEND": "casadi", "NO_COLOR": "1", "COLUMNS": "200"}
 
-    def run(*words):
+    def call(*words):
         done = subprocess.run(
             [sys.executable, "-m", *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
         )
         return done.returncode, done.stdout + done.stderr
+
+    return call
+
+
+@pytest.mark.parametrize("walk", WALKS)
+def test_the_walk(walk, run, tmp_path):
+    anchor, name, command, said, kind = WALKS[walk]
 
     def tests(*chosen):
         return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "tests/test_registry.py", "-k", " or ".join(chosen))
@@ -89,3 +96,14 @@ def test_the_walk(walk, tmp_path):
     picked = ["-k", f"{name} or against_singular_values and (planar or rows)"] if kind == "index" else ["-k", "rates"]
     code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen, *picked)
     assert code == 0, told
+
+
+def test_the_walk_to_a_section_of_the_report(run, tmp_path):
+    file, line, test = steps("add-a-report-section")
+    for step in (file, line, test):
+        write(tmp_path, *step)
+    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", test[0])
+    assert code == 0, told
+    code, told = run("holdfast", "assess", "panda", "--task", "position", "--poses", "9", "--out", "results")
+    assert code == 0, told
+    assert "How near the joints are to their limits" in (tmp_path / "results/report.html").read_text(encoding="utf-8")

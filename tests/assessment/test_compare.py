@@ -11,6 +11,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arms.tool import attachment, attachment_text
+from holdfast.assessment import load_comparison
 from holdfast.present.assessment.comparison import build
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
@@ -152,6 +153,28 @@ def test_the_page(comparison, runs, tmp_path):
     html = hf.compare_assessments(lost).report(tmp_path / "t.html").read_text(encoding="utf-8")
     check(html)
     assert "No candidate keeps a relative manipulability" in html
+
+
+def test_a_folder_of_it(runs, tmp_path):
+    two = hf.compare_assessments(runs[:2], ["straight", "side"], 0.05, tools=[None, "bent"])
+    out = tmp_path / "cell"
+    assert two.save(out) == [out / "comparison.json", out / "report.html"]
+    assert sorted(p.name for p in out.iterdir()) == ["comparison.json", "report.html", "side", "straight"]
+    back = load_comparison(out, 0.05)
+    assert (back.names, back.tools, back.table, back.notes) == (two.names, two.tools, two.table, two.notes)
+    assert hf.load(out / "side").arm.fingerprint == SIDE.fingerprint
+    with pytest.raises(hf.InputError, match="candidate 'a/b' is not the name of a folder"):
+        hf.compare_assessments(runs[:2], ["a/b", "c"]).save(tmp_path / "other")
+    assert not (tmp_path / "other").exists()
+    with pytest.raises(hf.InputError, match="there are 1 tools for 2 assessments"):
+        hf.compare_assessments(runs[:2], ["a", "b"], tools=["x"])
+
+
+def test_what_it_says_in_sentences(comparison):
+    pose, position, *notes = comparison.describe()
+    assert pose.startswith(f"Task pose: {comparison.best('pose')} has the largest probability")
+    assert position.startswith("Task position: position has")
+    assert notes == comparison.notes
 
 
 def test_six_numbers_of_a_tool(rng):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -245,6 +247,15 @@ def test_a_run_of_which_nothing_is_done_yet(region: hf.Region, tmp_path: Path) -
     assert headline(html) == "Nothing has been computed yet."
     assert "not kept" not in html
     save_png(a.figures()["overview"], tmp_path / "o.png")
+
+
+def test_every_section_is_in_the_list_and_has_what_the_page_asks_for() -> None:
+    folder = Path(report.__file__).parent / "sections"
+    assert sorted(file.stem for file in folder.glob("[a-z]*.py")) == sorted(report.SECTIONS)
+    for name in report.SECTIONS:
+        section = import_module(f"holdfast.present.assessment.sections.{name}")
+        assert isinstance(section.TITLE, str)
+        assert next(iter(inspect.signature(section.blocks).parameters.values())).annotation == "Facts"
 
 
 def test_unwritable_path(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -141,6 +142,10 @@ def test_it_is_the_library(ask, panda):
     np.testing.assert_array_equal([x["after"] for x in row["measures"]["torque"].values()], torque.by_joint(found))
     np.testing.assert_array_equal([x["before"] for x in row["measures"]["torque"].values()], torque.by_joint(q))
     assert (row["starts"], row["agreeing"], row["status"]) == (expected.starts, expected.agreeing, "ok")
+    clear = hf.clearance.Clearance.by_default(panda)
+    same = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20, clearance=clear, initial=q)
+    assert json.loads(json.dumps(same.to_dict())) == data
+    assert same.describe()[0].endswith(f"{torque(q):.3f} before, {float(same.value):.3f} after.")
 
 
 def test_a_pose_of_a_urdf_file_as_numbers(ask):
@@ -185,6 +190,13 @@ def test_poses_from_a_file_and_results_to_one(ask, cli, tmp_path, panda, rng):
     assert (code, err) == (0, "")
     for part in ("pose before after starts agreeing", "not found: no solution was found", "first configuration found"):
         assert part in words, part
+
+
+def test_configurations_to_compare_with_are_as_many_as_poses(panda):
+    poses = panda.forward_kinematics(np.zeros((2, 7)))
+    for wrong in (np.zeros(7), np.zeros((3, 7))):
+        with pytest.raises(hf.InputError, match="give one configuration of each pose"):
+            hf.optimise(panda, poses, sus.torque(panda), starts=1, initial=wrong)
 
 
 def test_a_person_reads_joints_in_rad_and_degrees(cli):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -38,7 +38,7 @@ def assess(
     store: str | Path | None = None,
     keep: bool | None = None,
     progress: Progress | None = None,
-    task: str | Task | None = None,
+    task: str | Task | Sequence[str] | None = None,
     optimise: bool = False,
     after_lock: bool = False,
     lock_at: Mapping[str | int, float] | None = None,

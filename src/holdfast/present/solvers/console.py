@@ -17,7 +17,7 @@ from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.present.arm.console import print_outside, shown_position
 from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import number
+from holdfast.present.printing import number, plain
 from holdfast.solvers.optima import Optima
 from holdfast.status import Status
 
@@ -64,7 +64,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
             },
         }
 
-    return {
+    data = {
         **optima.arm.entry(),
         "objective": asked or _wish(optima),
         "better": optima.objective.better,
@@ -75,6 +75,8 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
         "clearance": None if optima.clearance is None else shape_summary(optima.clearance, optima.margin),
         "poses": [row(k) for k in range(len(found.poses))],
     }
+    made: dict[str, Any] = plain(data)
+    return made
 
 
 def show(optima: Optima, out: Console, asked: str = "") -> None:
