@@ -410,7 +410,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.assessment import load
     from holdfast.clearance import Capsules
     from holdfast.cli.options import read_weights
-    from holdfast.designs.memory import Memory
+    from holdfast.designs.memory import BEFORE, FILE, Memory
     from holdfast.engine import Threads
     from holdfast.paths.path import in_file as read_path
     from holdfast.paths.path_file import pose_table
@@ -438,7 +438,11 @@ def kinds(root: Path) -> dict[str, Kind]:
     whole = study.Study.create(root / "study", asked.name, asked.seed, asked.cells, asked.text)
     whole.run(asked.cells, Threads(1))
     plan = {"seed": 1, "vary": ["a1"]}
-    Memory(root / "search", plan).part("one", lambda: {"x": np.arange(6.0).reshape(2, 3)})
+    (root / "before").mkdir()
+    for name in ("search", "before"):
+        Memory(root / name, plan).part("one", lambda: {"x": np.arange(6.0).reshape(2, 3)})
+    lines = [line.rpartition(b" ")[0] for line in (root / "before" / FILE).read_bytes().splitlines()]
+    (root / "before" / BEFORE).write_bytes(b"\n".join([*lines, b""]))
 
     def study_of(_: Path) -> object:
         s = study.Study.open(root / "study")
@@ -475,7 +479,8 @@ def kinds(root: Path) -> dict[str, Kind]:
         "made.json": one(root / "study" / "made.json", of_json, study_of),
         "run.json of a cell": one(cell / "run.json", of_json, study_of),
         "journal of a cell": one(cell / "done.journal", lambda x, r: of_bytes(x, r), study_of),
-        "search.jsonl": one(root / "search" / "search.jsonl", of_json_lines, lambda path: Memory(path.parent, plan)),
+        BEFORE: one(root / "before" / BEFORE, of_json_lines, lambda path: Memory(path.parent, plan)),
+        FILE: one(root / "search" / FILE, lambda x, r: of_bytes(x, r), lambda path: Memory(path.parent, plan)),
     }
 
 

@@ -116,6 +116,32 @@ def test_chain_is_the_same_in_every_frame(arm, rng):
             np.testing.assert_allclose(np.cross(off, moved[:, :3, :3] @ joint.axis), 0, atol=5e-14)
 
 
+def test_frames_are_the_products_of_the_joints_motions_and_those_of_pinocchio(arm, rng):
+    pin = pytest.importorskip("pinocchio")
+    q = rng.uniform(-3, 3, (5, arm.n))
+    found = arm.frames(q)
+    assert found.shape == (5, arm.n + 2, 4, 4)
+    np.testing.assert_allclose(found, np.stack(oracles.frames(arm, q), axis=1), atol=4e-14)
+    np.testing.assert_array_equal(arm.frames(q[3]), found[3])
+    assert arm.frames(q[:0]).shape == (0, arm.n + 2, 4, 4)
+    model, tool = oracles.to_pinocchio(arm)
+    data = model.createData()
+    for row, frames in zip(q, found, strict=True):
+        pin.framesForwardKinematics(model, data, row)
+        np.testing.assert_allclose(frames[1:-1], [placement.homogeneous for placement in list(data.oMi)[1:]], atol=1e-12)
+        np.testing.assert_allclose(frames[-1], data.oMf[tool].homogeneous, atol=1e-12)
+    for k, joint in enumerate(arm.joints):
+        alone = np.array([joint.motion(x) for x in q[:, k]])
+        np.testing.assert_allclose(found[:, k] @ joint.origin @ alone, found[:, k + 1], atol=4e-14)
+
+
+def test_frames_and_axes_at_zero(arm):
+    zero = arm.frames(np.zeros(arm.n))
+    np.testing.assert_allclose(arm.frames_at_zero, zero[1:], atol=1e-14)
+    axes = [t[:3, :3] @ joint.axis for t, joint in zip(zero[1:], arm.joints, strict=False)]
+    np.testing.assert_allclose(arm.axes_at_zero, axes, atol=1e-14)
+
+
 def test_frames_of_bodies_and_joints_are_the_same_in_every_frame(arm, rng):
     q = rng.uniform(-3, 3, (4, arm.n))
     made = oracles.frames(arm, q)[:-1]

@@ -9,7 +9,6 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.scale import length_unit
 from holdfast.arm.task import as_task
 from holdfast.control import Damped, Pseudoinverse
 from holdfast.convergence.detours import healthy_cost
@@ -57,10 +56,10 @@ def bent(generator):
 def test_the_unit_is_a_power_of_two_near_the_arm_s_links_end_to_end(bent, size):
     arm = scaled(bent, size)
     whole = sum(np.linalg.norm(j.origin[:3, 3]) for j in arm.joints[1:]) + np.linalg.norm(arm.tool[:3, 3])
-    unit = length_unit(arm)
+    unit = arm.length_unit
     assert np.log2(unit) == np.round(np.log2(unit))
     assert 2**-0.5 <= unit / whole <= 2**0.5
-    assert length_unit(hf.Arm("point", (hf.Joint("a", "continuous", np.eye(4), [0, 0, 1]),))) == 1.0
+    assert hf.Arm("point", (hf.Joint("a", "continuous", np.eye(4), [0, 0, 1]),)).length_unit == 1.0
 
 
 def cases(rng, arm, task, count):

@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
-TABLE = re.compile(r"(.+), in ([A-Z]+)(?:\[\"(.+)\"\])?")
+TABLE = re.compile(r"(\S+), in \w+(?:\[(\".+\")\]|, after (\".+\"))")
 INDEX = ["index", "planar-3r", "--task", "planar", "--q", "0.3 0.5 0.7", "--index"]
 LAW = ["simulate", "planar-3r", "--start", "0.3 0.5 0.7", "--target", "1.5,1.5", "--lock", "2", "--json", "--law"]
 WALKS = {
@@ -39,12 +39,12 @@ def steps(anchor):
 def write(folder, where, text):
     """A new file, an entry of a table or list, or a line at the end of a stub."""
     if found := TABLE.match(where):
-        file, head = folder / found[1], f'    "{found[3]}": {{' if found[3] else f"{found[2]} = ("
-        whole = file.read_text(encoding="utf-8")
-        assert head in whole
+        file = folder / found[1]
+        whole, entry = file.read_text(encoding="utf-8"), f"    {found[2] or found[3]}"
+        (head,) = [start for start in (f"{entry}: ", f"{entry},") if start in whole]
         first, rest = whole.split(head, 1)
-        comment, _, others = rest.partition("\n")
-        file.write_text(f"{first}{head}{comment}\n{text}{others}", encoding="utf-8")
+        line, _, others = rest.partition("\n")
+        file.write_text(f"{first}{head}{line}\n{text}{others}", encoding="utf-8")
     else:
         file = folder / where
         assert file.exists() == where.endswith(".pyi")
@@ -54,7 +54,7 @@ def write(folder, where, text):
 
 @pytest.fixture
 def run(tmp_path):
-    """A call of a module in a copy of sources and tests: its exit code, and what it says."""
+    """A call of a module in a copy of sources and tests: its exit code, and what it said."""
     for part in ("src", "tests"):
         shutil.copytree(ROOT / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
@@ -107,3 +107,22 @@ def test_the_walk_to_a_section_of_the_report(run, tmp_path):
     code, told = run("holdfast", "assess", "panda", "--task", "position", "--poses", "9", "--out", "results")
     assert code == 0, told
     assert "How near the joints are to their limits" in (tmp_path / "results/report.html").read_text(encoding="utf-8")
+
+
+def test_the_walk_of_a_command(run, tmp_path):
+    def tests(*chosen):
+        return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen)
+
+    file, line, test = steps("add-a-command")
+    write(tmp_path, *file)
+    code, told = tests("tests/cli/test_imports.py", "-k", "in_the_table")
+    assert code == 1
+    assert "no line of COMMANDS in src/holdfast/cli/program.py names before.price" in told
+    write(tmp_path, *line)
+    write(tmp_path, *test)
+    chosen = ["tests/cli/test_imports.py", "tests/cli/test_examples.py", "tests/cli/test_price_command.py"]
+    code, told = tests(*chosen, "-k", "price or in_the_table or lists_every_command")
+    assert code == 0, told
+    code, told = run("holdfast", "price", "planar-3r", "--error", "0.2")
+    assert code == 0, told
+    assert "pseudoinverse" in told

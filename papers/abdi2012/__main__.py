@@ -10,7 +10,6 @@ from scipy import stats
 
 import holdfast as hf
 from holdfast.assessment import structure
-from holdfast.present.assessment.facts import joint_positions
 from holdfast.regions.region import builtin_region
 from holdfast.report import Scale, Scene, View, view_figure
 from holdfast.report.figures import style
@@ -202,11 +201,10 @@ def figure_1_2(run: hf.Assessment, path_1: Path, path_2: Path) -> None:
     arm, data = run.arm, run.dataset
     position, value = data["position"].values, data["index"].values
     reached = np.isfinite(value)
-    origins, tool = joint_positions(arm, np.asarray(hf.arms.about("pa10-9dof").home))
-    chain = np.vstack([arm.base[:3, 3], origins, tool])
+    chain = arm.frames(hf.arms.about("pa10-9dof").home)[:, :3, 3]
     center, size = np.array(run.region.center[:3]), np.array(run.region.size[:3])
     box = np.array([center - size / 2, center + size / 2])
-    scene = Scene(position[reached], value[reached], position[~reached], chain, origins, arm.prismatic, box)
+    scene = Scene(position[reached], value[reached], position[~reached], chain, chain[1:-1], arm.prismatic, box)
     legend = [("base", "base"), ("joint", "joints"), ("tool", "tool"), ("dot", f"{reached.sum()} poses reached")]
     legend += [("cross", f"{(~reached).sum()} not reached"), ("box", "positions of the region")]
     label = "worst-case relative manipulability (no unit)"

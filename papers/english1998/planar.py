@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm.configurations import without_limits
 from holdfast.arm.task import as_task
 from holdfast.caching import cached_property
 from holdfast.indices.susceptibility import Susceptibility
@@ -54,7 +53,7 @@ class Planar:
     @classmethod
     def load(cls) -> Planar:
         """The built-in arm, unit masses and centres of mass in the middle of the links."""
-        arm = without_limits(hf.arms.load("planar-3r"))
+        arm = hf.arms.load("planar-3r").without_limits
         largest = hf.susceptibility.largest_static_torque(arm)
         torque = hf.susceptibility.torque(arm, 1 / (3 * largest**2))
         return cls(arm, torque, hf.susceptibility.swing_angle(arm, np.array([0, 1, 0]) / np.pi**2))

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.arm.configurations import without_limits
 from holdfast.convergence.places import configurations_at, read_places
 from papers.claims import Claim, Verdict
 from papers.numbers import beside
@@ -30,7 +29,7 @@ FOLDED = 45 + np.degrees(np.arccos(1 / np.linalg.norm(TARGET)))  # deg, joint 1:
 @cache
 def law() -> hf.control.Pseudoinverse:
     """The pseudoinverse with Ke = 1, on an arm whose joints turn without limits."""
-    return hf.control.pseudoinverse(without_limits(hf.arms.load("planar-3r")), "planar")
+    return hf.control.pseudoinverse(hf.arms.load("planar-3r").without_limits, "planar")
 
 
 def postures(place: ArrayLike, joint: int, degrees: float) -> Array:

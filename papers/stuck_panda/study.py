@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm.configurations import without_limits
 from holdfast.control import Law
 from holdfast.equilibria import Kind, RestPoints
 from holdfast.equilibria.system import idle_joints
@@ -166,7 +165,7 @@ def explained(points: RestPoints, q: Array, error: Array) -> tuple[NDArray[np.bo
     alone = np.zeros(len(q), dtype=bool)
     among = points.q[wrong & ~points.continuum]
     if len(among) and len(q):
-        alone = np.asarray(joint_space.nearest(without_limits(arm()), among, q)[0] < SAME)
+        alone = np.asarray(joint_space.nearest(arm().without_limits, among, q)[0] < SAME)
     levels = points.error[wrong & points.continuum & points.attracting]
     level = (np.abs(error[:, None] - levels) < LEVEL).any(axis=1)
     return alone, np.asarray(level & ~alone)

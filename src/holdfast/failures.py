@@ -1,4 +1,4 @@
-"""Failure modes: which joints stand still.
+"""Failure modes: which joints stay still.
 
 A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
 is a locked joint as well.
@@ -11,7 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
-from holdfast.arm.model import Arm, joint_list
+from holdfast.arm.model import Arm
 from holdfast.errors import TaskError
 
 FailureSets = tuple[tuple[int, ...], ...]
@@ -42,7 +42,7 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         sets: Sequence[tuple[int, ...]] = list(combinations(range(arm.n), failures))
     else:
         try:
-            sets = [joint_list(arm, [f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
+            sets = [arm.joint_indices([f] if isinstance(f, (str, int, np.integer)) else f) for f in failures]
         except TypeError as error:
             raise TaskError(f"failures are {failures!r}; give a list of sets, each a joint or several joints") from error
     if not sets or any(not s or len(set(s)) != len(s) for s in sets):

@@ -10,7 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from holdfast import arms
-from holdfast.arm.model import Arm, Joint, Link
+from holdfast.arm.machine import Joint, Link
+from holdfast.arm.model import Arm
 from holdfast.arm.soundness import check, require_inertia
 from holdfast.errors import ArmError
 

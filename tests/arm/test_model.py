@@ -13,7 +13,8 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.dh import DH
-from holdfast.arm.model import Arm, Joint, Link, joint_list
+from holdfast.arm.machine import Joint, Link
+from holdfast.arm.model import Arm
 from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError, InputError
 
@@ -109,7 +110,7 @@ def test_refusals(make: Any, sentence: str) -> None:
 def test_joints_are_found_by_name_and_index() -> None:
     arm = arms.load("panda")
     assert arm.joint_index("panda_joint3") == arm.joint_index(2) == arm.joint_index(np.int64(2)) == 2
-    assert joint_list(arm, ["panda_joint5", 0]) == (0, 4)
+    assert arm.joint_indices(["panda_joint5", 0]) == (0, 4)
     with pytest.raises(InputError, match="joint index 7 is out of range; 'panda' has joints 0 to 6"):
         arm.joint_index(7)
     with pytest.raises(InputError, match="joint index -1 is out of range"):

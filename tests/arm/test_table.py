@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from holdfast.arm.dh import DH
-from holdfast.arm.model import Arm, Link
+from holdfast.arm.machine import Link
+from holdfast.arm.model import Arm
 from holdfast.arms import dh_file as table
 from holdfast.errors import ArmError
 

@@ -12,7 +12,6 @@ import yourdfpy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from holdfast.arm import urdf
 from holdfast.arm.model import Arm
 from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError
@@ -90,7 +89,7 @@ def agree(arm: Arm, oracle: Oracle, rng: np.random.Generator, tolerance: float =
 
 @pytest.mark.parametrize(("name", "base", "tip"), REAL)
 def test_real_arms_agree_with_pinocchio(name: str, base: str | None, tip: str | None) -> None:
-    arm = urdf.load(data(name), base, tip)
+    arm = Arm.from_urdf(data(name), base, tip)
     root = {"panda": "panda_link0", "xarm7": "world", "iiwa14": "lbr_iiwa_link_0", "ur5": "world"}.get(name, "base")
     end = {"xarm7": "link_eef", "iiwa14": "lbr_iiwa_link_7"}.get(name, "")
     agree(arm, Oracle(data(name), arm, base or root, tip or end, {}), np.random.default_rng(1))
@@ -100,7 +99,7 @@ def test_real_arms_agree_with_pinocchio(name: str, base: str | None, tip: str | 
 
 @pytest.mark.parametrize(("name", "base", "tip"), [case for case in REAL if case[2]])
 def test_real_arms_agree_with_yourdfpy(name: str, base: str | None, tip: str) -> None:
-    arm = urdf.load(data(name), base, tip)
+    arm = Arm.from_urdf(data(name), base, tip)
     other = yourdfpy.URDF.load(data(name), load_meshes=False, build_scene_graph=True)
     q = np.random.default_rng(2).uniform(-3, 3, arm.n)
     values = dict(zip(arm.joint_names, q, strict=True))
@@ -110,26 +109,26 @@ def test_real_arms_agree_with_yourdfpy(name: str, base: str | None, tip: str) ->
 
 
 def test_held_fingers_move_the_hand_s_centre_of_mass() -> None:
-    shut = urdf.load(data("panda"), tip="panda_hand")
+    shut = Arm.from_urdf(data("panda"), tip="panda_hand")
     held = {"panda_finger_joint1": 0.03}
-    ajar = urdf.load(data("panda"), tip="panda_hand", hold=held)
+    ajar = Arm.from_urdf(data("panda"), tip="panda_hand", hold=held)
     # Without a word about finger 2, it mimics finger 1.
     oracle = Oracle(data("panda"), ajar, "panda_link0", "panda_hand", held | {"panda_finger_joint2": 0.03})
     agree(ajar, oracle, np.random.default_rng(3))
     assert not np.allclose(shut.links[-1].inertia, ajar.links[-1].inertia, atol=1e-9)
-    apart = urdf.load(data("panda"), tip="panda_hand", hold=held | {"panda_finger_joint2": 0.0})
+    apart = Arm.from_urdf(data("panda"), tip="panda_hand", hold=held | {"panda_finger_joint2": 0.0})
     assert not np.allclose(apart.links[-1].com, ajar.links[-1].com, atol=1e-9)
 
 
 def test_the_chain_may_end_in_a_finger_once_the_other_is_frozen() -> None:
-    arm = urdf.load(data("panda"), tip="panda_leftfinger", hold={"panda_finger_joint2": 0.01})
+    arm = Arm.from_urdf(data("panda"), tip="panda_leftfinger", hold={"panda_finger_joint2": 0.01})
     oracle = Oracle(data("panda"), arm, "panda_link0", "panda_leftfinger", {"panda_finger_joint2": 0.01})
     agree(arm, oracle, np.random.default_rng(5))
     assert arm.n == 8
 
 
 def test_a_cut_arm_carries_the_rest_of_itself() -> None:
-    arm = urdf.load(data("iiwa14"), tip="lbr_iiwa_link_4")
+    arm = Arm.from_urdf(data("iiwa14"), tip="lbr_iiwa_link_4")
     agree(arm, Oracle(data("iiwa14"), arm, "lbr_iiwa_link_0", "lbr_iiwa_link_4", {}), np.random.default_rng(4))
     assert arm.n == 4
     assert arm.links[-1].mass == pytest.approx(2.7 + 1.7 + 1.8 + 0.3)
@@ -204,7 +203,7 @@ def test_random_trees_agree_with_pinocchio(tmp_path_factory: pytest.TempPathFact
     forest = Forest(rng)
     path = tmp_path_factory.mktemp("forest") / "forest.urdf"
     path.write_text(forest.text())
-    arm = urdf.load(path, tip=forest.tip, hold={x: forest.held[x] for x in forest.named})
+    arm = Arm.from_urdf(path, tip=forest.tip, hold={x: forest.held[x] for x in forest.named})
     agree(arm, Oracle(str(path), arm, "root", forest.tip, forest.held), rng, tolerance=1e-8)
 
 
@@ -241,7 +240,7 @@ J = joint("j", "a", "b")
 def test_joint_data(tmp_path: Path) -> None:
     limits = "<limit lower='-1' upper='2' velocity='0' effort='0'/><dynamics damping='0.7' friction='9'/><axis xyz='0 0 5'/>"
     full = "<limit upper='2' velocity='4' effort='5'/>"
-    arm = urdf.load(
+    arm = Arm.from_urdf(
         write(
             tmp_path,
             AB,
@@ -266,18 +265,18 @@ def test_joint_data(tmp_path: Path) -> None:
 
 
 def test_zero_mass_is_kept_and_missing_inertia_is_none_unless_something_hangs_on_it(tmp_path: Path) -> None:
-    massless = urdf.load(write(tmp_path, link("a"), link("b", heavy("0")), joint("j", "a", "b")))
+    massless = Arm.from_urdf(write(tmp_path, link("a"), link("b", heavy("0")), joint("j", "a", "b")))
     assert massless.links[0].mass == 0
     assert massless.links[0].com.tolist() == [1, 0, 0]
     parts = [AB, link("c", heavy()), joint("j", "a", "b"), joint("k", "b", "c", "fixed", "<origin xyz='0 2 0'/>")]
-    hanging = urdf.load(write(tmp_path, *parts))
+    hanging = Arm.from_urdf(write(tmp_path, *parts))
     assert hanging.links[0].name == "b"
     np.testing.assert_allclose(hanging.links[0].com, [1, 2, 0])
 
 
 def test_floating_and_planar_side_branches_stand_at_zero(tmp_path: Path) -> None:
     parts = [AB, link("c", heavy()), joint("j", "a", "b"), joint("k", "b", "c", "floating", "<origin xyz='0 3 0'/>")]
-    arm = urdf.load(write(tmp_path, *parts), tip="b")
+    arm = Arm.from_urdf(write(tmp_path, *parts), tip="b")
     np.testing.assert_allclose(arm.links[0].com, [1, 3, 0])
 
 
@@ -287,9 +286,9 @@ def test_mimic_follows_with_multiplier_and_offset(tmp_path: Path) -> None:
 
     parts = [AB, link("c"), link("d", heavy()), joint("j", "a", "b"), slide("k", "c")]
     path = write(tmp_path, *parts, slide("m", "d", "<mimic joint='k' multiplier='-2' offset='0.5'/>"))
-    np.testing.assert_allclose(urdf.load(path, tip="b").links[0].com, [1, 0.5, 0])
-    np.testing.assert_allclose(urdf.load(path, tip="b", hold={"k": 1}).links[0].com, [1, -1.5, 0])
-    np.testing.assert_allclose(urdf.load(path, tip="b", hold={"m": 4}).links[0].com, [1, 4, 0])
+    np.testing.assert_allclose(Arm.from_urdf(path, tip="b").links[0].com, [1, 0.5, 0])
+    np.testing.assert_allclose(Arm.from_urdf(path, tip="b", hold={"k": 1}).links[0].com, [1, -1.5, 0])
+    np.testing.assert_allclose(Arm.from_urdf(path, tip="b", hold={"m": 4}).links[0].com, [1, 4, 0])
 
 
 def test_faults_far_from_the_chain_do_no_harm(tmp_path: Path) -> None:
@@ -302,20 +301,20 @@ def test_faults_far_from_the_chain_do_no_harm(tmp_path: Path) -> None:
         joint("wheel", "b", "w", inside=""),
         joint("n", "a", "m", inside="<mimic joint='x'/>"),
     ]
-    arm = urdf.load(write(tmp_path, *parts), tip="b")
+    arm = Arm.from_urdf(write(tmp_path, *parts), tip="b")
     np.testing.assert_allclose(arm.links[0].com, [1, 0, 0])
 
 
 def test_long_lists_are_cut(tmp_path: Path) -> None:
     many = [link(f"c{k}") + joint(f"k{k}", "b", f"c{k}") for k in range(70)]
     with pytest.raises(ArmError, match=r"the arm could end at 'c0', .* 'c59' and 10 more; name one with --tip \(tip= in"):
-        urdf.load(write(tmp_path, AB, J, *many))
+        Arm.from_urdf(write(tmp_path, AB, J, *many))
 
 
 def test_the_only_end_is_found(tmp_path: Path) -> None:
     # A dead branch on the base does not count, and the fixed frame behind the last joint is the tip.
     parts = [AB, link("c"), link("stand"), joint("j", "a", "b"), joint("f", "b", "c", "fixed", "<origin xyz='0 0 4'/>")]
-    arm = urdf.load(write(tmp_path, *parts, joint("s", "a", "stand", "fixed")))
+    arm = Arm.from_urdf(write(tmp_path, *parts, joint("s", "a", "stand", "fixed")))
     np.testing.assert_allclose(arm.tool[:3, 3], [0, 0, 4])
 
 
@@ -513,7 +512,7 @@ REFUSED = [
 @pytest.mark.parametrize(("parts", "options", "sentence"), REFUSED, ids=[case[2][:60] for case in REFUSED])
 def test_refusals(tmp_path: Path, parts: str, options: dict, sentence: str) -> None:
     with pytest.raises(ArmError) as caught:
-        urdf.load(write(tmp_path, parts), **options)
+        Arm.from_urdf(write(tmp_path, parts), **options)
     assert str(caught.value).startswith("bot.urdf: ")
     assert sentence in str(caught.value) or re.search(sentence, str(caught.value))
 
@@ -537,14 +536,14 @@ def test_broken_files(tmp_path: Path, content: bytes, sentence: str) -> None:
     path = tmp_path / "bot.urdf"
     path.write_bytes(content)
     with pytest.raises(ArmError, match=sentence):
-        urdf.load(path)
+        Arm.from_urdf(path)
 
 
 def test_unreadable_files(tmp_path: Path) -> None:
     with pytest.raises(ArmError, match=r"none.urdf: the file cannot be read \(No such file or directory\); give the path"):
-        urdf.load(tmp_path / "none.urdf")
+        Arm.from_urdf(tmp_path / "none.urdf")
     with pytest.raises(ArmError, match="the file cannot be read"):
-        urdf.load(tmp_path)
+        Arm.from_urdf(tmp_path)
 
 
 def test_a_bomb_of_entities_does_not_go_off(tmp_path: Path) -> None:
@@ -552,7 +551,7 @@ def test_a_bomb_of_entities_does_not_go_off(tmp_path: Path) -> None:
     path = tmp_path / "bot.urdf"
     path.write_text(f"<!DOCTYPE robot [<!ENTITY x0 'ha'>{entities}]><robot name='&x12;'/>")
     with pytest.raises(ArmError, match="DOCTYPE"):
-        urdf.load(path)
+        Arm.from_urdf(path)
 
 
 # ---- what other readers take ---------------------------------------------------------------------------------------
@@ -567,12 +566,12 @@ def test_prefixes_need_no_declaration_and_leftover_definitions_do_no_harm(tmp_pa
     )
     parts = AB + joint("j", "a", "b", inside="<origin xyz='0.3 0 0'/><axis xyz='0 0 1'/><limit lower='-1' upper='1'/><ros:x/>")
     path = write(tmp_path, leftovers, parts)
-    np.testing.assert_allclose(urdf.load(path).forward_kinematics([0.2])[:3, 3], [0.3, 0, 0])
+    np.testing.assert_allclose(Arm.from_urdf(path).forward_kinematics([0.2])[:3, 3], [0.3, 0, 0])
     plain = tmp_path / "plain.urdf"
     plain.write_text(f"<robot name='bot'>{AB}{J}</robot>".replace("<axis", "<origin xyz='0.3 0 0'/><axis"))
     other = yourdfpy.URDF.load(str(plain), load_meshes=False, build_scene_graph=True)
     other.update_cfg({"j": 0.2})
-    np.testing.assert_allclose(urdf.load(path).forward_kinematics([0.2]), other.get_transform("b", "a"), atol=1e-12)
+    np.testing.assert_allclose(Arm.from_urdf(path).forward_kinematics([0.2]), other.get_transform("b", "a"), atol=1e-12)
 
 
 @pytest.mark.parametrize("call", ["<xacro:arm name='x'/>", "<x:arm/>", "<link name='${side}_hand'/>"])
@@ -580,7 +579,7 @@ def test_macros_that_make_something_are_named_with_the_command_that_expands_them
     path = tmp_path / "bot.urdf.xacro"
     path.write_text(f"<robot name='b' xmlns:x='http://ros.org/wiki/xacro'>{AB}{J}{call}</robot>")
     with pytest.raises(ArmError, match=r"not expanded .*; expand it first: xacro bot.urdf.xacro > bot.urdf "):
-        urdf.load(path)
+        Arm.from_urdf(path)
 
 
 def test_a_joint_that_mimics_a_fixed_one_stands_at_its_offset(tmp_path: Path) -> None:
@@ -588,8 +587,8 @@ def test_a_joint_that_mimics_a_fixed_one_stands_at_its_offset(tmp_path: Path) ->
     slide = "<axis xyz='0 1 0'/><limit lower='-9' upper='9'/>"
     parts = [AB, link("c"), link("d"), joint("f", "a", "b", "fixed")]
     parts.append(joint("m", "b", "c", "prismatic", f"{slide}<mimic joint='f' multiplier='-2' offset='0.5'/>"))
-    arm = urdf.load(write(tmp_path, *parts, joint("j", "c", "d")))
+    arm = Arm.from_urdf(write(tmp_path, *parts, joint("j", "c", "d")))
     assert arm.joint_names == ("j",)
     np.testing.assert_allclose(arm.forward_kinematics([0.0])[:3, 3], [0, 0.5, 0])
-    held = urdf.load(write(tmp_path, *parts, joint("j", "c", "d")), hold={"m": 2.0})
+    held = Arm.from_urdf(write(tmp_path, *parts, joint("j", "c", "d")), hold={"m": 2.0})
     np.testing.assert_allclose(held.forward_kinematics([0.0])[:3, 3], [0, 2, 0])

@@ -310,7 +310,7 @@ def test_the_command_line_reads_tasks_and_failures_as_they_were() -> None:
 def test_the_drawn_arm_ends_at_the_tool(name: str) -> None:
     arm = hf.arms.load(name).with_base(hf.arms.load("ur5").joints[0].origin)
     q = np.random.default_rng(3).uniform(-1, 1, arm.n)
-    origins, tool = facts.joint_positions(arm, q)
+    _, *origins, tool = arm.frames(q)[:, :3, 3]
     np.testing.assert_allclose(tool, arm.forward_kinematics(q)[:3, 3], atol=1e-12)
     # The column of a revolute joint is z x (tool - origin): the origin lies on the axis that the Jacobian says.
     jacobian = arm.jacobian(q)

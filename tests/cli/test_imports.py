@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from holdfast import cli as package
 from holdfast.cli.program import COMMANDS, PANELS, assembled
 
 # What is slow to import. The list of each command is exact: what it no longer loads is taken from it and stays away.
@@ -130,6 +133,17 @@ def test_the_help_lists_every_command_in_its_order_and_panel(cli):
     assert panels == list(PANELS.values())
     folders = [place.partition(".")[0] for place in COMMANDS.values()]
     assert folders == sorted(folders, key=list(PANELS).index)
+
+
+def test_every_command_is_in_the_table():
+    places = {place.partition(":")[0] for place in COMMANDS.values()}
+    for panel in PANELS:
+        for file in sorted((Path(package.__file__).parent / panel).glob("*.py")):
+            defined = {getattr(node, "name", "") for node in ast.parse(file.read_text(encoding="utf-8")).body}
+            if "command" in defined and f"{panel}.{file.stem}" not in places:
+                pytest.fail(
+                    f"no line of COMMANDS in src/holdfast/cli/program.py names {panel}.{file.stem}, which defines a command"
+                )
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -36,7 +36,15 @@ def test_a_person_reads_units_degrees_and_flags(cli):
     code, out, err = cli("susceptibility", "ur5-rail", "--measure", "swing-angle", "--q", "3 0 0 0 0 0 0.2")
     text = " ".join(out.split())
     assert (code, err) == (0, "")
-    for part in ("smaller is better", "(rad)^2", " rad (", " deg)", "not defined: a sliding joint", "degenerate: ", "outside"):
+    for part in (
+        "smaller is better",
+        "(rad)^2",
+        " rad (",
+        " deg)",
+        "not defined: a prismatic joint",
+        "degenerate: ",
+        "outside",
+    ):
         assert part in text, part
     _, out, _ = cli("susceptibility", "ur5-rail", "--q", "1 0 0 0 0 0 0.2", "--weights", "worst-case")
     assert "rail 0 N " in " ".join(out.split())

@@ -10,7 +10,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.analysis import Job, _sinks
 from holdfast.convergence.healthy_motion import HealthyPaths
@@ -163,10 +162,10 @@ def test_configurations_are_equally_far_apart_on_the_curve(arm, law):
 
 
 def test_limits_of_a_whole_turn_are_none(arm):
-    free = without_idle_limits(arm)
+    free = arm.without_idle_limits
     assert np.isinf(free.lower).all()
     panda = hf.arms.load("panda")
-    assert without_idle_limits(panda) is panda
+    assert panda.without_idle_limits is panda
 
 
 def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
@@ -192,6 +191,29 @@ def test_a_stopped_analysis_goes_on(law, tmp_path, monkeypatch):
         assert np.array_equal(values, alone.measures[name], equal_nan=True)
     with pytest.raises(hf.StoreError, match="points"):
         hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **{**options, "points": 2})
+
+
+def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
+    arm, options = hf.arms.load("planar-3r"), {"starts": [[1.2, 1.3]], "configurations": 1, "points": 0, "cells": 4}
+
+    def run(damping, gain=1.0):
+        law = hf.control.damped(arm, damping, "planar", gain)
+        return hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **options)
+
+    first = run(0.1)
+    with pytest.raises(hf.StoreError, match=r'its law is "damped:0.1", asked for is "damped:0.10000001"'):
+        run(0.10000001)
+    with pytest.raises(hf.StoreError, match=r"its gain is 1.0, asked for is 1.00000001"):
+        run(0.1, 1.00000001)
+    # Holdfast 0.1 kept the words for people, of six digits: they stand for the law of which they say everything.
+    file = tmp_path / "run" / "run.json"
+    data = json.loads(file.read_text())
+    data["plan"] = {k: v for k, v in data["plan"].items() if k not in ("gain", "speed_limit", "task")}
+    data["plan"]["law"] = first.law.describe()
+    file.write_text(json.dumps(data))
+    np.testing.assert_array_equal(run(0.1).reach.full, first.reach.full)
+    with pytest.raises(hf.StoreError, match="its gain is null, asked for is"):
+        run(0.10000001)
 
 
 def test_files(small, tmp_path, monkeypatch):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from html import unescape
@@ -12,10 +13,10 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.configurations import without_limits
 from holdfast.convergence.places import read_places
 from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
 from holdfast.designs.arrival import Failures
+from holdfast.designs.memory import BEFORE, FILE
 from holdfast.simulation import Reason
 from holdfast.words import percent
 
@@ -66,7 +67,7 @@ def test_the_law_of_designs_is_the_law_of_each(rng):
 def test_sinks_are_those_that_tracing_finds_for_one_target():
     """Joint 1, where they are wide; the tracer knows one target and no other, and solves other equations."""
     lengths = (0.8, 0.8, 1.4)
-    arm = without_limits(hf.Arm.from_dh([hf.DH(a=x, alpha=0.0) for x in lengths]))
+    arm = hf.Arm.from_dh([hf.DH(a=x, alpha=0.0) for x in lengths]).without_limits
     law = hf.control.pseudoinverse(arm, "planar")
     r = 1.3
     at, in_reach, held = PlanarRest(law).locked(np.array(lengths), r, angles=180)[0]
@@ -194,6 +195,21 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
     assert not looked
     with pytest.raises(hf.StoreError, match="its seed is 4, asked for is 5"):
         design_for_convergence(law, vary, 3, **(options | {"seed": 5}), store=tmp_path)
+    near = hf.control.damped(hf.arms.load("planar-3r"), 0.10000001, "planar")
+    with pytest.raises(hf.StoreError, match="its law is"):
+        design_for_convergence(near, vary, 3, **options, store=tmp_path)
+    # A search of holdfast 0.1, whose lines have no checksums and whose law has six digits.
+    plan, *lines = [line.rpartition(b" ")[0] for line in (tmp_path / FILE).read_bytes().splitlines()]
+    data = json.loads(plan)
+    task = [law.task.rows.tolist(), law.task.frame, law.task.length]
+    data["search"] |= {"law": [law.label, law.describe()], "gain": None, "speed_limit": None, "task": task}
+    (tmp_path / "before").mkdir()
+    (tmp_path / "before" / BEFORE).write_bytes(b"\n".join([json.dumps(data).encode(), *lines, b""]))
+    looked.clear()
+    assert design_for_convergence(law, vary, 3, **options, store=tmp_path / "before").checked == whole.checked
+    assert not looked
+    with pytest.raises(hf.StoreError, match="its gain is null"):
+        design_for_convergence(near, vary, 3, **options, store=tmp_path / "before")
 
 
 def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.designs.memory import FILE, Memory
+from holdfast.designs.memory import BEFORE, FILE, Memory
 
 PLAN = {"arm": "abc", "seed": 3, "vary": ["a3=0..1m"]}
 
@@ -54,6 +54,29 @@ def test_a_line_cut_short_is_made_again(tmp_path: Path, rng: np.random.Generator
         whole.part(f"screen {k}", lambda: pytest.fail("it is remembered"))
 
 
+def test_a_part_that_is_not_as_it_was_is_made_again(tmp_path: Path, rng: np.random.Generator) -> None:
+    made = {"value": rng.uniform(0.1, 0.9, 5)}
+    Memory(tmp_path, PLAN).part("one", lambda: made)
+    first, second = (tmp_path / FILE).read_bytes().splitlines(keepends=True)
+    at = second.index(b"0.") + 3
+    (tmp_path / FILE).write_bytes(first + second[:at] + (b"1" if second[at:][:1] != b"1" else b"2") + second[at + 1 :])
+    again = Memory(tmp_path, PLAN)
+    assert again.part("one", lambda: made) is made
+    np.testing.assert_array_equal(Memory(tmp_path, PLAN).part("one", lambda: pytest.fail("remembered"))["value"], made["value"])
+
+
+def test_a_search_of_holdfast_0_1_is_resumed_in_its_file(tmp_path: Path, rng: np.random.Generator) -> None:
+    lines = [{"search": PLAN}, {"part": "one", "arrays": {"x": ["float64", [2], [1.5, -0.25]]}}]
+    (tmp_path / BEFORE).write_text("".join(json.dumps(line) + "\n" for line in lines) + '{"part": "tw')
+    made = parts(rng)
+    for _ in range(2):
+        memory = Memory(tmp_path, PLAN)
+        np.testing.assert_array_equal(memory.part("one", lambda: pytest.fail("remembered"))["x"], [1.5, -0.25])
+        found = memory.part("two", lambda: made)
+    np.testing.assert_array_equal(found["value"], made["value"])
+    assert [file.name for file in tmp_path.iterdir()] == [BEFORE]
+
+
 def test_refusals(tmp_path: Path) -> None:
     Memory(tmp_path / "run", PLAN)
     with pytest.raises(hf.StoreError, match="holds another search: its seed is 3, asked for is 4; give another folder"):
@@ -66,7 +89,7 @@ def test_refusals(tmp_path: Path) -> None:
         *('["a", [1], ["x"]]', '["O", [1], [{}]]', '["S2000000000", [1], ["x"]]', "[" * 100_000 + "]" * 100_000),
     ):
         line = json.dumps({"search": PLAN}) + '\n{"part": "one", "arrays": {"x": ' + part + "}}\n"
-        (tmp_path / "run" / FILE).write_text(line)
+        (tmp_path / "run" / BEFORE).write_text(line)
         with pytest.raises(hf.StoreError, match="is damaged; remove it and start the search again"):
             Memory(tmp_path / "run", PLAN)
     (tmp_path / "other").mkdir()

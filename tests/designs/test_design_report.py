@@ -92,11 +92,11 @@ def test_the_command_is_the_search(found):
 
 def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
-    assert report.headline(same).startswith("Nothing that guarantees more than the given arm was found: for 95 % of the poses")
+    assert same.headline.startswith("Nothing that guarantees more than the given arm was found: for 95 % of the poses")
     assert "Before and after" not in [s.title for s in report.build(same).sections]
     none = Checked(Distribution.of([], "larger", 200), Interval(0.0, 0.0, 0.0, 0.95))
     lost = replace(found, checked=Check(none, none, 0.0))
-    assert "guarantees any relative manipulability" in report.headline(lost)
+    assert "guarantees any relative manipulability" in lost.headline
     page = render(report.build(lost))
     check(page)
     assert "Neither arm reaches a pose of the region" in page
@@ -106,21 +106,21 @@ def test_a_design_that_guarantees_as_much_and_reaches_farther_is_not_nothing(fou
     alike = replace(
         found, guaranteed=np.array([0.4, 0.25, 0.1, 0.4]), checked=Check(checked(rng, 0.38), checked(rng, 0.38), 0.0)
     )
-    line = report.headline(alike)
+    line = alike.headline
     assert line.startswith("No design guarantees more than the given arm, but the best one guarantees as much, 0.38")
     assert line.endswith("reaches 3.500 m instead of 3.000 m.")
 
 
 def test_the_headline_says_what_the_front_has_for_a_little_less(found):
     near = replace(found, guaranteed=np.array([0.2, 0.39, 0.1, 0.4]))
-    assert report.headline(near).endswith(
+    assert near.headline.endswith(
         "For 2.5 % less, 0.390 on the poses of the search, another design reaches 3.600 m, 2.9 % farther."
     )
 
 
 def test_a_gain_that_does_not_last_is_no_gain(found, rng):
     flattered = replace(found, checked=Check(checked(rng, 0.3), checked(rng, 0.25), 0.15))
-    assert report.headline(flattered).startswith("No gain that lasts was found: on the 64 poses of the search the best design")
+    assert flattered.headline.startswith("No gain that lasts was found: on the 64 poses of the search the best design")
 
 
 def test_poses_that_only_the_best_design_loses_are_said(found, rng):

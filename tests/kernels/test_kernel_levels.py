@@ -177,6 +177,23 @@ def test_every_function_of_the_c_library_is_found():
         assert ctypes.cast(getattr(ctypes.CDLL(None), name), ctypes.c_void_p).value
 
 
+def test_a_job_that_raises_in_the_background_is_said_and_nobody_waits_for_it_for_ever(fresh, monkeypatch):
+    said, done = [], []
+    monkeypatch.setattr(threading, "excepthook", lambda args: said.append(args.exc_value))
+
+    def fails():
+        raise OSError("no room")
+
+    compiled._in_background(fails)
+    compiled._in_background(lambda: done.append(1))
+    waiting = threading.Thread(target=settle, daemon=True)
+    waiting.start()
+    waiting.join(60)
+    assert not waiting.is_alive()
+    assert [str(error) for error in said] == ["no room"]
+    assert done == [1]
+
+
 def _in_a_child(rows):
     x, y = long_function(60)
     kernel = Kernel("child", [x], [y])

@@ -11,7 +11,6 @@ import pytest
 
 import holdfast as hf
 import oracles
-from holdfast.arm.scale import length_unit
 from holdfast.present.convergence import law_comparison as compare_laws_report
 from holdfast.report import page
 
@@ -77,7 +76,7 @@ def test_the_healthy_pseudoinverse_costs_nothing_but_time(compared, motions):
     cost = compared.healthy[0]
     assert cost.deviation.max() < 1e-7
     assert cost.angle.max() < 1e-6
-    expected = np.log(compared.way / (1e-3 * length_unit(compared.arm)))
+    expected = np.log(compared.way / (1e-3 * compared.arm.length_unit))
     np.testing.assert_allclose(cost.time, np.maximum(expected, 0.0), atol=1e-5)
     np.testing.assert_allclose(compared.way, motions.distance, atol=1e-12)
     case = compared.case("pseudoinverse")
@@ -96,7 +95,7 @@ def test_the_cost_of_damping_is_that_of_the_path(compared, laws, motions):
         off = np.abs(left @ np.array([-along[1], along[0]])).max()
         assert cost.deviation[k] <= off + 1e-9
         assert cost.deviation[k] == pytest.approx(off, rel=0.05, abs=1e-4)
-        near = 1e-3 * length_unit(law.arm)
+        near = 1e-3 * law.arm.length_unit
         late = np.flatnonzero(path.error > near)
         if late[-1] + 1 < len(path.time):
             assert cost.time[k] == pytest.approx(path.time[late[-1] + 1], abs=0.05)

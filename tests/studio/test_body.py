@@ -37,7 +37,7 @@ def test_shapes_are_closed_and_look_outwards(rng):
 def test_sticks_reach_from_joint_to_joint(mixed7, rng):
     machine = Machine(mixed7, as_task(mixed7, "pose"))
     parts = stick_parts(mixed7, machine.size)
-    frames = machine.frames(rng.uniform(-1, 1, 7))
+    frames = machine.arm.frames(rng.uniform(-1, 1, 7))
     assert {p.joint for p in parts if p.joint is not None} == set(range(7))
     for k in range(7):
         cloud = np.concatenate(
@@ -59,7 +59,7 @@ def test_visuals_are_where_the_file_puts_them():
     assert rail.color == (158, 168, 178)
     boom = next(p for p in parts if p.frame == 3)
     q = np.array([0.3, 0.0, np.pi / 2, 0.4, 0, 0, 0])
-    world = boom.vertices @ machine.frames(q)[3, :3, :3].T + machine.frames(q)[3, :3, 3]
+    world = boom.vertices @ machine.arm.frames(q)[3, :3, :3].T + machine.arm.frames(q)[3, :3, 3]
     np.testing.assert_allclose(world.mean(axis=0), [0.25, 0.3, 0.5], atol=1e-9)  # lies along x at the height of the mast
 
 

@@ -15,22 +15,6 @@ def machine(mixed7):
     return Machine(mixed7, as_task(mixed7, "pose"))
 
 
-def test_frames_are_those_of_pinocchio():
-    pin = pytest.importorskip("pinocchio")
-    from holdfast.arms.builtin import DATA
-
-    model = pin.buildModelFromXML(DATA.joinpath("iiwa14.urdf").read_text())
-    arm = hf.arms.load("iiwa14")
-    q = np.random.default_rng(3).uniform(arm.lower, arm.upper)
-    data = model.createData()
-    pin.forwardKinematics(model, data, q)
-    frames = Machine(arm, as_task(arm, "pose")).frames(q)
-    for k, name in enumerate(arm.joint_names):
-        np.testing.assert_allclose(frames[k + 1], data.oMi[model.getJointId(name)].homogeneous, atol=1e-10)
-    np.testing.assert_allclose(frames[-1], arm.forward_kinematics(q), atol=1e-12)
-    np.testing.assert_allclose(frames[0], arm.base)
-
-
 def test_the_hand_is_followed_with_failed_joints_standing(machine, rng):
     q = rng.uniform(-0.8, 0.8, 7)
     for failed in ((), (3,)):

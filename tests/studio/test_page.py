@@ -112,7 +112,7 @@ def test_a_mouse_drags_the_hand_locks_a_joint_and_opens_a_point(studio, visit):
     assert window.settle(60)
 
     def pressed():
-        page.mouse.click(*on_screen(camera, machine.frames(window.q)[2, :3, 3]))
+        page.mouse.click(*on_screen(camera, machine.arm.frames(window.q)[2, :3, 3]))
         page.wait_for_timeout(400)
         return window.state.conditions[1] != "healthy"
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked_class
-from holdfast.arm.model import Arm, Joint, JointType, Link, snapped, transform
+from holdfast.arm.machine import Joint, JointType, Link, Machine, snapped, transform
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -73,7 +73,7 @@ def build(
     payload: Link | None,
     name: str,
     source: str,
-) -> Arm:
+) -> Machine:
     """See :meth:`holdfast.Arm.from_dh`.
 
     A row is a fixed transform, the joint's own motion about or along z, and another fixed transform. Between two
@@ -125,7 +125,7 @@ def build(
         bodies.append(None if link is None else link.moved(after))
         pending = after
     hand = after if tool is None else after @ transform(tool, f"tool of arm '{name}'")
-    return Arm(
+    return Machine(
         name=name,
         joints=tuple(joints),
         links=tuple(bodies),

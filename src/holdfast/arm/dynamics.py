@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm import statics
 from holdfast.arm.kinematics import Frame, constant, joint_steps, joint_symbols, split
-from holdfast.arm.model import Arm
+from holdfast.arm.machine import Machine
 from holdfast.arm.soundness import require_possible_inertia
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
@@ -25,7 +25,7 @@ from holdfast.kernels.recall import recalled
 Array = NDArray[np.float64]
 
 
-def inverse_dynamics(arm: Arm, q: SX, qd: SX, qdd: SX) -> SX:
+def inverse_dynamics(arm: Machine, q: SX, qd: SX, qdd: SX) -> SX:
     """Torques and forces (n,) of a motion, ``M(q) qdd + C(q, qd) qd + B qd + g(q)``, N m and N; eq. (5).
 
     Payload and rotor inertias (armature) are in M, viscous friction is B.
@@ -43,13 +43,13 @@ def inverse_dynamics(arm: Arm, q: SX, qd: SX, qdd: SX) -> SX:
 
 
 @recalled
-def torque_kernel(arm: Arm) -> Kernel:
+def torque_kernel(arm: Machine) -> Kernel:
     """``(q, qd, qdd) -> inertial, viscous and gravity torques``, each (n,): the terms of :func:`inverse_dynamics`."""
     q, qd, qdd = joint_symbols(arm), ca.SX.sym("qd", arm.n), ca.SX.sym("qdd", arm.n)
     return Kernel("inverse dynamics", [q, qd, qdd], _terms(arm, q, qd, qdd))
 
 
-def check_states(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[list[Array], bool]:
+def check_states(arm: Machine, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple[list[Array], bool]:
     """Configurations, rates and accelerations, each (N, n) float64, and whether all were single ones.
 
     What is single, (n,), is used for every row of the others.
@@ -76,17 +76,17 @@ def check_states(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike) -> tuple
     return [np.broadcast_to(a, (1 if rows is None else rows, arm.n)) for a in states], rows is None
 
 
-def _terms(arm: Arm, q: SX, qd: SX, qdd: SX) -> list[SX]:
+def _terms(arm: Machine, q: SX, qd: SX, qdd: SX) -> list[SX]:
     gravity = statics.gravity_torques(arm, statics.composite(arm, q))
     return [ca.densify(x) for x in (inertial_torques(arm, q, qd, qdd), viscous_torques(arm, qd), gravity)]
 
 
-def viscous_torques(arm: Arm, qd: SX) -> SX:
+def viscous_torques(arm: Machine, qd: SX) -> SX:
     """Torques and forces (n,) that overcome viscous friction, ``B qd``."""
     return ca.vertcat(*[joint.friction * qd[k] for k, joint in enumerate(arm.joints)])
 
 
-def inertial_torques(arm: Arm, q: SX, qd: SX, qdd: SX) -> SX:
+def inertial_torques(arm: Machine, q: SX, qd: SX, qdd: SX) -> SX:
     """Torques and forces (n,) that accelerate the links, payload and rotors, ``M(q) qdd + C(q, qd) qd``.
 
     Raises:

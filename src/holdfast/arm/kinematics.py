@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm
+from holdfast.arm.machine import Machine
 from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
@@ -36,12 +36,12 @@ class Chain:
     position: SX
 
 
-def joint_symbols(arm: Arm) -> SX:
+def joint_symbols(arm: Machine) -> SX:
     """Symbols of the joint variables, (n,)."""
     return ca.SX.sym("q", arm.n)
 
 
-def chain(arm: Arm, q: SX, frame: int | None = None, steps: list[Frame] | None = None) -> Chain:
+def chain(arm: Machine, q: SX, frame: int | None = None, steps: list[Frame] | None = None) -> Chain:
     """Where the joint axes are.
 
     Args:
@@ -57,7 +57,7 @@ def chain(arm: Arm, q: SX, frame: int | None = None, steps: list[Frame] | None =
     return Chain(axes, [position for _, position in still], *compose(moving[-1], split(arm.tool)))
 
 
-def frames(arm: Arm, steps: list[Frame], frame: int | None = None) -> tuple[list[Frame], list[Frame]]:
+def frames(arm: Machine, steps: list[Frame], frame: int | None = None) -> tuple[list[Frame], list[Frame]]:
     """Where the bodies and the joints are: rotation (3, 3) and origin (3,) of each.
 
     Args:
@@ -81,13 +81,20 @@ def frames(arm: Arm, steps: list[Frame], frame: int | None = None) -> tuple[list
     return [moving[k] for k in range(n + 1)], [still[k] for k in range(n)]
 
 
-def tool_pose(arm: Arm, q: SX) -> SX:
+def body_poses(arm: Machine, q: SX) -> SX:
+    """Poses in the world, each (3, 4), of the base, of what moves with each joint and of the tool, (3 (n + 2), 4)."""
+    moving, _ = frames(arm, joint_steps(arm, q))
+    tool = compose(moving[-1], split(arm.tool))
+    return ca.densify(ca.vertcat(*[ca.horzcat(*pose) for pose in [*moving, tool]]))
+
+
+def tool_pose(arm: Machine, q: SX) -> SX:
     """Tool pose in the world, (4, 4)."""
     c = chain(arm, q)
     return ca.vertcat(ca.horzcat(c.rotation, c.position), ca.horzcat(ca.SX(1, 3), 1))
 
 
-def jacobian_of(arm: Arm, c: Chain, reference: SX) -> SX:
+def jacobian_of(arm: Machine, c: Chain, reference: SX) -> SX:
     """Geometric Jacobian (6, n), rows (linear; angular) in the chain's frame, for the velocity of the point ``reference``.
 
     Source: column of a revolute joint ``(z x (p - p_k); z)``, of a prismatic one ``(z; 0)``.
@@ -102,20 +109,20 @@ def jacobian_of(arm: Arm, c: Chain, reference: SX) -> SX:
     return ca.horzcat(*columns)
 
 
-def jacobian(arm: Arm, q: SX) -> SX:
+def jacobian(arm: Machine, q: SX) -> SX:
     """Geometric Jacobian (6, n) at the tool point in the world frame."""
     c = chain(arm, q)
     return jacobian_of(arm, c, c.position)
 
 
-def tool_jacobian(arm: Arm, q: SX) -> SX:
+def tool_jacobian(arm: Machine, q: SX) -> SX:
     """Geometric Jacobian (6, n) at the tool point, rows in the tool frame."""
     c = chain(arm, q, frame=arm.n)  # the frame of the last link: the tool sits still in it
     j = jacobian_of(arm, c, c.position)
     return ca.vertcat(c.rotation.T @ j[:3, :], c.rotation.T @ j[3:, :])
 
 
-def invariant_jacobian(arm: Arm, q: SX) -> SX:
+def invariant_jacobian(arm: Machine, q: SX) -> SX:
     """A Jacobian ``A(q) J(q)`` with ``det A = 1`` and the fewest non-zero entries: for indices that are blind to A.
 
     It is the geometric Jacobian in the frame of a link in the middle of the arm, for the point of the tool that passes
@@ -132,7 +139,7 @@ def invariant_jacobian(arm: Arm, q: SX) -> SX:
     return best[1]
 
 
-def jacobian_derivative(arm: Arm, q: SX) -> SX:
+def jacobian_derivative(arm: Machine, q: SX) -> SX:
     """``d J / d q_j`` stacked: rows 6 j to 6 j + 5 hold the derivative by joint j, (6 n, n)."""
     j = jacobian(arm, q)
     return ca.vertcat(*[ca.reshape(ca.jacobian(ca.vec(ca.densify(j)), q[i]), 6, arm.n) for i in range(arm.n)])
@@ -173,12 +180,12 @@ def _column(rotation: SX, axis: Array) -> SX:
     return rotation @ constant(axis)
 
 
-def joint_steps(arm: Arm, q: SX) -> list[Frame]:
+def joint_steps(arm: Machine, q: SX) -> list[Frame]:
     """The motion of every joint by itself: rotation (3, 3) and translation (3,)."""
     return [_joint_step(arm, k, q) for k in range(arm.n)]
 
 
-def _joint_step(arm: Arm, k: int, q: SX) -> Frame:
+def _joint_step(arm: Machine, k: int, q: SX) -> Frame:
     joint = arm.joints[k]
     axis = joint.axis
     if joint.prismatic:

@@ -17,9 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm import mjcf_limits
-from holdfast.arm.model import Arm, Link, snapped
-from holdfast.arm.tip import listed
-from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends
+from holdfast.arm.machine import Link, Machine, snapped
+from holdfast.arm.tree import Held, Tree, TreeJoint, chain, check_ends, listed
 from holdfast.errors import ArmError, HoldfastError
 
 Array = NDArray[np.float64]
@@ -60,7 +59,7 @@ def load(
     tip: str | None = None,
     hold: Mapping[str, float] | None = None,
     name: str | None = None,
-) -> Arm:
+) -> Machine:
     """The serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast[physics]``).
 
     As :func:`holdfast.arm.urdf.load` does it: bodies without a joint are folded away, and what hangs on the chain without
@@ -82,7 +81,8 @@ def load(
         name: Name of the arm; the file's model name if not given.
 
     Returns:
-        The arm; its ``base`` is the pose of the base body in MuJoCo's world, its ``source`` the name of the file.
+        What :meth:`holdfast.Arm.from_mjcf` makes an arm of; its ``base`` is the pose of the base body in MuJoCo's
+        world, its ``source`` the name of the file.
 
     Raises:
         ArmError: MuJoCo cannot read the file, there is no single serial chain of hinges and slides from base to tip, or an
@@ -249,7 +249,7 @@ def _arm(
     hold: dict[str, float],
     name: str,
     source: str,
-) -> Arm:
+) -> Machine:
     base, tip = check_ends(tree, base, tip)
     on_chain = {joint.name for joint in tree.path(base, tip) if not tree.stands(joint, hold)}
     _refuse_ties(mujoco, model, tree, on_chain)

@@ -1,231 +1,30 @@
-"""The machine: joints, links, tool, base, gravity and payload; immutable."""
+"""An arm: a machine, and what can be asked of it."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, checked_class, real_numbers
+from holdfast.arguments import checked, checked_class
+from holdfast.arm.dh import DH, build
+from holdfast.arm.machine import GRAVITY, Link, Machine, transform
 from holdfast.caching import cached_property
-from holdfast.errors import ArmError, InputError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 
-if TYPE_CHECKING:
-    from holdfast.arm.dh import DH
-    from holdfast.kernels.program import SX
-
 Array = NDArray[np.float64]
-JointType = Literal["revolute", "continuous", "prismatic"]
-GRAVITY = (0.0, 0.0, -9.81)
-_MOST = 1e12  # of any number, so that their products stay finite
 
 
 @checked_class
-@dataclass(frozen=True, eq=False)
-class Joint:
-    """One degree of freedom: its frame sits at ``origin`` in the previous link frame, it moves about or along ``axis``.
-
-    Attributes:
-        name: Unique in the arm.
-        type: ``revolute``, ``continuous`` (revolute without limits) or ``prismatic``.
-        origin: (4, 4) pose of the joint frame at q = 0 in the frame of the previous link (or base).
-        axis: (3,) unit vector in the joint frame.
-        lower, upper: Position limits, rad or m; infinite where there are none.
-        velocity: Largest speed, rad/s or m/s; infinite if not given.
-        effort: Largest torque or force, N m or N; infinite if not given.
-        friction: Viscous friction, N m s/rad or N s/m.
-        armature: Rotor inertia at the joint, kg m^2 or kg.
-    """
-
-    name: str
-    type: JointType
-    origin: Array
-    axis: Array
-    lower: float = -np.inf
-    upper: float = np.inf
-    velocity: float = np.inf
-    effort: float = np.inf
-    friction: float = 0.0
-    armature: float = 0.0
-
-    def __post_init__(self) -> None:
-        if self.type not in ("revolute", "continuous", "prismatic"):
-            raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
-        object.__setattr__(self, "origin", transform(self.origin, f"origin of joint '{self.name}'"))
-        axis = _numbers(self.axis, f"axis of joint '{self.name}'")
-        length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < _MOST else 0.0
-        if not (np.isfinite(length) and length > 1e-9):
-            raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers below 1e12, not all 0")
-        # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.
-        object.__setattr__(self, "axis", _frozen(snapped(axis if abs(length - 1) < 4e-15 else axis / length)))
-        for field_name in ("lower", "upper", "velocity", "effort", "friction", "armature"):
-            value = float(getattr(self, field_name))
-            sign = "" if field_name in ("lower", "upper") else " of 0 or more"
-            if np.isnan(value) or (value < 0 and field_name not in ("lower", "upper")):
-                raise ArmError(f"{field_name} of joint '{self.name}' is {value:g}; it must be a number{sign}")
-            object.__setattr__(self, field_name, value)
-        if self.lower > self.upper:
-            raise ArmError(
-                f"limits of joint '{self.name}' are upside down: lower {self.lower:g} is above upper {self.upper:g}; swap them"
-            )
-
-    @property
-    def prismatic(self) -> bool:
-        """True for a sliding joint."""
-        return self.type == "prismatic"
-
-    @property
-    def unit(self) -> str:
-        """Unit of the joint variable: rad or m."""
-        return "m" if self.prismatic else "rad"
-
-    @property
-    def shown(self) -> tuple[float, str]:
-        """Factor and unit in which people read the joint variable: (1, "m") or (180/pi, "deg")."""
-        return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
-
-
-@checked_class
-@dataclass(frozen=True, eq=False)
-class Link:
-    """Inertial data of a rigid body.
-
-    Attributes:
-        mass: kg, 0 or more.
-        com: (3,) centre of mass in the link's frame, m. For a DH arm this is the frame of its table row (the distal
-            frame in the standard convention); for a URDF arm the URDF link frame.
-        inertia: (3, 3) about the centre of mass, in the axes of the link's frame, kg m^2.
-        name: For messages.
-    """
-
-    mass: float
-    com: Array
-    inertia: Array
-    name: str | None = None
-
-    def __post_init__(self) -> None:
-        label = f"link '{self.name}'" if self.name else "link"
-        com, inertia = _numbers(self.com, f"com of {label}"), _numbers(self.inertia, f"inertia of {label}")
-        if com.shape != (3,) or inertia.shape != (3, 3):
-            raise ArmError(f"{label}: com has shape {com.shape} and inertia {inertia.shape}; they must be (3,) and (3, 3)")
-        if not (np.isfinite(self.mass) and np.isfinite(com).all() and np.isfinite(inertia).all()):
-            raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
-        if self.mass < 0:
-            raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
-        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MOST:
-            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MOST:g}; give kg, m and kg m^2")
-        if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
-            raise ArmError(f"{label}: the inertia matrix is not symmetric")
-        object.__setattr__(self, "mass", float(self.mass))
-        object.__setattr__(self, "com", _frozen(com))
-        object.__setattr__(self, "inertia", _frozen((inertia + inertia.T) / 2))
-
-    def moved(self, transform: ArrayLike) -> Link:
-        """The same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new one."""
-        t = np.asarray(transform, dtype=np.float64)
-        rotation = t[:3, :3]
-        return Link(self.mass, rotation @ self.com + t[:3, 3], rotation @ self.inertia @ rotation.T, self.name)
-
-    @staticmethod
-    def joined(bodies: Sequence[Link], name: str | None = None) -> Link:
-        """Rigidly connected bodies, all in one frame, as one (parallel axis theorem)."""
-        mass = sum(b.mass for b in bodies)
-        if mass <= 0:
-            total = np.sum([b.inertia for b in bodies], axis=0) if bodies else np.zeros((3, 3))
-            return Link(0.0, np.zeros(3), total, name)
-        com = np.sum([b.mass * b.com for b in bodies], axis=0) / mass
-        inertia = np.zeros((3, 3))
-        for b in bodies:
-            r = b.com - com
-            inertia += b.inertia + b.mass * (r @ r * np.eye(3) - np.outer(r, r))
-        return Link(mass, com, inertia, name)
-
-
-@dataclass(frozen=True)
-class Chain:
-    """Which part of a file an arm is.
-
-    Attributes:
-        base: Link on which it stands.
-        tip: Link whose frame is the tool; None once the tool is another one.
-        held: Joints of the file that were told to stand, and where, rad or m.
-    """
-
-    base: str
-    tip: str | None
-    held: tuple[tuple[str, float], ...] = ()
-
-    def __str__(self) -> str:
-        tip = [] if self.tip is None else [f"tip '{self.tip}'"]
-        return ", ".join([f"base '{self.base}'", *tip, *(f"'{name}' held at {value:g}" for name, value in self.held)])
-
-
-@checked_class
-@dataclass(frozen=True, eq=False)
-class Arm:
-    """A serial arm.
-
-    Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.
-
-    Attributes:
-        name: For people and files.
-        joints: From base to tip; at least one.
-        links: One body per joint, moving with it, each in its joint's moving frame; None where nothing is known.
-        base: (4, 4) pose of the arm's base in the world.
-        tool: (4, 4) pose of the tool in the last joint's moving frame. The tool point is its origin, the tool axis its z.
-        flange: (4, 4) pose of the last link's own frame in the last joint's moving frame: the last row's frame of a DH table,
-            the identity for a URDF file. :meth:`with_tool` and :meth:`with_payload` count from here.
-        gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
-        payload: Body held by the hand, in the last joint's moving frame.
-        source: Where the description comes from, for reports.
-        chain: Which links of that file are base and tip; None for a DH table.
-        states: Configurations (n,) that have a name, rad and m, such as ``home``.
-    """
-
-    name: str
-    joints: tuple[Joint, ...]
-    links: tuple[Link | None, ...] = ()
-    base: Array = field(default_factory=lambda: np.eye(4))
-    tool: Array = field(default_factory=lambda: np.eye(4))
-    gravity: Array = field(default_factory=lambda: np.array(GRAVITY))
-    payload: Link | None = None
-    source: str = ""
-    flange: Array = field(default_factory=lambda: np.eye(4))
-    chain: Chain | None = None
-    states: Mapping[str, Array] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        joints = tuple(self.joints)
-        if not joints:
-            raise ArmError(f"arm '{self.name}' has no joints; it needs at least one")
-        names = [j.name for j in joints]
-        double = sorted({x for x in names if names.count(x) > 1})
-        if double:
-            raise ArmError(f"arm '{self.name}': the joint name '{double[0]}' is used more than once; names must be unique")
-        links = tuple(self.links) or (None,) * len(joints)
-        if len(links) != len(joints):
-            raise ArmError(f"arm '{self.name}' has {len(joints)} joints and {len(links)} links; it needs one link per joint")
-        gravity = _numbers(self.gravity, f"gravity of arm '{self.name}'")
-        if gravity.shape != (3,) or not np.isfinite(gravity).all():
-            raise ArmError(f"arm '{self.name}': gravity must be 3 finite numbers, m/s^2, for example {GRAVITY}")
-        object.__setattr__(self, "joints", joints)
-        object.__setattr__(self, "links", links)
-        object.__setattr__(self, "base", transform(self.base, f"base of arm '{self.name}'"))
-        object.__setattr__(self, "tool", transform(self.tool, f"tool of arm '{self.name}'"))
-        object.__setattr__(self, "flange", transform(self.flange, f"flange of arm '{self.name}'"))
-        object.__setattr__(self, "gravity", _frozen(gravity))
-        # An arm made by replace() may have other joints than the states were written for.
-        states = {name: _frozen(q) for name, q in self.states.items() if np.shape(q) == (len(joints),)}
-        object.__setattr__(self, "states", states)
+@dataclass(frozen=True, eq=False, repr=False)
+class Arm(Machine):
+    """A serial arm: the data of a :class:`~holdfast.arm.machine.Machine`, which it is made of, and what can be asked of it."""
 
     # ---- builders ----------------------------------------------------------------------------------------------
 
@@ -259,9 +58,7 @@ class Arm:
         Raises:
             ArmError: What is wrong with which row.
         """
-        from holdfast.arm.dh import build
-
-        return build(rows, links, convention, base, tool, gravity, payload, name, source)
+        return cls._of(build(rows, links, convention, base, tool, gravity, payload, name, source))
 
     @classmethod
     @checked
@@ -273,7 +70,7 @@ class Arm:
         """
         from holdfast.arm.urdf import load
 
-        return load(path, base, tip, **options)
+        return cls._of(load(path, base, tip, **options))
 
     @classmethod
     @checked
@@ -286,7 +83,11 @@ class Arm:
         """
         from holdfast.arm.mjcf import load
 
-        return load(path, base, tip, **options)
+        return cls._of(load(path, base, tip, **options))
+
+    @classmethod
+    def _of(cls, machine: Machine) -> Arm:
+        return cls(**{field.name: getattr(machine, field.name) for field in fields(machine)})
 
     @checked
     def with_tool(self, tool: ArrayLike) -> Arm:
@@ -304,7 +105,26 @@ class Arm:
         """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
 
-    # ---- what it is called -------------------------------------------------------------------------------------
+    @checked
+    def with_limits(self, lower: ArrayLike, upper: ArrayLike) -> Arm:
+        """The same arm with other limits (n,) of its joints, rad and m; infinite where there are none."""
+        limits = zip(self.joints, *(self.check_configurations(limit).tolist() for limit in (lower, upper)), strict=True)
+        return replace(self, joints=tuple(replace(j, lower=low, upper=high) for j, low, high in limits))
+
+    @cached_property
+    def without_limits(self) -> Arm:
+        """The arm as a law sees it: every revolute joint comes round after 2 pi."""
+        return self.with_limits(np.full(self.n, -np.inf), np.full(self.n, np.inf))
+
+    @cached_property
+    def without_idle_limits(self) -> Arm:
+        """The arm without the limits of joints that may make a whole turn: those exclude no posture."""
+        idle = ~self.prismatic & (self.upper - self.lower >= 2 * np.pi - 1e-6)
+        if not idle.any():
+            return self
+        return self.with_limits(np.where(idle, -np.inf, self.lower), np.where(idle, np.inf, self.upper))
+
+    # ---- what it is called --------------------------------------------------------------------------------------
 
     @property
     def title(self) -> str:
@@ -320,85 +140,6 @@ class Arm:
         """``arm``, ``base`` and ``tip`` by name, and the joints ``held``: what a JSON answer about the arm begins with."""
         base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
         return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
-
-    # ---- joints ------------------------------------------------------------------------------------------------
-
-    @property
-    def n(self) -> int:
-        """Number of joints."""
-        return len(self.joints)
-
-    @cached_property
-    def lower(self) -> Array:
-        """(n,) lower limits, rad or m; -inf where there is none."""
-        return _frozen(np.array([j.lower for j in self.joints]))
-
-    @cached_property
-    def upper(self) -> Array:
-        """(n,) upper limits, rad or m; inf where there is none."""
-        return _frozen(np.array([j.upper for j in self.joints]))
-
-    @cached_property
-    def joint_names(self) -> tuple[str, ...]:
-        """Names from base to tip."""
-        return tuple(j.name for j in self.joints)
-
-    @cached_property
-    def prismatic(self) -> NDArray[np.bool_]:
-        """(n,) True for sliding joints."""
-        sliding = np.array([j.prismatic for j in self.joints])
-        sliding.setflags(write=False)
-        return sliding
-
-    def joint_index(self, joint: str | int) -> int:
-        """Index from 0 of a joint given by name or index from 0.
-
-        Raises:
-            InputError: There is no such joint; the message lists those there are.
-        """
-        if isinstance(joint, (int, np.integer)) and not isinstance(joint, bool):
-            if 0 <= joint < self.n:
-                return int(joint)
-            raise InputError(f"joint index {joint} is out of range; '{self.name}' has joints 0 to {self.n - 1}")
-        if isinstance(joint, str) and joint in self.joint_names:
-            return self.joint_names.index(joint)
-        raise InputError(f"'{self.name}' has no joint '{joint}'; its joints are {', '.join(self.joint_names)}")
-
-    @cached_property
-    def fingerprint(self) -> str:
-        """SHA-256 of the numbers that define the arm (not its name or source): the same arm has the same one."""
-        data: dict[str, Any] = {
-            "joints": [
-                [
-                    j.name,
-                    j.type,
-                    j.origin.tolist(),
-                    j.axis.tolist(),
-                    j.lower,
-                    j.upper,
-                    j.velocity,
-                    j.effort,
-                    j.friction,
-                    j.armature,
-                ]
-                for j in self.joints
-            ],
-            "links": [_body(x) for x in (*self.links, self.payload)],
-            "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist(), self.flange.tolist()],
-        }
-        return hashlib.sha256(json.dumps(data).encode()).hexdigest()
-
-    def check_configurations(self, q: ArrayLike) -> Array:
-        """``q`` as float64, ``(n,)`` or ``(N, n)``.
-
-        Raises:
-            InputError: Wrong number of joint values, or not numbers.
-        """
-        a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
-        if a.ndim not in (1, 2) or a.shape[-1] != self.n:
-            got = a.shape[-1] if a.ndim else 0
-            raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
-        return a
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 
@@ -449,6 +190,31 @@ class Arm:
         from holdfast.arm import dynamics
 
         return dynamics.torque_kernel(self)
+
+    @cached_property
+    @recalled
+    def _frames_kernel(self) -> Kernel:
+        from holdfast.arm import kinematics
+
+        return self._compiled("frames of the arm", kinematics.body_poses)
+
+    def frames(self, q: ArrayLike) -> Array:
+        """Poses in the world of the base, of what moves with each joint and of the tool, rad, m.
+
+        The origin of frame k + 1 is where joint k, from 0, is; a prismatic joint is where its slide is. So
+        ``frames(q)[..., :3, 3]`` is the arm as a stick figure.
+
+        Args:
+            q: (n,) or (N, n), rad and m.
+
+        Returns:
+            (n + 2, 4, 4) or (N, n + 2, 4, 4); the first is ``base``, the last is :meth:`forward_kinematics`.
+        """
+        a = self.check_configurations(q)
+        out = np.zeros((*a.shape[:-1], self.n + 2, 4, 4))
+        out[..., :3, :] = self._frames_kernel.rows(np.atleast_2d(a)).reshape((*a.shape[:-1], self.n + 2, 3, 4))
+        out[..., 3, 3] = 1.0
+        return out
 
     def forward_kinematics(self, q: ArrayLike) -> Array:
         """Tool pose in the world, (4, 4), or (N, 4, 4) for ``q`` (N, n); rad, m."""
@@ -512,53 +278,3 @@ class Arm:
         states, single = check_states(self, q, qd, qdd)
         inertial, viscous, gravity = np.split(self._dynamics_kernel.rows(*states), 3, axis=1)
         return (inertial[0], viscous[0], gravity[0]) if single else (inertial, viscous, gravity)
-
-    def __repr__(self) -> str:
-        return f"Arm({self.name!r}, {self.n} joints)"
-
-
-def _body(link: Link | None) -> list[Any] | None:
-    return None if link is None else [link.mass, link.com.tolist(), link.inertia.tolist()]
-
-
-def _frozen(a: Array) -> Array:
-    b = np.array(a, dtype=np.float64)
-    b.setflags(write=False)
-    return b
-
-
-def _numbers(value: ArrayLike, what: str) -> Array:
-    try:
-        return np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ArmError(f"{what} must be numbers in an array of the right shape") from error
-
-
-def snapped(a: Array) -> Array:
-    """Rounding noise of cos(pi/2) and the like becomes exactly 0, 1 or -1, so that symbolic products vanish."""
-    b = a.copy()
-    for value in (-1.0, 0.0, 1.0):
-        b[np.abs(b - value) < 1e-15] = value
-    return b
-
-
-def transform(value: ArrayLike, what: str) -> Array:
-    """A pose (4, 4) from a caller, checked; ``what`` is what an error calls it."""
-    t = _numbers(value, what)
-    if t.shape != (4, 4) or not np.isfinite(t).all():
-        raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
-    if np.abs(t).max() > _MOST:
-        raise ArmError(f"{what} is beyond {_MOST:g} m; give lengths in metres")
-    rotation = t[:3, :3]
-    if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
-        raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")
-    if not np.allclose(t[3], [0, 0, 0, 1]):
-        raise ArmError(f"{what}: its last row is {t[3].tolist()}; it must be 0, 0, 0, 1")
-    out = t.copy()
-    out[:3, :3] = snapped(rotation)
-    return _frozen(out)
-
-
-def joint_list(arm: Arm, joints: Iterable[str | int]) -> tuple[int, ...]:
-    """Indices from 0, sorted, of joints given by name or index from 0."""
-    return tuple(sorted(arm.joint_index(j) for j in joints))

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from holdfast.arm.model import Arm, Joint, Link
+from holdfast.arm.machine import Joint, Link, Machine
 from holdfast.errors import ArmError
 
 LARGEST_EFFORT = 20_000.0  # N m or N; beyond any arm's joint, so a placeholder
@@ -30,7 +30,7 @@ class Finding:
     message: str
 
 
-def check(arm: Arm) -> list[Finding]:
+def check(arm: Machine) -> list[Finding]:
     """All findings about an arm, from base to tip, each joint before its link; empty if there are none.
 
     A rod without inertia about its own axis (moments 0, I, I) is accepted. Upside-down limits cannot occur: they are
@@ -45,7 +45,7 @@ def check(arm: Arm) -> list[Finding]:
     return findings
 
 
-def require_masses(arm: Arm) -> None:
+def require_masses(arm: Machine) -> None:
     """Refuse an arm with a link of which nothing is known; a link may be massless.
 
     Raises:
@@ -59,7 +59,7 @@ def require_masses(arm: Arm) -> None:
             )
 
 
-def require_possible_inertia(arm: Arm) -> None:
+def require_possible_inertia(arm: Machine) -> None:
     """Refuse an arm with a link of which nothing is known or whose inertia no body has; points and massless links pass.
 
     Raises:
@@ -73,7 +73,7 @@ def require_possible_inertia(arm: Arm) -> None:
         raise ArmError(f"arm '{arm.name}', {finding.subject}: {finding.message}")
 
 
-def require_inertia(arm: Arm) -> None:
+def require_inertia(arm: Machine) -> None:
     """Refuse an arm whose links are not all known, with mass and a possible inertia.
 
     Raises:

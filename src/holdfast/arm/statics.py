@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.kinematics import constant, eye, frames, joint_steps, split
-from holdfast.arm.model import Arm, Link
+from holdfast.arm.machine import Link, Machine
 from holdfast.arm.soundness import require_masses, require_possible_inertia
 from holdfast.kernels.program import SX
 
@@ -52,7 +52,7 @@ class Composite:
     points: list[SX]
 
 
-def composite(arm: Arm, q: SX) -> Composite:
+def composite(arm: Machine, q: SX) -> Composite:
     """The composite body of every joint, each in the axes of its own link.
 
     Raises:
@@ -85,7 +85,7 @@ def composite(arm: Arm, q: SX) -> Composite:
     return Composite(axes, masses, moments, inertias, gravity, rotations, points)
 
 
-def bodies(arm: Arm) -> list[Link]:
+def bodies(arm: Machine) -> list[Link]:
     """The links of an arm whose links are all known, the payload joined to the last one."""
     links = [link for link in arm.links if link is not None]
     if arm.payload is not None:
@@ -93,7 +93,7 @@ def bodies(arm: Arm) -> list[Link]:
     return links
 
 
-def length_scale(arm: Arm) -> float:
+def length_scale(arm: Machine) -> float:
     """A length of the arm, m, against which a first moment is small or not: its links end to end and the farthest mass."""
     reach = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in arm.joints[1:])
     slides = [max(abs(j.lower), abs(j.upper)) for j in arm.joints if j.prismatic]
@@ -101,12 +101,12 @@ def length_scale(arm: Arm) -> float:
     return reach + max(float(np.linalg.norm(link.com)) for link in bodies(arm))
 
 
-def gravity_torques(arm: Arm, c: Composite) -> SX:
+def gravity_torques(arm: Machine, c: Composite) -> SX:
     """Torques and forces (n,) that hold the arm still against gravity, N m and N; eq. (8), (12)."""
     return ca.vertcat(*[ca.dot(first_moment_rate(arm, c, i), c.gravity[i]) for i in range(arm.n)])
 
 
-def first_moment_rate(arm: Arm, c: Composite, i: int) -> SX:
+def first_moment_rate(arm: Machine, c: Composite, i: int) -> SX:
     """How the first moment behind joint i moves with that joint, (3,): ``z x s`` if it turns, ``M z`` if it slides; (15), (17).
 
     Its product with g is the torque: ``z . (s x g) = (z x s) . g``.
@@ -114,7 +114,7 @@ def first_moment_rate(arm: Arm, c: Composite, i: int) -> SX:
     return c.masses[i] * c.axes[i] if arm.joints[i].prismatic else ca.cross(c.axes[i], c.moments[i])
 
 
-def inertia_diagonal(arm: Arm, c: Composite) -> SX:
+def inertia_diagonal(arm: Machine, c: Composite) -> SX:
     """Diagonal of the joint-space inertia matrix (n,), kg m^2 and kg, armature included; eq. (25), (28).
 
     Raises:
@@ -146,21 +146,21 @@ def in_world(c: Composite) -> Composite:
     )
 
 
-def axis_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
+def axis_derivative(arm: Machine, w: Composite, i: int, j: int) -> SX:
     """``d z_i / d q_j`` (3,) of bodies in the world; eq. (14), (16)."""
     if j >= i or arm.joints[j].prismatic:
         return ca.SX(3, 1)
     return ca.cross(w.axes[j], w.axes[i])
 
 
-def moment_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
+def moment_derivative(arm: Machine, w: Composite, i: int, j: int) -> SX:
     """``d s_i / d q_j`` (3,) of bodies in the world; eq. (15), (17)."""
     if j >= i:
         return first_moment_rate(arm, w, j)
     return ca.SX(3, 1) if arm.joints[j].prismatic else ca.cross(w.axes[j], w.moments[i])
 
 
-def inertia_derivative(arm: Arm, w: Composite, i: int, j: int) -> SX:
+def inertia_derivative(arm: Machine, w: Composite, i: int, j: int) -> SX:
     """``d m_ii / d q_j`` of bodies in the world; eq. (31), (33) to (35)."""
     if j <= i or arm.joints[i].prismatic:
         return ca.SX(0)

@@ -1,4 +1,4 @@
-"""Tasks: which rows of the twist the hand must produce."""
+"""Tasks, which rows of the twist the end effector must produce, and targets: poses, or those rows of the wanted tool point."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked_class
 from holdfast.arm import kinematics
-from holdfast.arm.model import Arm
-from holdfast.errors import TaskError
+from holdfast.arm.machine import Machine
+from holdfast.arm.poses import check_poses
+from holdfast.errors import InputError, TaskError
 from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
@@ -24,7 +25,7 @@ NAMES = ("pose", "pointing", "position", "planar", "planar-pose")
 @checked_class
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Rows of the hand's twist (linear; angular) that the task prescribes.
+    """Rows of the end effector's twist (linear; angular) that the task prescribes.
 
     Attributes:
         name: ``pose`` (6 rows), ``pointing`` (5: position, and direction of the tool's z axis; turning about it is free,
@@ -85,7 +86,7 @@ class Task:
         """(m, m): what dividing the linear rows of a twist by a length, m, does to the task's rows."""
         return np.asarray(self.rows @ np.diag([1 / length] * 3 + [1.0] * 3) @ self.rows.T)
 
-    def jacobian(self, arm: Arm, q: SX) -> SX:
+    def jacobian(self, arm: Machine, q: SX) -> SX:
         """Task Jacobian (m, n), linear rows divided by the characteristic length."""
         full = kinematics.tool_jacobian(arm, q) if self.frame == "tool" else kinematics.jacobian(arm, q)
         return self.select(full)
@@ -128,7 +129,7 @@ def rows_task(
     return Task(name or "+".join(rows), picked, frame, length)
 
 
-def plane_normal(arm: Arm) -> Array | None:
+def plane_normal(arm: Machine) -> Array | None:
     """Unit normal (3,), world frame, of the plane in which the arm moves; None if it does not move in one.
 
     All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
@@ -148,7 +149,7 @@ def plane_normal(arm: Arm) -> Array | None:
     return np.asarray(normal * (1.0 if normal[np.argmax(np.abs(normal))] > 0 else -1.0))
 
 
-def as_task(arm: Arm, task: str | Task | Sequence[str], length: float | None = None) -> Task:
+def as_task(arm: Machine, task: str | Task | Sequence[str], length: float | None = None) -> Task:
     """The task of an arm from its name, a list of rows, or itself.
 
     Raises:
@@ -180,3 +181,46 @@ def as_task(arm: Arm, task: str | Task | Sequence[str], length: float | None = N
             rows.append(np.r_[0, 0, 0, normal])
         return Task(task, np.array(rows), "base", size)
     raise TaskError(f"task '{task}' is not known; use one of {', '.join(NAMES)} or a list of rows such as vx, vy, wz")
+
+
+# ---- targets -----------------------------------------------------------------------------------------------------
+
+
+def target_poses(task: Task, target: ArrayLike) -> tuple[Array, Array | None]:
+    """Targets as poses (M, 4, 4), and as the task's rows (M, m) where they were given so.
+
+    Args:
+        task: What must be met.
+        target: (m,) or (M, m), m, for tasks without angular rows; for any task (4, 4) or (M, 4, 4) poses in the world.
+
+    Raises:
+        InputError: Another shape, poses that are none, or rows for a task with turns.
+    """
+    given = np.asarray(target, dtype=np.float64)
+    if given.ndim in (2, 3) and given.shape[-2:] == (4, 4):
+        return check_poses(given), None
+    if task.angular or task.frame != "base":
+        raise InputError(f"the target has shape {given.shape}; task '{task.name}' needs tool poses, (4, 4) or (N, 4, 4) arrays")
+    if given.ndim not in (1, 2) or given.shape[-1] != task.m:
+        raise InputError(
+            f"the target has shape {given.shape}; task '{task.name}' takes ({task.m},) or (N, {task.m}), the wanted tool "
+            "point in m, or tool poses (4, 4)"
+        )
+    rows = np.atleast_2d(given)
+    poses = np.tile(np.eye(4), (len(rows), 1, 1))
+    poses[:, :3, 3] = rows @ task.rows[:, :3]
+    return poses, rows
+
+
+def target_pose(task: Task, target: ArrayLike) -> Array:
+    """One target, (m,) or (4, 4), as a pose (4, 4); see :func:`target_poses`.
+
+    Raises:
+        InputError: More than one target, NaN or infinity, or as :func:`target_poses`.
+    """
+    poses, rows = target_poses(task, target)
+    if np.ndim(target) != (2 if rows is None else 1):
+        raise InputError(f"the target has shape {np.shape(target)}; give one target, ({task.m},) or (4, 4)")
+    if not np.isfinite(poses).all():
+        raise InputError("the target holds NaN or infinity; give finite numbers")
+    return np.asarray(poses[0])

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import difflib
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm, Chain, Joint, JointType, Link
-from holdfast.arm.tip import bases as possible_bases
-from holdfast.arm.tip import guess, listed, only_tip
-from holdfast.arm.tip import tips as possible_tips
+from holdfast.arm.machine import Chain, Joint, JointType, Link, Machine, motion
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
 MOVING = get_args(JointType)
 LIMITED = ("revolute", "prismatic")
-QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
+FINGER = re.compile("finger|thumb|knuckle|jaw|claw", re.IGNORECASE)
+GRIPPER = re.compile("grip", re.IGNORECASE)
+ASK = "name one with --tip (tip= in Python)"
+MOST_CANDIDATES = 60  # in a sentence
 
 
 @dataclass(frozen=True)
@@ -47,12 +49,7 @@ class TreeJoint:
 
     def at(self, value: float) -> Array:
         """(4, 4) pose of the child link in the parent link."""
-        motion = np.eye(4)
-        if self.type == "prismatic":
-            motion[:3, 3] = self.axis * value
-        elif self.type in ("revolute", "continuous"):
-            motion[:3, :3] = turn(self.axis, value)
-        return self.origin @ motion
+        return self.origin @ motion(self.type, self.axis, value)
 
 
 @dataclass
@@ -130,21 +127,94 @@ class Tree:
         return not joint.moving or joint.name in hold
 
 
-def cos_sin(angle: float) -> tuple[float, float]:
-    """Cosine and sine, exact at quarter turns."""
-    quarters = round(angle / (np.pi / 2))
-    # Exact zeros make terms vanish from the generated code; the file's author meant them.
-    if abs(angle - quarters * np.pi / 2) < QUARTER_TURN_SLACK:
-        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
-    return float(np.cos(angle)), float(np.sin(angle))
+# ---- where the chain may begin and end ---------------------------------------------------------------------------
 
 
-def turn(axis: Array, angle: float) -> Array:
-    """(3, 3) rotation about a unit axis (Rodrigues)."""
-    c, s = cos_sin(angle)
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))
+def only_tip(tree: Tree, base: str) -> str:
+    """The tip, if there is only one candidate.
+
+    Raises:
+        ArmError: There are several, which are listed, or none.
+    """
+    candidates = possible_tips(tree, base)
+    if len(candidates) == 1:
+        return candidates[0]
+    if candidates:
+        raise ArmError(f"the arm could end at {listed(candidates)}; {ASK}")
+    moving = [joint.child for joint in _hanging(tree, base) if joint.moving]
+    if moving:
+        raise ArmError(f"only the fingers of a gripper move on '{base}' ({listed(moving)}); {ASK}")
+    raise ArmError(f"no moving joint hangs on '{base}'; an arm needs at least one")
+
+
+def possible_tips(tree: Tree, base: str) -> list[str]:
+    """Links at which an arm that stands on ``base`` could end, the farthest from the base first.
+
+    Those are the links that carry nothing, fingers being left off: a flange and the frames beside it are as good as the end
+    of the longest chain. Where it cannot be told whether a joint moves a finger, the link that carries it is a candidate too.
+    """
+    below: dict[str, tuple[bool, bool]] = {}  # link: whether fingers at most, or what may be fingers at most, move behind it
+    for link in reversed(list(tree.links_from(base))):
+        hanging = tree.below[link]
+        below[link] = (
+            all(below[j.child][0] and (not j.moving or _is_finger(j)) for j in hanging),
+            all(below[j.child][1] and (not j.moving or _is_finger(j) or _may_be_finger(tree, j)) for j in hanging),
+        )
+    moved = {base: 0}  # link: how many joints move it, fingers left off
+    found: dict[str, int] = {}
+    for link in tree.links_from(base):
+        if link not in moved:
+            continue
+        kept = [j for j in tree.below[link] if not (j.moving and _is_finger(j) and below[j.child][0])]
+        moved.update({j.child: moved[link] + j.moving for j in kept})
+        doubtful = any(j.moving and below[j.child][1] and _may_be_finger(tree, j) for j in kept)
+        if moved[link] and (not kept or doubtful):
+            found[link] = moved[link]
+    return sorted(found, key=lambda link: -found[link])
+
+
+def _is_finger(joint: TreeJoint) -> bool:
+    names = f"{joint.name} {joint.child}"
+    return bool(FINGER.search(names) or (joint.type == "prismatic" and GRIPPER.search(names)))
+
+
+def _may_be_finger(tree: Tree, joint: TreeJoint) -> bool:
+    """It is named after a gripper, or is not alone on its link and tied to another joint or one of two that slide."""
+    beside = [j for j in tree.below[joint.parent] if j is not joint]
+    twin = joint.type == "prismatic" and any(j.type == "prismatic" for j in beside)
+    return bool(twin or (beside and joint.name in tree.tied) or GRIPPER.search(f"{joint.name} {joint.child}"))
+
+
+def _hanging(tree: Tree, base: str) -> Iterator[TreeJoint]:
+    for link in tree.links_from(base):
+        yield from tree.below[link]
+
+
+def possible_bases(tree: Tree, tip: str | None) -> list[str]:
+    """Links on which an arm could stand: those with a moving joint between them and ``tip``, or behind them without one."""
+    if tip is None:
+        carrying: set[str] = set()
+        for joint in tree.joints.values():
+            link = joint.parent
+            while joint.moving and link not in carrying:
+                carrying.add(link)
+                link = tree.above[link].parent if link in tree.above else link
+        return [link for link in tree.bodies if link in carrying]
+    path = tree.path(tree.root, tip)
+    last = max((k for k, joint in enumerate(path) if joint.moving), default=-1)
+    return [joint.parent for joint in path[: last + 1]]
+
+
+def listed(names: Sequence[str], most: int = MOST_CANDIDATES) -> str:
+    """Names for a sentence."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(f"'{x}'" for x in names[:most]) + more
+
+
+def guess(name: str, known: Collection[str]) -> str:
+    """``did you mean ...?`` for a sentence, or nothing."""
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+    return f"did you mean '{close[0]}'? " if close else ""
 
 
 # ---- the chain ---------------------------------------------------------------------------------------------------
@@ -175,7 +245,7 @@ def chain(
     gravity: Sequence[float],
     source: str,
     stand: Array | None = None,
-) -> Arm:
+) -> Machine:
     """The arm from link ``base`` down to link ``tip``, with everything that does not move against a link folded into it.
 
     Args:
@@ -226,7 +296,7 @@ def chain(
         joints.append(_model_joint(joint, pending @ joint.origin))
         links.append(_folded(tree, joint.child, on_path, still))
         pending = np.eye(4)
-    return Arm(
+    return Machine(
         name,
         tuple(joints),
         tuple(links),

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm.model import GRAVITY, Arm, Link
-from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain, cos_sin
+from holdfast.arm.machine import GRAVITY, Link, Machine, cos_sin
+from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain
 from holdfast.errors import ArmError
 from holdfast.files import reading
 
@@ -38,7 +38,7 @@ def load(
     name: str | None = None,
     gravity: Sequence[float] = GRAVITY,
     srdf: str | Path | None = None,
-) -> Arm:
+) -> Machine:
     """The serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
     Fixed joints are folded away. Bodies that hang on the chain without being part of it (tools, covers, grippers, whatever
@@ -64,7 +64,7 @@ def load(
             the same name that ends in ``.srdf``, where there is one.
 
     Returns:
-        The arm; its ``base`` is the identity, its ``source`` the name of the file.
+        What :meth:`holdfast.Arm.from_urdf` makes an arm of; its ``base`` is the identity, its ``source`` the name of the file.
 
     Raises:
         ArmError: The file cannot be read, is not a sound URDF tree, or has no single serial chain from base to tip.
@@ -146,7 +146,7 @@ def _unexpanded(robot: ElementTree.Element) -> Iterator[str]:
         waiting += [(child, kept) for child in reversed(element)]
 
 
-def _states(path: Path, arm: Arm) -> dict[str, Array]:
+def _states(path: Path, arm: Machine) -> dict[str, Array]:
     """Configurations of an SRDF file that name every joint of the arm."""
     found: dict[str, Array] = {}
     for state in _element(path, "SRDF").iter("group_state"):

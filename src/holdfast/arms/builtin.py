@@ -13,9 +13,9 @@ import numpy as np
 import yaml
 
 from holdfast.arguments import checked
-from holdfast.arm import urdf
 from holdfast.arm.dh import DH
-from holdfast.arm.model import Arm, Joint, Link
+from holdfast.arm.machine import Joint, Link
+from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
 
 DATA = resources.files("holdfast.arms").joinpath("data")
@@ -173,7 +173,7 @@ def _rad(degrees: tuple[float, ...]) -> tuple[float, ...]:
 
 def _file(file: str, base: str, tip: str) -> Arm:
     with resources.as_file(DATA.joinpath(file)) as path:
-        return urdf.load(path, base, tip)
+        return Arm.from_urdf(path, base, tip)
 
 
 def _planar(n: int) -> Arm:

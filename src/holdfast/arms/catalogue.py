@@ -52,11 +52,9 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Ma
 
         return table.load(spec)
     if ending in MJCF_ENDINGS or (ending == ".xml" and _outermost(spec) == "mujoco"):
-        from holdfast.arm import mjcf
-
-        return mjcf.load(spec, base, tip, hold)
+        return Arm.from_mjcf(spec, base, tip, hold=hold)
     if ending in URDF_ENDINGS:
-        return urdf.load(spec, base, tip, hold)
+        return Arm.from_urdf(spec, base, tip, hold=hold)
     if ending == ".xacro":
         raise ArmError(f"'{spec}' is a xacro file; {urdf.expand_first(Path(spec))}")
     if reading.exists(spec):

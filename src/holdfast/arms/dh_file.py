@@ -36,7 +36,8 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
 from holdfast.arguments import checked
 from holdfast.arm.dh import DH
-from holdfast.arm.model import GRAVITY, Arm, Link
+from holdfast.arm.machine import GRAVITY, Link
+from holdfast.arm.model import Arm
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.arms.dh_rows import DHTable
 from holdfast.errors import ArmError, InputError

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.dh import DH
-from holdfast.arm.model import Arm, snapped
+from holdfast.arm.machine import snapped
+from holdfast.arm.model import Arm
 
 Array = NDArray[np.float64]
 

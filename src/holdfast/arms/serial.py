@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.arm.model import Arm, Chain, Joint, Link
+from holdfast.arm.machine import Chain, Joint, Link
+from holdfast.arm.model import Arm
 from holdfast.errors import ArmError
 
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")

@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 Point = tuple[float, float, float]
 
 BASE = -1
-"""The link that stands still, in ``Capsule.link``."""
+"""The link that is still, in ``Capsule.link``."""
 
 _SHARE = 1 / 20  # default radius over the sum of the link lengths: an assumption
 _POINT = 1e-9  # m: a link shorter than this has no length
@@ -109,7 +109,7 @@ class Capsules:
         """One capsule along each link: from the frame that moves with its joint to the next joint's, or to the tool point.
 
         The base reaches from its own frame to the first joint. A link of no length lies within the round end of its
-        neighbour and has none, except on a sliding joint, which takes it away from there: that gets a sphere. The rod on
+        neighbour and has none, except on a prismatic joint, which takes it away from there: that gets a sphere. The rod on
         which a joint slides is not covered.
 
         Args:

@@ -147,7 +147,7 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
 
 def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Arm:
     """The arm where --mount, --gravity and --payload put it."""
-    from holdfast.arm.model import Link
+    from holdfast.arm.machine import Link
 
     if mount not in MOUNTS:
         raise InputError(f"--mount '{mount}' is not known; use one of {', '.join(MOUNTS)}")

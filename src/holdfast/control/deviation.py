@@ -1,6 +1,6 @@
-"""How far the hand's velocity is from the one commanded, at one instant: healthy, and with each joint locked.
+"""How far the end effector's velocity is from the one commanded, at one instant: healthy, and with each joint locked.
 
-The controller knows of no failure, so the arm with joint i locked moves its hand by ``J rates - j_i rates_i``.
+The controller knows of no failure, so the arm with joint i locked moves its end effector by ``J rates - j_i rates_i``.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (4), (8), (10).
 """
@@ -36,8 +36,8 @@ class Deviations:
 
     Attributes:
         errors: (N, n) norm of the velocity error with joint i locked.
-        angles: (N, n) angle between command and velocity with joint i locked, rad; pi/2 where the hand does not move.
-        still: (N, n) the hand does not move with joint i locked.
+        angles: (N, n) angle between command and velocity with joint i locked, rad; pi/2 where the end effector does not move.
+        still: (N, n) the end effector does not move with joint i locked.
         healthy_error: (N,) norm of the velocity error without failure.
         healthy_angle: (N,) angle without failure, rad.
     """

@@ -172,7 +172,7 @@ int main(void) {{
     }}
     for (k = 0; k < 100; ++k) {{
         if ({name}(q, v, rates{nulls})) {{
-            fprintf(stderr, "no answer in cycle %d: the arm stands still\\n", k);
+            fprintf(stderr, "no answer in cycle %d: the arm is still\\n", k);
             return 1;
         }}
         for (i = 0; i < {n}; ++i) q[i] += cycle * rates[i]; /* send the rates to the drives */

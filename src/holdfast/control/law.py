@@ -1,4 +1,4 @@
-"""Control laws: what a controller that knows of no failure commands its joints, given where the hand should go.
+"""Control laws: what a controller that knows of no failure commands its joints, given where the end effector should go.
 
 Every law is one straight-line program of the task Jacobian and a task velocity, so that the same law runs in the batch
 kernel, in C on a robot's controller and in the browser. The velocity itself is ``Ke`` times the error, slowed down as a
@@ -43,7 +43,7 @@ class Law(Labelled, Steps):
 
     Args:
         arm: The arm.
-        task: Rows of the hand's velocity that are prescribed.
+        task: Rows of the end effector's velocity that are prescribed.
         gain: ``Ke``, 1/s, or 1/cycle where time counts in cycles.
         speed_limit: Largest norm of the linear part of v, m/s or m/cycle; v is slowed as a whole. None: no limit.
 
@@ -173,7 +173,7 @@ class Law(Labelled, Steps):
 
     @checked
     def deviations(self, q: ArrayLike, v: ArrayLike) -> Deviations:
-        """How far the hand's velocity is from the one commanded, for the healthy arm and with each joint locked.
+        """How far the end effector's velocity is from the one commanded, for the healthy arm and with each joint locked.
 
         Args:
             q: (n,) or (N, n), rad and m.
@@ -264,6 +264,26 @@ class Law(Labelled, Steps):
         """One phrase for people."""
         limit = "" if self.speed_limit is None else f", at most {self.speed_limit:g} m/s"
         return f"{self.phrase()}, gain {self.gain:g}/s{limit}"
+
+    def stored(self) -> dict[str, Any]:
+        """All that tells it from other laws of the same arm, as JSON data.
+
+        Raises:
+            InputError: It has no label.
+        """
+        limits = {"gain": self.gain, "speed_limit": self.speed_limit}
+        return {"law": LAWS.label(self), **limits, "task": self.task.to_dict()}
+
+    def formerly(self, law: Any, task: Any = None) -> dict[str, Any] | None:
+        """What holdfast 0.1 kept in place of :meth:`stored`; None if that, of six digits, does not tell it from other laws.
+
+        Args:
+            law: In place of its label.
+            task: In place of its task.
+        """
+        numbers = [self.gain, self.speed_limit or 0.0, *np.hstack([np.empty(0), *map(np.ravel, self.settings.values())])]
+        exact = all(float(f"{x:g}") == x for x in numbers)
+        return {"law": law, "gain": None, "speed_limit": None, "task": task} if exact else None
 
     def __repr__(self) -> str:
         return f"<{self.describe()}, arm {self.arm.name!r}>"

@@ -40,8 +40,8 @@ class FailureTolerant(Law):
 
     Args:
         arm: The arm.
-        task: Rows of the hand's velocity that are prescribed, from 1 to 6. Their characteristic length decides how metres and
-            radians are weighed, and so changes the result.
+        task: Rows of the end effector's velocity that are prescribed, from 1 to 6. Their characteristic length decides how
+            metres and radians are weighed, and so changes the result.
         pre_failure_error: Allowed error of the healthy arm for the unit velocity, between 0 and 1.
         gain: As for every law.
         speed_limit: As for every law.

@@ -90,7 +90,7 @@ def trade_off(
 
     Args:
         arm: The arm.
-        task: Rows of the hand's velocity that are prescribed.
+        task: Rows of the end effector's velocity that are prescribed.
         samples: Number of configurations and directions.
         allowed: (E,) pre-failure errors, from 0 to below 1, in increasing order.
         seed: Of the samples.

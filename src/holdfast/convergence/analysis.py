@@ -9,7 +9,6 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.control.law import Law
 from holdfast.convergence.healthy_motion import healthy_paths
 from holdfast.convergence.measures import NAMES, Arcs, Flags, Index, Measures, averaged, spaced, within
@@ -90,7 +89,7 @@ class Job:
         return {
             "kind": "workspace",
             "arm": self.law.arm.fingerprint,
-            "law": self.law.describe(),
+            **self.law.stored(),
             "target": self.pose.tolist(),
             "starts": places.poses[:, :3].tolist(),
             "configurations": self.configurations,
@@ -225,7 +224,7 @@ def prepared(
     if len(targets) != 1:
         raise InputError(f"there are {len(targets)} targets; a workspace is that of one, see target_measures for more")
     pose = targets.poses[0]
-    bounds = tuple(tuple(arcs) for arcs in joint_bounds(without_idle_limits(arm), pose, task, seed))
+    bounds = tuple(tuple(arcs) for arcs in joint_bounds(arm.without_idle_limits, pose, task, seed))
     arcs = None
     if method == "procedure" and any(bounds):
         arcs = _sinks(law, pose) if sinks is None else {k: list(sinks.get(k, ())) for k in range(arm.n)}

@@ -14,7 +14,6 @@ from holdfast.arguments import checked, real_numbers
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.convergence.detours import HealthyCost, healthy_cost
@@ -468,7 +467,7 @@ def _poses(law: Law, goal: Array) -> Array:
 
 def _at_rest(law: Law) -> float:
     """Norm of the error, m and rad, below which a target counts as reached at rest."""
-    return ARRIVES if law.task.angular else ARRIVES * length_unit(law.arm)
+    return ARRIVES if law.task.angular else ARRIVES * law.arm.length_unit
 
 
 def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm.configurations import as_configurations, without_idle_limits
+from holdfast.arm.configurations import as_configurations
 from holdfast.control.law import Law
 from holdfast.convergence.places import Places, picked_at, read_places
 from holdfast.errors import InputError
@@ -258,7 +258,7 @@ def _run(
 def _in_reach(law: Law, code: NDArray[np.uint8], q: Array, pose: Array, locked: NDArray[np.int64], seed: int) -> Flags:
     """(N,) True for runs that arrived, and for others if a configuration on the target is found with the joint standing."""
     found = np.asarray(code == Outcome.CONVERGED)
-    engine = solver(without_idle_limits(law.arm), law.task)
+    engine = solver(law.arm.without_idle_limits, law.task)
     rows = np.flatnonzero(~found)
     standing = rows[locked[rows] >= 0]
     joints = locked[standing]

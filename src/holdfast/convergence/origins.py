@@ -249,7 +249,9 @@ def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progr
     places, count = begin.places, len(begin.places)
     folder = None
     if store is not None:
-        folder = Store.create(store, job.plan(places), job.store_columns(), count, _CHUNK)
+        folder = Store.create(
+            store, job.plan(places), job.store_columns(), count, _CHUNK, formerly=job.law.formerly(job.law.describe())
+        )
     chunks: list[dict[str, NDArray[Any]]] = []
     for k, first in enumerate(range(0, count, _CHUNK)):
         stop = min(first + _CHUNK, count)

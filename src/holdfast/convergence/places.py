@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.configurations import without_idle_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task
@@ -140,7 +139,7 @@ def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int
 
     Source: Goel et al. 2005, section on the analysis of a workspace.
     """
-    arm = without_idle_limits(arm)
+    arm = arm.without_idle_limits
     if arm.n - task.m == 1:
         owner, guess = on_curves(arm, fibres(arm, places, task, _SPACING, seed, _SEEDS), count)
         q, ok = solver(arm, task).attempt(guess, places[owner], TOLERANCE)

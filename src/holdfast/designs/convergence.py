@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
 from holdfast.arms.serial import to_dict
 from holdfast.control.law import Law
 from holdfast.convergence.places import read_places
@@ -105,64 +104,12 @@ class ConvergenceDesigns(Result):
             )
         return lines
 
-    def to_dict(self) -> dict[str, Any]:
-        """What was found, as JSON takes it: rad, m and shares."""
-
-        def one(k: int) -> dict[str, Any]:
-            values = dict(zip(self.space.names, self.values[k].tolist(), strict=True))
-            return {"values": values, **{name: float(m[k]) for name, m in self.measures.items()}}
-
-        out: dict[str, Any] = {
-            **self.law.arm.entry(),
-            "law": self.law.label,
-            "task": self.law.task.name,
-            "objective": self.objective,
-            "exact": self.exact,
-            "designs": len(self.values),
-            "given": one(0),
-            "best": one(self.best),
-        }
-        if self.checked is not None:
-            given, best, apart = self.checked
-            named: dict[str, Interval | Difference] = {"given": given, "best": best, "difference": apart}
-            out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
-        return out
-
-    @says("writing the results")
-    def save(self, folder: str | Path) -> list[Path]:
-        """Write ``designs.csv``, a row for each design with its values (m, rad) and measures (shares), ``best-arm.yaml`` and
-        ``report.html``.
-
-        Raises:
-            StoreError: The folder cannot be written.
-        """
-        from holdfast.files.output import made, replaced
-
-        lines = [",".join((*self.space.names, *self.measures))]
-        columns = [*self.values.T.tolist(), *(m.tolist() for m in self.measures.values())]
-        lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        place = made(folder)
-        files = [place / "designs.csv", place / "best-arm.yaml"]
-        for path, content in zip(files, ("\n".join(lines) + "\n", self.arm_file()), strict=True):
-            replaced(path, content)
-        return [*files, self.report(place / "report.html")]
-
     def arm_file(self) -> str:
         """The best arm as a file that every command takes."""
         from holdfast.arms.dh_file import text
 
         arm = self.arm()
         return text(self.space.table_of(self.values[self.best]), arm.name, arm.gravity, arm.source)
-
-    @says("drawing the report")
-    def report(self, path: str | Path) -> Path:
-        """Write one HTML file that needs nothing else: what to build, what that gains, and how it was found.
-
-        Raises:
-            StoreError: The file cannot be written; what was there is as it was.
-        """
-        written: Path = self._presented("write", path)
-        return written
 
 
 @checked
@@ -325,9 +272,12 @@ def _sampled(
     places = read_places(law.arm, law.task, given, np.random.default_rng(search))
     seen = Failures(moved, places.poses, failures, seed)
     searched = {"designs": designs, "climbs": climbs, "seed": seed, "failures": failures, "targets": len(places)}
-    own = law.arm, law.describe(), law.label, law.task
     listed = None if isinstance(given, (int, np.integer)) else places.poses.tolist()
-    memory = None if store is None else Memory(store, _plan(own, box.space, {**searched, "places": listed}))
+    memory = None
+    if store is not None:
+        task = [law.task.rows.tolist(), law.task.frame, law.task.length]
+        formerly = law.formerly([law.label, law.describe()], task)
+        memory = Memory(store, _plan(law, box.space, {**searched, "places": listed}), formerly)
     parts = count(1)
 
     def part(name: str, make: Callable[[], Parts]) -> Parts:
@@ -355,14 +305,12 @@ def _sampled(
     return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, compared, searched)
 
 
-def _plan(own: tuple[Arm, str, str, Task], space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
+def _plan(law: Law, space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:
     """What defines a sampled search, as JSON data."""
-    arm, law, label, task = own
     return {
         "kind": "design for convergence",
-        "arm": to_dict(arm),
-        "law": [label, law],
-        "task": [task.rows.tolist(), task.frame, task.length],
+        "arm": to_dict(law.arm),
+        **law.stored(),
         "vary": [p.written for p in space.parameters],
         **searched,
     }

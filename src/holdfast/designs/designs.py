@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import csv
-import io
+import math
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.designs.choice import SAME, farther
 from holdfast.designs.space import DesignSpace
-from holdfast.files.output import made, replaced
 from holdfast.indices.index import Index
-from holdfast.notice import says
 from holdfast.probability.distribution import Distribution
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
 from holdfast.result import Result
+from holdfast.words import article, counted, number
 
 Array = NDArray[np.float64]
 
@@ -112,80 +109,64 @@ class Designs(Result):
         """The arm of a design; the best one if no number is given."""
         return self.space.arm_of(self.values[self.best if number is None else number])
 
-    # ---- out -------------------------------------------------------------------------------------------------------
+    @property
+    def headline(self) -> str:
+        """The answer in one or two sentences."""
+        given, best = self.checked.given, self.checked.best
+        gives, keeps = interval_text(given.guaranteed), interval_text(best.guaranteed)
+        name, share = self.index.name, chosen(self.level)
+        if not best.guaranteed.value > 0 and not given.guaranteed.value > 0:
+            return (
+                f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses "
+                "are not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or "
+                "level."
+            )
+        more = farther(self.guaranteed, self.reach, self.best)
+        if self.best_is_start:
+            text = (
+                f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} "
+                f"is at least {gives}, {self._failures()}."
+            )
+            return f"{text} {more}".rstrip()
+        if self.guaranteed[self.best] <= (1 + SAME) * self.start_guaranteed:
+            return (
+                f"No design guarantees more than the given arm, but the best one guarantees as much, {keeps} "
+                f"for {share} of the poses (the given arm {gives}), and reaches {self.reach[self.best]:.3f} m "
+                f"instead of {self.start_reach:.3f} m. {more}"
+            ).rstrip()
+        if best.guaranteed.value <= given.guaranteed.value:
+            return (
+                f"No gain that lasts was found: on the {counted(self.poses, 'pose')} of the search the best design "
+                f"guarantees a {name} of {number(float(self.guaranteed[self.best]))}, but on fresh ones {keeps}, and the given "
+                f"arm {gives}. Search with more poses."
+            )
+        reaches = f"The reach goes from {self.start_reach:.3f} m to {self.reach[self.best]:.3f} m."
+        return (
+            f"For {share} of the poses of the region the best design keeps {article(name)} {name} of at least "
+            f"{keeps}, {self._failures()}; the given arm {gives}. {reaches} {more}"
+        ).rstrip()
 
-    @says("drawing the report")
-    def report(self, path: str | Path) -> Path:
-        """Write one HTML file that needs nothing else: what to build, what that gains, and what it costs in reach.
+    def _failures(self) -> str:
+        sizes = {len(f) for f in self.index.failures}
+        if len(sizes) > 1 or len(self.index.failures) != math.comb(self.space.arm.n, min(sizes)):
+            return "after any of the failures considered"
+        return "whichever joint locks" if sizes == {1} else f"whichever {min(sizes)} joints lock together"
 
-        Raises:
-            StoreError: The file cannot be written; what was there is as it was.
-        """
-        written: Path = self._presented("write", path)
-        return written
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        ends = f"{self.reach[self.front[0]]:.4g} to {self.reach[self.front[-1]]:.4g} m"
+        return [
+            self.headline,
+            f"{len(self.values):,} designs tried; {len(self.front)} of them are on the front of reach and guaranteed "
+            f"{self.index.name}, reach {ends}",
+        ]
 
-    @says("writing the results")
-    def save(self, folder: str | Path) -> list[Path]:
-        """Write ``report.html``, ``best-arm.yaml``, ``designs.csv`` and, for what comes next, ``region.yaml`` into a folder.
 
-        Returns:
-            The files.
+def chosen(x: float) -> str:
+    """A share that somebody chose."""
+    return f"{100 * x:.4g} %"
 
-        Raises:
-            StoreError: A file cannot be written.
-        """
-        texts: dict[str, str] = self._presented("files", self._table())
-        place = made(folder)
-        for name, text in texts.items():
-            replaced(place / name, text)
-        return [self.report(place / "report.html"), *(place / name for name in texts)]
 
-    def _table(self) -> str:
-        """All designs as CSV, rad and m."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        names = [f"{p.name} ({p.unit})" for p in self.space.parameters]
-        writer.writerow(["design", *names, "guaranteed", "reach (m)", "reached", "on the front"])
-        front = set(self.front.tolist())
-        columns = (self.guaranteed, self.reach, self.reached)
-        for k, values in enumerate(self.values.tolist()):
-            writer.writerow([k, *values, *(float(c[k]) for c in columns), int(k in front)])
-        return out.getvalue()
-
-    def to_dict(self) -> dict[str, Any]:
-        """The answer as JSON types, rad and m."""
-
-        def arm(number: int, checked: Checked) -> dict[str, Any]:
-            g = checked.guaranteed
-            return {
-                "values": dict(zip(self.space.names, self.values[number].tolist(), strict=True)),
-                "guaranteed_in_search": float(self.guaranteed[number]),
-                "guaranteed": {"value": g.value, "low": g.low, "high": g.high, "confidence": g.confidence},
-                "median": float(checked.distribution.quantile(0.5, reachable_only=False)),
-                "reached": 1 - checked.distribution.unreached_share,
-                "reach": float(self.reach[number]),
-            }
-
-        return {
-            **self.space.arm.entry(),
-            "index": self.index.label,
-            "task": self.index.task.name,
-            "region": self.region.name,
-            "level": self.level,
-            "bound": self.index.bound,
-            "poses": self.poses,
-            "fresh_poses": self.checked.best.distribution.samples,
-            "designs": len(self.values),
-            "given": arm(0, self.checked.given),
-            "best": arm(self.best, self.checked.best),
-            "optimism": self.checked.optimism,
-            "front": [
-                {
-                    "reach": float(self.reach[k]),
-                    "guaranteed": float(self.guaranteed[k]),
-                    "values": dict(zip(self.space.names, self.values[k].tolist(), strict=True)),
-                }
-                for k in self.front.tolist()
-            ],
-            "seed": self.seed,
-        }
+def interval_text(p: Interval) -> str:
+    """A value with its interval."""
+    return f"{number(p.value)} ({number(p.low)} to {number(p.high)}, {100 * p.confidence:.4g} %)"

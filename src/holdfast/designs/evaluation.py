@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import made_finite
-from holdfast.arm.scale import length_unit
 from holdfast.designs.family import Family
 from holdfast.solvers.optimum import FIRST_STEPS, LAST_STEPS, RADIUS, best_of_each, default_starts
 
@@ -84,7 +83,7 @@ class Evaluator:
     def __init__(self, family: Family, poses: Array, seed: int = 0) -> None:
         self.family, self.poses = family, poses
         self.starts = default_starts(family.arm, family.task)
-        self._tolerance = TOLERANCE * min(length_unit(family.space.arm), 1.0)
+        self._tolerance = TOLERANCE * min(family.space.arm.length_unit, 1.0)
         self._targets = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(len(poses), 9)], axis=1)
         self._pool = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(4,))).random((_POOL, family.arm.n))
 

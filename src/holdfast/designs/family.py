@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
-from holdfast.arm.model import Arm, Joint, snapped
+from holdfast.arm.machine import Joint, snapped
+from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.caching import cached_property
 from holdfast.designs.space import OF_TOOL, DesignSpace

@@ -13,7 +13,8 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm, Joint
+from holdfast.arm.machine import Joint
+from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.designs.space import DesignSpace

@@ -1,53 +1,59 @@
-"""What a search has done already, in a file, so that one that was stopped goes on where it was."""
+"""What a search has done already, in a file, so that one that was stopped is resumed where it was."""
 
 from __future__ import annotations
 
 import json
-import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.engine.folder import difference, taken_for
+from holdfast.engine.journal import Lines
 from holdfast.errors import StoreError
+from holdfast.files import reading
+from holdfast.files.output import guarded
 
-FILE = "search.jsonl"
+FILE = "search.journal"
+BEFORE = "search.jsonl"  # of holdfast 0.1, whose lines have no checksums; it is resumed in the same file
 Parts = dict[str, NDArray[Any]]
 
 
 class Memory:
-    """Parts of a search by name, in a file of JSON lines: the first says which search it is, each other holds a part.
+    """Parts of a search by name, in a journal of JSON lines: the first says which search it is, each other holds a part.
 
-    A part is on the disk before the search goes on; a last line that a crash cut short does not count. Numbers come back with
-    the same bits, so a search that was stopped ends with the same result as one that was not.
+    A part is on the disk before the search goes on; lines that are cut short or not sound do not count. Numbers come back
+    with the same bits, so a search that was stopped ends with the same result as one that was not.
     """
 
-    def __init__(self, folder: str | Path, plan: dict[str, Any]) -> None:
+    def __init__(self, folder: str | Path, plan: dict[str, Any], formerly: Mapping[str, Any] | None = None) -> None:
         """The memory of a search in a folder, made if need be.
 
         Args:
             folder: Where results are kept.
             plan: JSON data that defines the search.
+            formerly: Entries of it as earlier versions wrote them; see :meth:`holdfast.engine.Store.create`.
 
         Raises:
             StoreError: The folder holds another search or something else, or cannot be written.
         """
-        self.path = Path(folder) / FILE
+        place = Path(folder)
+        self._before = reading.exists(place / BEFORE)
+        self._lines = Lines(place / (BEFORE if self._before else FILE))
         self._plan: dict[str, Any] = json.loads(json.dumps(plan))
         self._parts: dict[str, Parts] = {}
-        try:
-            if self.path.exists():
-                self._read()
-                return
-            if self.path.parent.exists() and any(self.path.parent.iterdir()):
-                raise StoreError(f"'{folder}' is not empty and holds no search of designs; give a new or empty folder")
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            self._add({"search": self._plan})
-        except OSError as error:
-            raise self._refused(error) from error
+        if reading.exists(self._lines.path):
+            self._read(formerly)
+            return
+        with guarded(place):
+            occupied = place.exists() and any(place.iterdir())
+            place.mkdir(parents=True, exist_ok=True)
+        if occupied:
+            raise StoreError(f"'{folder}' is not empty and holds no search of designs; give a new or empty folder")
+        self._add({"search": self._plan})
 
     def part(self, name: str, make: Callable[[], Parts]) -> Parts:
         """Arrays by name: remembered, or made now and remembered.
@@ -57,45 +63,25 @@ class Memory:
         """
         if name not in self._parts:
             made = make()
-            line = {"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in made.items()}}
-            try:
-                self._add(line)
-            except OSError as error:
-                raise self._refused(error) from error
+            self._add({"part": name, "arrays": {key: [str(x.dtype), x.shape, x.ravel().tolist()] for key, x in made.items()}})
             self._parts[name] = made
         return self._parts[name]
 
-    def _read(self) -> None:
-        whole, _, rest = self.path.read_bytes().rpartition(b"\n")
+    def _read(self, formerly: Mapping[str, Any] | None) -> None:
         try:
-            first, *lines = [json.loads(x) for x in whole.split(b"\n") if x]
-            plan = dict(first["search"])
+            first, *lines = [json.loads(text) for text, sound in self._lines.read() if sound or self._before]
+            plan = taken_for(self._plan, first["search"], formerly)
             for line in lines:
                 self._parts[line["part"]] = {
                     key: _array(kind, values).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()
                 }
         except (ValueError, KeyError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
-            raise StoreError(f"'{self.path}' is damaged; remove it and start the search again") from error
-        for key in {*plan, *self._plan}:
-            if plan.get(key) != self._plan.get(key):
-                held, asked = (_short(x.get(key)) for x in (plan, self._plan))
-                raise StoreError(
-                    f"'{self.path.parent}' holds another search: its {key} is {held}, asked for is {asked}; give another folder"
-                )
-        if rest:  # a line that was cut short
-            os.truncate(self.path, len(whole) + 1)
+            raise StoreError(f"'{self._lines.path}' is damaged; remove it and start the search again") from error
+        if other := difference(plan, self._plan):
+            raise StoreError(f"'{self._lines.path.parent}' holds another search: {other}; give another folder")
 
     def _add(self, line: dict[str, Any]) -> None:
-        with self.path.open("ab") as file:
-            file.write(json.dumps(line).encode() + b"\n")
-            file.flush()
-            os.fsync(file.fileno())
-
-    def _refused(self, error: OSError) -> StoreError:
-        return StoreError(
-            f"cannot write to '{self.path.parent}': {error.strerror or error}; make room or give another folder, and run the "
-            "same command again"
-        )
+        self._lines.add(json.dumps(line).encode())
 
 
 def _array(kind: str, values: Any) -> NDArray[Any]:
@@ -103,8 +89,3 @@ def _array(kind: str, values: Any) -> NDArray[Any]:
         raise ValueError(kind)
     with np.errstate(over="raise"):
         return np.array(values, dtype=kind)
-
-
-def _short(value: Any) -> str:
-    text = json.dumps(value)
-    return text if len(text) <= 60 else text[:57] + "..."

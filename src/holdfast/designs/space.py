@@ -10,7 +10,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arm.model import Arm, Link
+from holdfast.arm.machine import Link
+from holdfast.arm.model import Arm
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.arms.dh_rows import DHTable, dh_table
 from holdfast.caching import cached_property
@@ -265,7 +266,7 @@ class DesignSpace:
     def _bodies(self) -> tuple[list[Link | None], Link | None]:
         """The given arm's links, each in the moving frame of its joint of the table, and its payload in the last row's."""
         same = self.table.arm()
-        frames = [np.linalg.inv(a) @ b for a, b in zip(_moving_frames(same), _moving_frames(self.arm), strict=True)]
+        frames = [np.linalg.inv(a) @ b for a, b in zip(same.frames_at_zero[:-1], self.arm.frames_at_zero[:-1], strict=True)]
         links = [None if link is None else link.moved(frame) for link, frame in zip(self.arm.links, frames, strict=True)]
         held = self.arm.payload
         return links, None if held is None else held.moved(np.linalg.inv(same.flange) @ frames[-1])
@@ -279,15 +280,6 @@ class DesignSpace:
         engine = qmc.Sobol(len(self.parameters), scramble=True, rng=np.random.default_rng(seed))
         unit = engine.random_base2(max(0, int(np.ceil(np.log2(count)))))[:count]
         return np.asarray(self.lower + unit * (self.upper - self.lower))
-
-
-def _moving_frames(arm: Arm) -> list[Array]:
-    """(4, 4) of each joint's moving frame in the world, all joints at 0."""
-    frames, pose = [], arm.base
-    for joint in arm.joints:
-        pose = pose @ joint.origin
-        frames.append(pose)
-    return frames
 
 
 Vary = DesignSpace | Iterable["Parameter | str"] | Mapping[str, Any]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -32,6 +33,33 @@ def is_plain(name: object) -> bool:
         and not set(name) & set("/\\\0")
         and len(name.encode(errors="replace")) < 256
     )
+
+
+def taken_for(plan: Mapping[str, Any], old: Mapping[str, Any], formerly: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """The plan that a folder holds, as this version writes it.
+
+    Args:
+        plan: What is asked for.
+        old: What the folder holds.
+        formerly: Entries of ``plan`` as earlier versions wrote them, None for those that they did not have.
+    """
+    if formerly is None or any(old.get(key) != value for key, value in formerly.items()):
+        return old
+    return {**old, **{key: plan[key] for key in formerly}}
+
+
+def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> str:
+    """The first entry in which the plan of a folder and the one asked for differ, for a sentence; empty if none."""
+    for key in sorted({*old, *new}):
+        if old.get(key) != new.get(key):
+            a, b = (shortened(json.dumps(x.get(key))) for x in (old, new))
+            return f"its {key} is {a}, asked for is {b}"
+    return ""
+
+
+def shortened(text: str, most: int = 60) -> str:
+    """A text, its end left out where it is too long for a sentence."""
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.engine.folder import SAFE, digest, held, is_plain, too_many
+from holdfast.engine.folder import SAFE, difference, digest, held, is_plain, shortened, taken_for, too_many
 from holdfast.engine.journal import Entry, Journal
 from holdfast.errors import StoreError
 from holdfast.files import reading
@@ -79,7 +79,15 @@ class Store:
 
     @classmethod
     def create(
-        cls, path: str | Path, plan: Mapping[str, Any], columns: list[Column], rows: int, chunk: int, journal: bool = False
+        cls,
+        path: str | Path,
+        plan: Mapping[str, Any],
+        columns: list[Column],
+        rows: int,
+        chunk: int,
+        *,
+        journal: bool = False,
+        formerly: Mapping[str, Any] | None = None,
     ) -> Store:
         """A new folder, or the existing one if it belongs to the same plan, ready to go on.
 
@@ -90,6 +98,8 @@ class Store:
             rows: Number of rows.
             chunk: Rows per chunk.
             journal: Name chunks that are done in a journal, with checksums, instead of in ``run.json``.
+            formerly: Entries of the plan as earlier versions wrote them, None for those that they did not have; a folder with
+                these is of the same run.
 
         Raises:
             StoreError: Not writable, not a results folder, or a folder of another plan; the message names the difference.
@@ -98,11 +108,12 @@ class Store:
         plan = json.loads(json.dumps(plan))
         if reading.exists(folder / _RUN):
             store = cls.open(folder)
-            old = store.plan
+            old = taken_for(plan, store.plan, formerly)
             if old != plan or store._run["rows"] != rows or store._run["chunk"] != chunk:
+                sizes = f"it has {store.rows} rows in chunks of {store.shape[1]}, asked for are {rows} in chunks of {chunk}"
                 raise StoreError(
-                    f"'{folder}' holds another run: {_difference(old, plan, store._run, rows, chunk)}; "
-                    "give another folder, or the same options to go on with it"
+                    f"'{folder}' holds another run: {difference(old, plan) or sizes}; "
+                    "give another folder, or the same options to resume it"
                 )
             if not store.complete:
                 store.check_current()
@@ -395,7 +406,7 @@ class Store:
         return data
 
     def _damaged(self, error: Exception) -> StoreError:
-        reason = _short(" ".join(str(error).split()) or type(error).__name__, 200)
+        reason = shortened(" ".join(str(error).split()) or type(error).__name__, 200)
         return StoreError(f"'{self.path / _SAMPLES}' is damaged ({reason}); start the run again in a new folder")
 
     # ---- files -----------------------------------------------------------------------------------------------------
@@ -453,15 +464,3 @@ def _is_number(dtype: str) -> bool:
         return not dtype.startswith("a") and np.dtype(dtype).kind in "fiu"  # 'a', bytes, is an alias that numpy warns of
     except (TypeError, ValueError):
         return False
-
-
-def _difference(old: Mapping[str, Any], new: Mapping[str, Any], run: Mapping[str, Any], rows: int, chunk: int) -> str:
-    for key in sorted({*old, *new}):
-        if old.get(key) != new.get(key):
-            a, b = json.dumps(old.get(key)), json.dumps(new.get(key))
-            return f"its {key} is {_short(a)}, asked for is {_short(b)}"
-    return f"it has {run['rows']} rows in chunks of {run['chunk']}, asked for are {rows} in chunks of {chunk}"
-
-
-def _short(text: str, most: int = 60) -> str:
-    return text if len(text) <= most else text[: most - 3] + "..."

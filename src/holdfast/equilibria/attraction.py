@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import LARGEST, checked, real_numbers
-from holdfast.arm.configurations import finite_limits, without_limits
-from holdfast.arm.targets import target_pose
+from holdfast.arm.configurations import finite_limits
+from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
 from holdfast.equilibria.points import Joints, RestPoints, read_joints, rest_points, search
 from holdfast.equilibria.stability import Kind
@@ -191,7 +191,7 @@ def _ends(system: RestSystem, points: RestPoints, runs: Runs) -> Indices:
     """(N,) see :class:`Basins`."""
     codes = {Outcome.CONVERGED: ARRIVED, Outcome.STUCK: STUCK, Outcome.MOVING: MOVING, Outcome.UNDECIDED: UNDECIDED}
     end = np.array([codes[Outcome(c)] for c in runs.code], dtype=np.int64)
-    free, finals = without_limits(points.law.arm), _finals(system, runs)
+    free, finals = points.law.arm.without_limits, _finals(system, runs)
     reached = points.kind == Kind.SOLUTION
     for outcome, alike in ((Outcome.CONVERGED, reached), (Outcome.STUCK, ~reached)):
         rows, among = np.flatnonzero(runs.code == outcome), np.flatnonzero(alike & ~points.continuum)

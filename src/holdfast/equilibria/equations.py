@@ -6,7 +6,7 @@ and d = 0 that is along the column of the joint. Any other law is asked for a un
 error must be along ``b = u``. In both, the unknowns are q, u and a pair (c, s) of length 1 with ``c error = s b``, as many
 equations as unknowns but for the locked joints. That the target is reached (s = 0) does not satisfy them by itself, so that
 solutions are elsewhere, and rest points run smoothly through the target, and through places where b vanishes (c = 0).
-Lengths are in units of :func:`holdfast.arm.scale.length_unit`.
+Lengths are in units of :attr:`holdfast.Arm.length_unit`.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (21); the form with u, c and s is ours.
 """
@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.kernels.kernel import Kernel
@@ -56,7 +55,7 @@ class RestEquations:
         q, u, c, s = self._z[:n], self._z[n : n + m], self._z[n + m], self._z[n + m + 1]
         mask, form = self.system.mask, law.quadratic()
         error, _ = self.system.scaled_error(q)
-        unit = length_unit(law.arm)
+        unit = law.arm.length_unit
         rates = ca.SX.sym("rates", n)
         if form is None:
             still, along = rates / ca.sqrt(ca.sumsqr(rates)), u

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import check_poses
-from holdfast.arm.targets import target_poses
+from holdfast.arm.task import target_poses
 from holdfast.equilibria.system import RestSystem, wrapped
 from holdfast.errors import InputError
 from holdfast.simulation.runs import Outcome

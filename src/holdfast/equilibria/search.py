@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from holdfast.arguments import checked
-from holdfast.arm.targets import target_pose
+from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curves
 from holdfast.equilibria.points import Joints, RestPoints, read_joints, search

@@ -7,7 +7,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.configurations import without_limits
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.equilibria.equations import RestEquations
@@ -139,12 +138,12 @@ def idle_joints(law: Law) -> tuple[int, ...]:
 
 def wrapped(arm: Arm, q: Array) -> Array:
     """Configurations (N, n) with turning joints from -pi to pi, whatever their limits."""
-    return joint_space.wrapped(without_limits(arm), q)
+    return joint_space.wrapped(arm.without_limits, q)
 
 
 def distinct(arm: Arm, q: Array, known: Array, apart: float) -> Array:
     """Those of q (N, n), in order, that are ``apart`` from the known points (P, n) and from those kept before."""
-    free = without_limits(arm)
+    free = arm.without_limits
     if len(known) and len(q):
         q = q[joint_space.nearest(free, known, q)[0] > apart]
     keep = np.ones(len(q), dtype=bool)

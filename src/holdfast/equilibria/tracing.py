@@ -12,7 +12,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.configurations import without_limits
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curve, Curves
 from holdfast.equilibria.equations import TOLERANCE
@@ -52,7 +51,7 @@ class Tracer:
 
     def __init__(self, system: RestSystem, joint: int, spacing: float) -> None:
         self.system, self.joint, self.spacing = system, joint, spacing
-        self._arm = without_limits(system.law.arm)
+        self._arm = system.law.arm.without_limits
         self._n = system.law.arm.n
 
     def all(self, generator: np.random.Generator, advance: Progress = told) -> tuple[list[Curve], Array, int]:

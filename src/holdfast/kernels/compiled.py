@@ -9,6 +9,7 @@ import atexit
 import contextlib
 import os
 import queue
+import sys
 import threading
 from collections.abc import Callable
 from ctypes import c_int64, c_void_p
@@ -132,7 +133,11 @@ def _work() -> None:
     while True:
         job = _jobs.get()
         with _busy:
-            job()
+            try:
+                job()
+            except Exception:  # said as threads say it; the next job is done, and who waits for all of them is told
+                args = (*sys.exc_info(), threading.current_thread())
+                threading.excepthook(threading.ExceptHookArgs(args))
 
 
 def settle() -> None:

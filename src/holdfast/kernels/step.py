@@ -30,7 +30,7 @@ class Step:
         self._velocity: Any = self._in.data[n:]
 
     def __call__(self, q: Array, velocity: Array) -> Array:
-        """Rates (n,) of a configuration (n,) and a velocity of the hand."""
+        """Rates (n,) of a configuration (n,) and a velocity of the end effector."""
         try:
             self._q[:] = q
             self._velocity[:] = velocity

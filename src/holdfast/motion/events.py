@@ -148,16 +148,16 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
         add(
             "value not kept", off, lambda when: f"{when}: {objective.name} is more than {_KEPT:.0%} off the wanted {wanted:.4g}"
         )
-    add("rate cap", c.self_motion < 1 - 1e-9, lambda when: f"{when}: {cap} slows the self-motion; the hand is not affected")
+    add("rate cap", c.self_motion < 1 - 1e-9, lambda when: f"{when}: {cap} slows the self-motion; the tool is not affected")
     add(
         "hand slowed",
         c.task_share < 1 - 1e-9,
-        lambda when: f"{when}: joint limits leave no motion that keeps up: the hand falls behind its path",
+        lambda when: f"{when}: joint limits leave no motion that keeps up: the end effector falls behind its path",
     )
     add(
         "near a singularity",
         c.damping > 0,
-        lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped, so the hand may lag",
+        lambda when: f"{when}: the arm is close to a singularity of its task: rates are damped, so the end effector may lag",
     )
     for name, flags in c.at_limit.items():
         add("joint limit", flags, partial(_at_limit, name))

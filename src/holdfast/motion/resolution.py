@@ -1,13 +1,14 @@
-"""Redundancy resolution: the hand does its task, and the freedom that is left serves an objective.
+"""Redundancy resolution: the end effector does its task, and the freedom that is left serves an objective.
 
 Every law is one straight-line program: joint rates ``d + J_A^+ (v - J d) + s (z - J_A^+ J z)``, where the columns of J that
 belong to joints at a limit are taken out (A) and these joints move at their bound (d), z is what the law wants of the
 self-motion, and s keeps the norm of the rates under a cap. The two parts are orthogonal, so s slows the self-motion and
-leaves the hand on its path.
+leaves the end effector on its path.
 
 Where joint limits leave no room for that, the motion with s = 0 is computed in the same way, and as much of the way from it to
-the first is gone as the limits allow. Only if it too passes a bound the hand is slowed. (Taking out joints is greedy: now and
-then, less than once in 100 crowded configurations, a linear program still finds rates that keep the hand's speed.)
+the first is gone as the limits allow. Only if it too passes a bound the end effector is slowed. (Taking out joints is
+greedy: now and
+then, less than once in 100 crowded configurations, a linear program still finds rates that keep the end effector's speed.)
 
 Sources: Liegeois 1977 for gradient projection; Baillieul 1985 for the extended Jacobian; English and Maciejewski 1998,
 sections II and VI-B, for their use before a free-swinging failure and for the cap (Fig. 8). Joints at limits are taken out
@@ -55,8 +56,9 @@ class Rates:
         rates: (N, n) rad/s and m/s.
         self_motion: (N,) share of the wanted self-motion that the cap lets pass, 0 to 1.
         task: (N,) share of the commanded velocity that is carried out, 0 to 1: below 1 where limits leave no other way.
-        damping: (N,) 0 away from singularities; above, the hand leaves its path a little.
-        status: (N,) ``OK``, ``INFEASIBLE`` where the hand is slowed, ``SINGULAR`` where rates are damped, or ``BAD_INPUT``.
+        damping: (N,) 0 away from singularities; above, the end effector leaves its path a little.
+        status: (N,) ``OK``, ``INFEASIBLE`` where the end effector is slowed, ``SINGULAR`` where rates are damped, or
+        ``BAD_INPUT``.
     """
 
     rates: Array
@@ -68,12 +70,12 @@ class Rates:
 
 @checked_class
 class Resolution(Steps):
-    """A law that turns a velocity of the hand into joint rates.
+    """A law that turns a velocity of the end effector into joint rates.
 
     Args:
         arm: The arm.
         objective: What the self-motion serves.
-        task: Rows of the hand's velocity that are prescribed. Default: the objective's, or ``pose``.
+        task: Rows of the end effector's velocity that are prescribed. Default: the objective's, or ``pose``.
         rate_cap: Largest norm of the joint rates, rad/s (and m/s); slows the self-motion only. None: no cap.
         period: Of control, s: a joint may not pass its limit within one. None: position limits are not looked at.
         damping: Of the least-squares solution at a singularity; 0 at 2 % of the arm's typical manipulability and above.
@@ -118,7 +120,7 @@ class Resolution(Steps):
     def expression(self, q: SX, twist: SX) -> SX:
         """Joint rates (n,), then the shares of self-motion and of the task and the damping, of q (n,) and a twist (6,).
 
-        The twist is the hand's, linear (m/s) and angular (rad/s) in the world frame; rows the task leaves free are ignored.
+        The twist is the tool's, linear (m/s) and angular (rad/s) in the world frame; rows the task leaves free are ignored.
         """
         arm, n = self.arm, self.arm.n
         c = kinematics.chain(arm, q)
@@ -262,7 +264,7 @@ class Resolution(Steps):
         return Kernel(self.name, [q, twist], [self.expression(q, twist)])
 
     def rates(self, q: ArrayLike, twist: ArrayLike) -> Rates:
-        """Joint rates for a twist of the hand.
+        """Joint rates for a twist of the end effector.
 
         Args:
             q: (n,) or (N, n), rad and m.

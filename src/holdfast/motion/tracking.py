@@ -1,4 +1,4 @@
-"""Follow a path with the hand while the self-motion serves an objective."""
+"""Follow a path with the end effector while the self-motion serves an objective."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian
 TRACKING = ("gradient-projection", "extended-jacobian")  # these stay at a local best
 METHODS = ("gradient-projection", "extended-jacobian", "augmented-jacobian", "none")
 
-_STEPS = 20_000  # of control, at least: the hand is off by the square of a step
+_STEPS = 20_000  # of control, at least: the end effector is off by the square of a step
 _SETTLING = 400  # steps before the first
 _SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
-_FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the hand off its path
+_FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
 _PROBES = 64
 _CATCH_UP = 3.0  # times the largest twist of the path
 _AT = 1e-6  # rad and m from a limit
@@ -64,11 +64,11 @@ def follow(
     *,
     torque_bound: float | None = None,
 ) -> Trajectory:
-    """Joint motion along a timed path of the hand, with redundancy resolution.
+    """Joint motion along a timed path of the end effector, with redundancy resolution.
 
     Args:
         arm: The arm.
-        path: Where the hand is to be, and when.
+        path: Where the end effector is to be, and when.
         minimise: What the self-motion makes small, for example a susceptibility; either this or ``maximise``.
         maximise: What it makes large.
         method: ``gradient-projection`` follows the gradient, ``extended-jacobian`` stays at an extremum, ``augmented-jacobian``
@@ -253,9 +253,9 @@ def _integrate(
 ) -> tuple[Array, Array, Array]:
     """Joints (N + 1, n), rates (N + 1, n) and shares (N + 1, 3) at N steps and the end: see :class:`holdfast.motion.Rates`.
 
-    In each step the hand is sent to where the path is at its end, so that errors do not add up.
+    In each step the end effector is sent to where the path is at its end, so that errors do not add up.
     """
-    # A hand that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
+    # An end effector that limits kept off its path comes back to it at a few times the speed of the path, not within one step.
     fastest = float(np.linalg.norm(path.twist((np.arange(count) + 0.5) * step), axis=1).max())
     kernel = _step_kernel(law, step, limits, _CATCH_UP * fastest * step)
     if settle:  # what a search left open would be made up for at once, with rates that no motion needs

@@ -1,4 +1,4 @@
-"""What the hand should do: lines, arcs and sequences of poses, and how fast."""
+"""What the end effector should do: lines, arcs and sequences of poses, and how fast."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Paths of the hand: geometry without time."""
+"""Paths of the end effector: geometry without time."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked, real_numbers
-from holdfast.arm import rotations
-from holdfast.arm.poses import check_poses
+from holdfast.arm.poses import check_poses, rotation_vectors, rotations_of_vectors
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.timing import Trapezoid
@@ -25,16 +24,16 @@ _SMOOTH = 1e-9  # relative jump of the twist below which a corner is none
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """A path of the hand, ``s`` from 0 to 1, made of L legs. Use :func:`line`, :func:`arc` or :func:`sequence`.
+    """A path of the end effector, ``s`` from 0 to 1, made of L legs. Use :func:`line`, :func:`arc` or :func:`sequence`.
 
     On a leg, with u from 0 to 1, the position is ``center + exp(u sweep) (p0 - center) + u shift`` and the orientation
-    ``exp(u turn) R0``: both at constant speed, about axes that stand still in the world. The speed is the same on all
+    ``exp(u turn) R0``: both at constant speed, about axes that stay still in the world. The speed is the same on all
     legs: ``s`` is the share of :attr:`length`.
 
     Attributes:
         starts: (L, 4, 4) pose at which each leg begins, world frame, m.
-        shift: (L, 3) straight motion of the hand, m.
-        center: (L, 3) point about which the hand's position turns, m.
+        shift: (L, 3) straight motion of the end effector, m.
+        center: (L, 3) point about which the end effector's position turns, m.
         sweep: (L, 3) rotation vector of that turn, rad; 0 for a straight leg.
         turn: (L, 3) rotation vector of the change of orientation, rad.
         oriented: False if only positions were given; the orientation is then the identity and a task ``position`` is meant.
@@ -51,13 +50,13 @@ class Path:
 
     @cached_property
     def _sizes(self) -> tuple[Array, Array]:
-        """(L,) way of the hand, m, and turn, rad, of each leg."""
+        """(L,) way of the end effector, m, and turn, rad, of each leg."""
         around = np.linalg.norm(np.cross(self.sweep, self.starts[:, :3, 3] - self.center), axis=1)
         return np.hypot(np.linalg.norm(self.shift, axis=1), around), np.linalg.norm(self.turn, axis=1)
 
     @property
     def length(self) -> float:
-        """Way of the hand, m; of a path on which the hand only turns, rad."""
+        """Way of the end effector, m; of a path on which the end effector only turns, rad."""
         moved = float(self._sizes[0].sum())
         return moved if moved > _SAME else float(self._sizes[1].sum())
 
@@ -76,7 +75,7 @@ class Path:
         return np.asarray(inner[np.linalg.norm(after - before, axis=1) > _SMOOTH * np.linalg.norm(before, axis=1)])
 
     def pose(self, s: ArrayLike) -> Array:
-        """Pose of the hand in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is NaN.
+        """Pose of the end effector in the world at s from 0 to 1, (4, 4), or (N, 4, 4) for s (N,); NaN where s is NaN.
 
         Raises:
             InputError: An s outside 0 to 1.
@@ -86,7 +85,7 @@ class Path:
         start = self.starts[leg]
         arm = start[:, :3, 3] - self.center[leg]
         out = np.zeros((u.size, 4, 4))
-        out[:, :3, :3] = rotations.of_vectors(u[:, None] * self.turn[leg]) @ start[:, :3, :3]
+        out[:, :3, :3] = rotations_of_vectors(u[:, None] * self.turn[leg]) @ start[:, :3, :3]
         around = _turned(u[:, None] * self.sweep[leg], arm)
         # The way from the start, so that a straight leg does not meet the rounding of a turn by 0.
         out[:, :3, 3] = start[:, :3, 3] + (around - arm) + u[:, None] * self.shift[leg]
@@ -164,7 +163,7 @@ class Path:
 
 @checked
 def line(start: ArrayLike, end: ArrayLike, name: str = "line") -> Path:
-    """A straight line of the hand; the orientation turns at constant speed about one axis, the short way round.
+    """A straight line of the end effector; the orientation turns at constant speed about one axis, the short way round.
 
     Args:
         start: (4, 4) pose in the world, or (3,) position, m.
@@ -226,7 +225,7 @@ def arc(
         center: (3,) a point on the axis, m; with ``axis`` and ``angle``.
         axis: (3,) direction of the axis in the world.
         angle: Angle of the arc, rad, right-handed about the axis; may be more than a full turn.
-        turning: With ``center``: the hand turns with the arc, as a door does; else its orientation stays.
+        turning: With ``center``: the end effector turns with the arc, as a door does; else its orientation stays.
         name: For reports.
 
     Raises:
@@ -242,7 +241,7 @@ def arc(
         assert axis is not None
         assert angle is not None
         return _arc_about(start, _three(center, "center"), _three(axis, "axis"), float(angle), turning, name)
-    raise InputError("an arc needs either via and end, or center, axis and angle (and turning, if the hand turns with it)")
+    raise InputError("an arc needs either via and end, or center, axis and angle (and turning, if the tool turns with it)")
 
 
 def _arc_through(start: ArrayLike, via: ArrayLike, end: ArrayLike, name: str) -> Path:
@@ -271,7 +270,7 @@ def _arc_about(start: ArrayLike, center: Array, axis: Array, angle: float, turni
     if np.linalg.norm(np.cross(sweep, t[0, :3, 3] - center)) <= _SAME:
         raise InputError("the start of the arc lies on its axis; move the center away from it")
     if turning and not oriented:
-        raise InputError("an arc that turns the hand must start from a pose (4, 4), not from a position")
+        raise InputError("an arc that turns the end effector must start from a pose (4, 4), not from a position")
     turn = sweep if turning else np.zeros(3)
     return Path(t, np.zeros((1, 3)), center[None], sweep[None], turn[None], oriented, name)
 
@@ -284,12 +283,12 @@ def _angle_about(axis: Array, p: Array, q: Array) -> float:
 def _turns(t: Array) -> Array:
     """Rotation vectors (N - 1, 3), world frame, from each pose to the next, the short way round."""
     r = t[:, :3, :3]
-    return rotations.to_vectors(r[1:] @ r[:-1].transpose(0, 2, 1))
+    return rotation_vectors(r[1:] @ r[:-1].transpose(0, 2, 1))
 
 
 def _turned(vectors: Array, points: Array) -> Array:
     """Points (N, 3) turned by rotation vectors (N, 3)."""
-    return np.asarray((rotations.of_vectors(vectors) @ points[:, :, None])[:, :, 0])
+    return np.asarray((rotations_of_vectors(vectors) @ points[:, :, None])[:, :, 0])
 
 
 def _poses(values: ArrayLike | Sequence[ArrayLike]) -> tuple[Array, bool]:

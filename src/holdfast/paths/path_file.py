@@ -11,7 +11,7 @@
       duration: 10            # s
       accelerate: 0.2         # shares of the duration in which the speed rises and falls; 0.2 if not given
       decelerate: 0.2
-      stop: false             # true: come to rest at each corner
+      stop: false             # true: stop at each corner
 
 Other paths::
 
@@ -33,7 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, ValidationError
 
-from holdfast.arm import rotations
+from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.arm.urdf import rpy_rotation
 from holdfast.errors import InputError
 from holdfast.files import reading
@@ -151,7 +151,7 @@ def _rotation(quaternion: Array, place: str) -> Array:
     size = float(np.linalg.norm(quaternion))
     if not abs(size - 1) < 1e-2:  # files may round
         raise InputError(f"{place}: the quaternion (x, y, z, w) has length {size:g}; it must be 1")
-    return rotations.of_quaternions(quaternion)
+    return rotations_of_quaternions(quaternion)
 
 
 def pose_table(file: pathlib.Path, option: str = "poses") -> list[Array]:

@@ -94,7 +94,7 @@ class TimedPath:
         return float(self.timing.duration)
 
     def pose(self, t: ArrayLike) -> Array:
-        """Pose of the hand in the world at time t, s: (4, 4), or (N, 4, 4) for t (N,). Before 0 and after the end it stands."""
+        """Tool pose in the world at time t, s: (4, 4), or (N, 4, 4) for t (N,). Before 0 and after the end it is still."""
         return self.path.pose(self._shares(_times(t)))
 
     def twist(self, t: ArrayLike) -> Array:

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.arm.machine import Joint, Link
 from holdfast.arm.mjcf import import_mujoco
-from holdfast.arm.model import Arm, Joint, Link
+from holdfast.arm.model import Arm
 from holdfast.arm.soundness import require_possible_inertia
-from holdfast.arm.tree import turn
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ def mujoco_spec(arm: Arm, q: Array, free: Sequence[int], stops: bool = False, st
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
     body, frame = spec.worldbody, arm.base
     for k, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
-        pose = frame @ joint.origin @ _motion(joint, float(q[k]))
+        pose = frame @ joint.origin @ joint.motion(float(q[k]))
         body = body.add_body(pos=pose[:3, 3], quat=_quaternion(mujoco, pose[:3, :3]))
         held = [x for x in (link, arm.payload if k == arm.n - 1 else None) if x is not None]
         _fill(mujoco, body, Link.joined(held))
@@ -84,15 +84,6 @@ def _require_mass(arm: Arm, free: Sequence[int]) -> None:
                 f"arm '{arm.name}', joint '{arm.joint_names[k]}': nothing that it carries has mass, so gravity has nothing to "
                 "move; give the links their masses"
             )
-
-
-def _motion(joint: Joint, value: float) -> Array:
-    pose = np.eye(4)
-    if joint.prismatic:
-        pose[:3, 3] = joint.axis * value
-    else:
-        pose[:3, :3] = turn(joint.axis, value)
-    return pose
 
 
 def _quaternion(mujoco: ModuleType, rotation: Array) -> Array:

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
+from holdfast.arm.machine import Joint
 from holdfast.arm.mjcf import import_mujoco, quiet
-from holdfast.arm.model import Arm, Joint
+from holdfast.arm.model import Arm
 from holdfast.errors import ArmError, InputError
 from holdfast.notice import says
 from holdfast.physics.model import mujoco_model

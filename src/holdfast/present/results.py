@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), **options: Any) -> None:
-    """What a command prints: JSON for machines, or what people read and which files were written.
+def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any) -> None:
+    """What a command prints: JSON for machines, with the files if they are listed; or what people read, and the files.
 
     The options are what was asked about the result: its ``to_dict`` and ``show`` take them.
     """
     if as_json:
-        print_json(result.to_dict(**options))
+        print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))
         return
     out = console()
     result._presented("show", out, **options)

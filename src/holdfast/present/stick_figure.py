@@ -1,31 +1,19 @@
-"""An arm as a stick figure: where its joints are, and from where to look."""
+"""An arm as a stick figure: the directions in which to look at it."""
 
 from __future__ import annotations
 
-import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
-from holdfast.kernels.kernel import Kernel
 from holdfast.report.animations import Projection
 
 Array = NDArray[np.float64]
 
 
-def corners(arm: Arm, q: Array) -> Array:
-    """Base, joints and tool (F, n + 2, 3) of configurations (F, n), in the world, m; a sliding joint where its slide is."""
-    symbols = kinematics.joint_symbols(arm)
-    moving, _ = kinematics.frames(arm, kinematics.joint_steps(arm, symbols), None)
-    tool = kinematics.chain(arm, symbols).position
-    points = ca.vertcat(*[origin for _, origin in moving], tool)
-    return Kernel("corners of the arm", [symbols], [ca.densify(points)]).rows(q).reshape(len(q), -1, 3)
-
-
 def projections(arm: Arm, chain: Array) -> list[Projection]:
-    """Side and top view of corners (F, n + 2, 3), from where they are widest; of an arm that moves in a plane, that plane."""
+    """Side and top view of ``arm.frames(q)[..., :3, 3]`` (F, n + 2, 3); of an arm that moves in a plane, that plane."""
     normal = plane_normal(arm)
     x, y, z = np.eye(3)
     if normal is None:

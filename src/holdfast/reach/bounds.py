@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-from holdfast.arm.targets import target_pose
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.errors import InputError, TaskError
 from holdfast.notice import says
 from holdfast.reach.extrema import CriticalPoints, critical_points
@@ -60,7 +59,7 @@ def joint_bounds(
         starts: Of Newton's method per joint.
 
     Returns:
-        For each joint a list of ``(lower, upper)``, rad (m for sliding joints), in ascending order: ``[(-pi, pi)]`` where a
+        For each joint a list of ``(lower, upper)``, rad (m for prismatic joints), in ascending order: ``[(-pi, pi)]`` where a
         joint without limits is free, ``[]`` where no configuration of the target was found. An arc of a joint that turns
         without limits begins in -pi to pi and may end beyond pi. Of a joint with limits arcs lie within them. An arc of
         length 0 is a single value.

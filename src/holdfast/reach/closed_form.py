@@ -42,19 +42,14 @@ class ThreeLinks:
             return None
         if not (arm.upper - arm.lower >= FULL - 1e-9).all():
             return None
-        t, places, axes = arm.base, [], []
-        for joint in arm.joints:
-            t = t @ joint.origin
-            places.append(t[:3, 3])
-            axes.append(t[:3, :3] @ joint.axis)
-        flat = np.array([*places, (t @ arm.tool)[:3, 3]]) @ task.rows[:, :3].T
+        flat = arm.frames_at_zero[:, :3, 3] @ task.rows[:, :3].T
         links = np.diff(flat, axis=0)
         lengths = np.linalg.norm(links, axis=1)
         if lengths.min() < 1e-9 * lengths.max():
             return None
         direction = np.arctan2(links[:, 1], links[:, 0])
         normal = np.cross(*task.rows[:, :3])
-        return cls(lengths, flat[0], np.diff(direction, prepend=0.0), np.sign(np.array(axes) @ normal))
+        return cls(lengths, flat[0], np.diff(direction, prepend=0.0), np.sign(arm.axes_at_zero @ normal))
 
     def link_limits(self, limits: Array) -> Array:
         """(3, 2) artificial limits of the link angles, from those of the joints (3, 2)."""

@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.arm.targets import target_poses
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, as_task, target_poses
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.solvers.inverse_kinematics import Reach, solver

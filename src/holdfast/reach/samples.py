@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.configurations import finite_limits, with_limits
+from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
@@ -33,7 +33,7 @@ class Space:
     Attributes:
         directions: (d, 3) orthonormal, world; the plane of a planar task, else all three.
         low, high: (d,) m.
-        rotation: (3, 3) of the hand at every point.
+        rotation: (3, 3) of the end effector at every point.
     """
 
     directions: Array
@@ -77,7 +77,7 @@ def limited(arm: Arm, limits: Array) -> Arm:
     """The arm with artificial limits (n, 2); those of a whole turn or more of a joint without limits are none."""
     low, high = limits.T
     free = joint_space.turning(arm) & (high - low >= 2 * np.pi - 1e-9)
-    return with_limits(arm, np.where(free, arm.lower, low), np.where(free, arm.upper, high))
+    return arm.with_limits(np.where(free, arm.lower, low), np.where(free, arm.upper, high))
 
 
 def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:
@@ -161,7 +161,7 @@ def best_limits(arm: Arm, task: Task, space: Space, points: int, count: int, see
 
 
 def _grid_range(arm: Arm) -> tuple[Array, Array]:
-    """Between which values limits are looked for: a turning joint needs no more than one turn."""
+    """Between which values limits are looked for: a revolute joint needs no more than one turn."""
     low, high = finite_limits(arm)
     wide = ~arm.prismatic & (high - low > 2 * np.pi)
     middle = (low + high) / 2

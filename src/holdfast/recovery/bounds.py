@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm import rotations
 from holdfast.arm.model import Arm
-from holdfast.arm.scale import length_unit
 from holdfast.clearance.clearance import Clearance
 
 Array = NDArray[np.float64]
@@ -69,7 +67,7 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
             offsets.append(place[:3, 3])
             place = np.eye(4)
         else:
-            place = place @ _moved(arm, k, at[k])
+            place = place @ joint.motion(float(at[k]))
     tail = place @ arm.tool  # from the last moving joint to the tool
     centre = offsets[0]
     lengths = [_range(arm, k, offset, flat) for k, offset in zip(moving[:-1], offsets[1:], strict=True)]
@@ -77,7 +75,7 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
         wrist = pose @ np.linalg.inv(tail)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
-    slack = _SLACK * length_unit(arm)
+    slack = _SLACK * arm.length_unit
     for what, target, spans in proofs:
         away = target - centre
         if planar is not None:
@@ -97,17 +95,6 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
                 f"joints standing it is at least {least:.4g} m away"
             )
     return None
-
-
-def _moved(arm: Arm, k: int, value: float) -> Array:
-    """(4, 4) motion of joint k alone."""
-    out = np.eye(4)
-    joint = arm.joints[k]
-    if joint.prismatic:
-        out[:3, 3] = value * joint.axis
-    else:
-        out[:3, :3] = rotations.of_vectors(value * joint.axis)
-    return out
 
 
 def _range(arm: Arm, k: int, offset: Array, flat: bool) -> tuple[float, float]:

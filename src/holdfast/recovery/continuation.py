@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm import rotations
+from holdfast.arm.poses import rotation_vectors
 from holdfast.paths.path import Path
 from holdfast.recovery.goals import RowsGivenUp, configurations_of
 from holdfast.recovery.routes import Metric, Space
@@ -110,7 +110,7 @@ def rest_of_path(
 
 def _samples(path: Path) -> Array:
     coarse = path.pose(np.linspace(0, 1, 65))[:, :3, :3]
-    turns = rotations.to_vectors(coarse[1:] @ coarse[:-1].transpose(0, 2, 1))
+    turns = rotation_vectors(coarse[1:] @ coarse[:-1].transpose(0, 2, 1))
     turned = float(np.linalg.norm(turns, axis=1).sum()) if path.oriented else 0.0
     count = int(np.clip(np.ceil(max(path.length, turned) / _SPACING), _LEAST, _MOST))
     return np.unique(np.concatenate([np.linspace(0, 1, count + 1), path.bounds]))

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
-from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
@@ -102,7 +101,7 @@ class RowSolver:
 
     def __init__(self, arm: Arm, rows: Rows) -> None:
         self.arm, self.rows = arm, rows
-        unit = length_unit(arm)
+        unit = arm.length_unit
         self._scale = np.where(np.array(rows.units) == "m", unit, 1.0)
         self._tolerance = TOLERANCE / max(unit, 1.0)
 

@@ -14,7 +14,7 @@ from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
-from holdfast.arm.tip import listed
+from holdfast.arm.tree import listed
 from holdfast.clearance.clearance import Clearance, too_close
 from holdfast.errors import InputError
 from holdfast.notice import says

@@ -1,4 +1,4 @@
-"""Figures of points of rest: their curves over a locked value, and the basins around them."""
+"""Figures of stationary points: their curves over a locked value, and the basins around them."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _OTHER = {"moving": "#c9a3bb", "undecided": "#d4d9de", "target": "#bfe3d6", "stu
 
 @dataclass(frozen=True)
 class RestLine:
-    """A stretch of rest points of one kind.
+    """A stretch of stationary points of one kind.
 
     Attributes:
         kind: A key of :data:`KINDS`.
@@ -58,7 +58,7 @@ def curves_over(
     reached: Sequence[tuple[float, float]],
     caption: str,
 ) -> Figure:
-    """Curves of rest points over the locked value, a panel for each quantity.
+    """Curves of stationary points over the locked value, a panel for each quantity.
 
     Args:
         lines: Stretches of curves.
@@ -108,13 +108,13 @@ def basin_map(
     labels: tuple[str, str],
     caption: str,
 ) -> Figure:
-    """Basins over two joints: cells coloured by where their centre ends, with points of rest and basin boundaries.
+    """Basins over two joints: cells coloured by where their centre ends, with stationary points and basin boundaries.
 
     Args:
         cells: (A, B) index into ``names`` of each cell, first axis to the right.
         names: What starts end at; ``solution 1`` for example.
         extent: Of the cells: left, right, lower, upper.
-        points: Kind, place and name of each point of rest.
+        points: Kind, place and name of each stationary point.
         lines: Boundaries.
         labels: Of the axes.
         caption: One line below.

@@ -1,4 +1,4 @@
-"""Maps over places of the hand in a plane: one panel for each quantity and case, all on one scale."""
+"""Maps over places of the end effector in a plane: one panel for each quantity and case, all on one scale."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ from holdfast.solvers.inverse_kinematics import hand_error
 Array = NDArray[np.float64]
 
 ARRIVES = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest is no error
-MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not coming to rest
+MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not stopping
 DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
 FLIPS = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction
 MOST_STEPS = 100_000
@@ -155,7 +155,7 @@ class Motion:
         }
 
     def _half_turn(self, q: Array, place: Array, rotation: Array) -> NDArray[np.bool_]:
-        """(N,) True where the hand is half a turn from its target: there the error of the orientation is discontinuous."""
+        """(N,) True where the end effector is half a turn from its target: there the orientation's error jumps."""
         return np.asarray(self._turn.rows(q, place, rotation)[:, 0] > np.pi - FLIPS)
 
     def _until_caught(self, states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
@@ -256,7 +256,7 @@ class Motion:
         parts["code"][rows, 0] = code
 
     def _known(self, states: Array, parameters: Array) -> Array:
-        """Rates, speed of the hand, share, squared error and its slope where these states are, (N, n + 4)."""
+        """Rates, speed of the end effector, share, squared error and its slope where these states are, (N, n + 4)."""
         layout = self._steps.state
         if not self._steps.staged:
             return self._at.rows(layout.values(states)["q"], *self._inputs(parameters)[:-3])

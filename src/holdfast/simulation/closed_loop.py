@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.configurations import as_configurations
-from holdfast.arm.targets import target_poses
+from holdfast.arm.task import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.notice import says
@@ -59,7 +59,8 @@ def simulate(
       limit, it circles faster than that, and comes back to where it was, modulo whole turns, so nearly that until the limit it
       would drift by less than a hundredth of the motion's extent;
     * *undecided*, with the reason: *slow* (the time limit, but neither at rest nor moving), *singular* (the steps shrink to
-      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with the hand
+      nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with
+      the end effector
       half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
       as soon as it would not come to its end at the pace of its last 2,000 steps), *bad input*.
 
@@ -67,7 +68,8 @@ def simulate(
 
     In cycles the command is held for a cycle and the arm follows the law in 10 explicit Euler sub-steps. A run has
     *converged* when the error is at most ``radius`` as a cycle begins; it is *stuck* when for 50 cycles one after the other
-    the hand moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1 m); at the
+    the end effector moved less than 2e-5 of what the speed limit lets it (without a limit: than 1e-6 m for an arm of 1
+    m); at the
     limit it is *moving* or *undecided* as above.
 
     Args:

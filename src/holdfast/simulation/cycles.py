@@ -8,7 +8,6 @@ from __future__ import annotations
 import casadi as ca
 
 from holdfast.arm import kinematics
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
@@ -32,14 +31,14 @@ from holdfast.simulation.system import (
 
 SUBSTEPS = 10
 STILL, SLOWEST = 2e-5, 1e-6  # of a cycle's way at the speed limit; of the arm's own unit of length where there is no limit
-PATIENCE = 50  # cycles one after the other in which the hand moved less than that: at rest
+PATIENCE = 50  # cycles one after the other in which the end effector moved less than that: at rest
 
 
 class Cycles:
     """Sub-steps of control cycles of one system, as a loop over states.
 
-    A state holds the configuration ``q``; the number of the ``substep``, the ``command`` held and where the hand was
-    (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the hand stood ``still``; and, as for
+    A state holds the configuration ``q``; the number of the ``substep``, the ``command`` held and where the end effector was
+    (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the end effector stood ``still``; and, as for
     :class:`holdfast.simulation.runge_kutta.Steps`, path, closest approach, joint excursions, speeds and code.
 
     Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``radius`` of the target.
@@ -52,7 +51,7 @@ class Cycles:
         self.system = system
         law = system.law
         n, m = law.arm.n, law.task.m
-        self._still = SLOWEST * length_unit(law.arm) if law.speed_limit is None else STILL * law.speed_limit
+        self._still = SLOWEST * law.arm.length_unit if law.speed_limit is None else STILL * law.speed_limit
         self._until, self._limit, self._radius = (ca.SX.sym(x) for x in ("until", "limit", "radius"))
         self.parameters = [*system.given, self._until, self._limit, self._radius]
         scalars = dict.fromkeys(("error", "time", "clock", "path", "closest", "still"), 1)

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.configurations import finite_limits
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
@@ -40,7 +39,7 @@ class Nearest:
         q, damping = state[:n], state[n]
         e, j = system.error(q)
         # The least sum of squares of metres and radians is wanted; of lengths alone, in any unit.
-        unit = 1.0 if system.law.task.angular else length_unit(self._arm)
+        unit = 1.0 if system.law.task.angular else self._arm.length_unit
         e, j = e / unit, j / unit
         healthy = j @ ca.diag(system.mask)
         trial = q + damped_least_norm(healthy, e, damping)

@@ -53,7 +53,8 @@ class Steps:
 
     A state holds the configuration ``q`` and what is known there (``rates``, speed of the ``hand``, ``share``, ``error``
     squared and its ``slope``); the next step ``h`` and the ``time``, both in 1/Ke; the ``clock``, which counts time as if no
-    speed limit slowed the motion; the ``path`` of the hand, m; the ``closest`` squared error so far; the least and greatest
+    speed limit slowed the motion; the ``path`` of the end effector, m; the ``closest`` squared error so far; the least
+    and greatest
     joint values ``low`` and ``high``; the speeds ``slowest``, ``early`` and ``late`` of the end; and its ``code``.
 
     Parameters of a row, after those of the system: ``until``, the time at which the phase ends; the ``limit`` of the clock;

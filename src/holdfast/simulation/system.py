@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
-from holdfast.arm.scale import length_unit
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.kernels.loop import Loop
@@ -37,7 +36,7 @@ class Here:
 
     Attributes:
         rates: (n,) joint rates, 0 for locked joints.
-        hand: Speed of the hand, m.
+        hand: Speed of the end effector, m.
         share: By how much the speed limit slows the command: 1 where it does not act.
         squared_error: Of the task's rows, m and rad.
         slope: Its derivative by time.
@@ -124,7 +123,7 @@ def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
 
 def own_units(law: Law, error: Array, hand: Array, target: Array) -> Array:
     """Norms of errors (N,), m and rad, with lengths in units of the arm's own; places and targets as they have them."""
-    unit = length_unit(law.arm)
+    unit = law.arm.length_unit
     if not law.task.angular:
         return np.asarray(error / unit)
     linear = np.linalg.norm(prescribed_way(law, hand, target), axis=1)

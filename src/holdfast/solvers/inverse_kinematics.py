@@ -16,7 +16,6 @@ from holdfast.arm import kinematics
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
-from holdfast.arm.scale import length_unit
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
@@ -130,9 +129,9 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
 
 
 def scaled_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> tuple[SX, SX]:
-    """As :func:`task_error` with lengths in units of :func:`holdfast.arm.scale.length_unit`, for what has a threshold."""
+    """As :func:`task_error` with lengths in units of :attr:`holdfast.Arm.length_unit`, for what has a threshold."""
     e, j = task_error(arm, task, q, target, target_rotation)
-    scale = ca.sparsify(ca.SX(ca.DM(task.scale(length_unit(arm)))))
+    scale = ca.sparsify(ca.SX(ca.DM(task.scale(arm.length_unit))))
     return scale @ e, scale @ j
 
 
@@ -161,12 +160,12 @@ class InverseKinematics:
 
     One step is damped least squares with the joints that press against a limit taken out:
     ``dq = A J' (J A J' + lambda I)^-1 e`` with ``lambda = 1e-3 |e|^2 + 1e-12`` and the new q clipped to the limits.
-    Lengths in it, and in every ``tolerance``, are in units of :func:`holdfast.arm.scale.length_unit`; see :meth:`within`.
+    Lengths in it, and in every ``tolerance``, are in units of :attr:`holdfast.Arm.length_unit`; see :meth:`within`.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:
         self.arm, self.task = arm, task
-        self._unit = length_unit(arm)
+        self._unit = arm.length_unit
         self._low, self._high = finite_limits(arm)
 
     @cached_property

@@ -19,8 +19,7 @@ from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
-from holdfast.arm.targets import target_pose
-from holdfast.arm.task import Task, as_task
+from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.caching import cached_property
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel

@@ -24,7 +24,7 @@ class Standing:
         question: For people, short.
         about: What is counted, of how many.
         entries: Name and share of each arm, in the order of the study.
-        law: The control law, where the question is whether the arm arrives under it.
+        law: The control law, where the question is whether the arm reaches the target under it.
         unit: Of the threshold in the question; empty if it has none.
         ended: Of each arm whose share is 0 by structure, the joints whose lock ends the task in every configuration.
         median: Who has the best median, and what it is: what there is to say where the shares say nothing. Empty if unknown.

@@ -154,8 +154,8 @@ class Driven:
         joints: Names.
         motions: Those that had a configuration to start from.
         ends: Shares of converged, stuck, moving and undecided, of each locked joint and of none, (n + 1, 4).
-        arrives: (n + 1,) shares that arrive, with intervals.
-        each: (R,) of every motion the share of the joints with which it arrives; NaN where there was no start.
+        arrives: (n + 1,) shares that reach the target, with intervals.
+        each: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was no start.
         any: Its mean, with its interval.
         in_reach: Share of the runs with a locked joint in which the target was in reach.
     """

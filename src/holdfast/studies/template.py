@@ -54,7 +54,7 @@ assess:
   keep: rows                # every pose; counts keeps only how values are distributed, for very many samples
   # thresholds: {{relative-manipulability: 0.3}}    # what the report asks for; half of the bound, or the median, if not given
 
-# Whether an arm with an unidentified locked joint still arrives, under each control law: see 'holdfast workspace --map --help'.
+# Whether an arm with an unidentified locked joint still reaches the target, by law: see 'holdfast convergence-map --help'.
 {convergence}
 # Further jobs: workspace (laws, targets, starts, configurations, points) and bank (laws, sets, distance); see the guide
 # "From laptop to cluster".

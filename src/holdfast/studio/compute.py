@@ -49,7 +49,7 @@ def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
         progress(k, 2)
         found.append(optimise(machine.arm, machine.hand(q), wanted, task=machine.task, starts=STARTS))
     if not all(bool(f.success) for f in found):
-        raise InputError("no configuration of this pose was found; move the hand and try again")
+        raise InputError("no configuration of this pose was found; move the end effector and try again")
     # The searches are local: where the arm is may beat what they found.
     here, sign = float(both[0](q)), 1.0 if both[0].better == "larger" else -1.0
     best, worst = ((f.q, float(f.value)) for f in found)
@@ -70,7 +70,7 @@ def swing(machine: Machine, state: State, progress: Progress) -> list[Motion]:
 
 
 def region(machine: Machine, state: State, progress: Progress) -> Cloud:
-    """The region of the state's results folder, or one around the hand, assessed now.
+    """The region of the state's results folder, or one around the end effector, assessed now.
 
     Raises:
         InputError: The arm has no such index.

@@ -74,7 +74,7 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
 
     Args:
         machine: The arm and its laws.
-        state: What has failed, where the arm is, where the hand should go, and which laws.
+        state: What has failed, where the arm is, where the end effector should go, and which laws.
         progress: Told of (done, in all) between the parts; raises to give up.
 
     Raises:

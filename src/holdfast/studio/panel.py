@@ -35,7 +35,7 @@ class Panel:
     def __init__(self, gui: Any, machine: Machine, state: State, ask: Callable[[str, Any], None]) -> None:
         self.gui, self.machine, self._ask = gui, machine, ask
         arm = machine.arm
-        self.message = gui.add_html(_line(f"{arm.name}: drag the handle at the hand"))
+        self.message = gui.add_html(_line(f"{arm.name}: drag the handle at the end effector"))
         self.bars = gui.add_html("")
         self.losses = gui.add_html("")
         tabs = gui.add_tab_group()
@@ -77,7 +77,7 @@ class Panel:
 
     def _fail_tab(self, arm: Arm, state: State) -> None:
         for k, joint in enumerate(arm.joints):
-            group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: stands still. Free: swings under gravity.")
+            group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: is still. Free: swings under gravity.")
             self._on(group.on_click, "fail", partial(_pressed, k))
         self._button("All healthy", "heal", "No joint has failed.")
         self._button(
@@ -109,7 +109,7 @@ class Panel:
         ]
         for handle in self.laws:
             self._on(handle.on_update, "laws", lambda h: (self.laws[0].value, self.laws[1].value))
-        self._button("Choose a target", "target", "Shows a second handle: drag it to where the hand should go.")
+        self._button("Choose a target", "target", "Shows a second handle: drag it to where the end effector should go.")
         self._button("Move under both laws", "laws", "Failed joints stand; the controller does not know.")
         self.file = self.gui.add_text("file", state.file or "", hint="CSV or folder that follow, simulate or recover wrote.")
         self._button("Open the motion", "file", "Scrub or play it with the slider below.")
@@ -123,7 +123,7 @@ class Panel:
         self._on(self.play.on_click, "play", lambda h: None)
 
     def _region_tab(self, state: State) -> None:
-        self._button("Assess around the hand", "region", "Poses around the hand, coloured by the index: click one.")
+        self._button("Assess around the tool", "region", "Poses around the tool, coloured by the index: click one.")
         self.folder = self.gui.add_text("results folder", state.region or "", hint="A folder that holdfast assess wrote.")
         self._button("Open the results", "results", "Poses of the region, coloured by the index: click one.")
         self.gui.add_html(_line("Click a point to see the configuration behind it."))
@@ -151,7 +151,7 @@ class Panel:
         pieces = (
             (self.bars, bars_html(reading.bars, "if the joint locks", names, state.conditions)),
             (self.losses, losses_html(arm, self.machine.task, reading, state.failed)),
-            (self.weights, bars_html(reading.weights, "if the joint goes limp", names, state.conditions)),
+            (self.weights, bars_html(reading.weights, "if the joint swings free", names, state.conditions)),
             (self.command, command_html(state)),
         )
         for handle, content in pieces:

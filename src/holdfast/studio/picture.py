@@ -38,8 +38,8 @@ def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str
     """
     from matplotlib.figure import Figure
 
-    chains = [machine.frames(np.asarray(q))[:, :3, 3] for q in (*ghosts, state.q)]
-    views = projections(machine.arm, np.stack(chains))
+    chains = machine.arm.frames(np.array([*ghosts, state.q]))[..., :3, 3]
+    views = projections(machine.arm, chains)
     with style():
         figure = Figure(figsize=(WIDTH, WIDTH / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH))
         for number, view in enumerate(views, 1):

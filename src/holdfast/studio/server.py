@@ -196,7 +196,7 @@ def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> t
 
 def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """From where, and at what, a window looks at first."""
-    places = machine.frames(q)[:, :3, 3]
+    places = machine.arm.frames(q)[:, :3, 3]
     centre = 0.5 * (places.min(axis=0) + places.max(axis=0))
     flat = machine.task.rows[:, :3]
     up = len(machine.task.rows) <= 3 and float(np.abs(flat[:, 2]).max()) < 1e-9 and not machine.task.rows[:, 3:5].any()

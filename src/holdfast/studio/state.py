@@ -30,11 +30,11 @@ class State:
         susceptibility: The susceptibility of the bars.
         objective: What best and worst configurations are chosen by: an index or a susceptibility, by name.
         laws: Two control laws side by side, as ``slug`` or ``slug:setting``.
-        target: Where they should bring the hand: x, y, z (m) and quaternion x, y, z, w; None: not chosen.
+        target: Where they should bring the end effector: x, y, z (m) and quaternion x, y, z, w; None: not chosen.
         show: What is shown beside the arm: nothing else (``arm``), ghosts in the ``best-worst`` configuration of this pose, a
             motion under two ``laws``, the free ``swing``, the cloud of a ``region``, or the motion of a ``file``.
         file: A motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
-        region: A results folder of ``assess``, or None: then a region around the hand.
+        region: A results folder of ``assess``, or None: then a region around the end effector.
         time: Where a motion is shown, s (or whatever its first column counts).
     """
 

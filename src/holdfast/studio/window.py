@@ -46,7 +46,7 @@ class Window:
         self._aside = aside
         self._start = state
         self.updates = 0  # pictures sent
-        self._held: str | int | None = None  # what a person holds: the hand, or a slider
+        self._held: str | int | None = None  # what a person holds: the end effector, or a slider
         self._motions: list[Motion] = []
         self._ghosts: list[Array] = []
         self._cloud: Cloud | None = None
@@ -59,7 +59,7 @@ class Window:
         self.work = Worker(self._complain)
         with client.atomic():
             self.stage = Stage(client.scene, machine, parts)
-            self.stage.move(machine.frames(self.q), gizmo=True)
+            self.stage.move(machine.arm.frames(self.q), gizmo=True)
             self.panel = Panel(client.gui, machine, state, self.ask)
         self._saver = Saver(client, machine, self.stage, self._saved, self._complain)
         for k, handles in self.stage.figure.joints.items():
@@ -161,7 +161,7 @@ class Window:
         self._leave(q)
         self._place(q)
         if on:
-            self.panel.say("The hand follows.")
+            self.panel.say("The end effector follows.")
         else:
             self.panel.say(f"Out of reach{stands}: the arm is as near as it gets from here.", bad=True)
 
@@ -186,7 +186,7 @@ class Window:
         if not len(ways):
             self._clock.stop()
             self.panel.slide.value = self._rate = 0.0
-            self.panel.say("There is no self-motion here: every joint that is left is needed to hold the hand.", bad=True)
+            self.panel.say("There is no self-motion here: every joint that is left is needed to hold the tool.", bad=True)
             return
         if not np.any(self._along):
             self._along = ways[min(self._way, len(ways) - 1)]
@@ -202,7 +202,7 @@ class Window:
             self.panel.say("The self-motion ends here, at a joint limit.", bad=True)
             return
         self._along = sign * direction
-        self.panel.say("Sliding along the self-motion: the hand stands still.")
+        self.panel.say("Sliding along the self-motion: the end effector is still.")
         self._place(q)
 
     def _on_home(self, _: Any) -> None:
@@ -286,7 +286,7 @@ class Window:
         self._drop_motions()
         self._ghosts = configurations
         self.stage.haunt(labels)
-        self.stage.move_ghosts([self.machine.frames(q) for q in configurations])
+        self.stage.move_ghosts([self.machine.arm.frames(q) for q in configurations])
         self.panel.say(text)
         self._refresh()
 
@@ -300,7 +300,7 @@ class Window:
             self._on_target(None)
         if self._arrived():
             self.panel.say(
-                "The hand is at the target already: drag the second handle away, then move under both laws.", bad=True
+                "The end effector is at the target already: drag the second handle away, then move under both laws.", bad=True
             )
             return
 
@@ -310,7 +310,7 @@ class Window:
         self._start_work("Simulating the motion under both laws", "laws", show)
 
     def _arrived(self) -> bool:
-        """The hand is where the target says, as far as the task looks."""
+        """The end effector is where the target says, as far as the task looks."""
         target = self.state.target
         return target is not None and self.machine.apart(self.q, pose_of(target[:3], target[3:])) < TOLERANCE
 
@@ -329,7 +329,7 @@ class Window:
 
     def _on_region(self, _: Any) -> None:
         self.state = replace(self.state, region=None)
-        self._start_work("Assessing a region around the hand", "region", self._show_cloud)
+        self._start_work("Assessing a region around the end effector", "region", self._show_cloud)
 
     def _on_results(self, _: Any) -> None:
         self.state = replace(self.state, region=self.panel.folder.value.strip().strip("'\""))
@@ -393,7 +393,7 @@ class Window:
         self.panel.time_range(end, begin, f"time, {motions[0].unit}" if motions[0].unit != "rad" else "travel, rad")
         self.panel.say(text)
         self._seek(begin)
-        # What was asked for moves at once; a view that a command line brought back stands where it stood.
+        # What was asked for moves at once; a view that a command line brought back stands where it was.
         if colors and end > 0 and not begin:
             self._on_play(None)
 
@@ -425,7 +425,7 @@ class Window:
         if self.stage.ghosts:
             self._ghosts = shown
             with self.client.atomic():
-                self.stage.move_ghosts([self.machine.frames(q) for q in shown])
+                self.stage.move_ghosts([self.machine.arm.frames(q) for q in shown])
             self._refresh()
         else:
             self._place(shown[0])
@@ -470,7 +470,7 @@ class Window:
     def _refresh(self) -> None:
         """Show the state: the arm at once, and what a failure takes."""
         q, state = self.q, self.state
-        frames = self.machine.frames(q)
+        frames = self.machine.arm.frames(q)
         with self.client.atomic():
             self.stage.move(frames, gizmo=self._held != "hand")
             self.panel.follow(q, self._held if isinstance(self._held, int) else None)

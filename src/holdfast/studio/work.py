@@ -17,7 +17,7 @@ class Cancelled(Exception):
 class Latest:
     """One thread that does what was asked last: of requests with the same key only the newest is done.
 
-    So that a hand that is dragged faster than pictures can be made is always where the mouse is, and not where it was.
+    So that an end effector that is dragged faster than pictures can be made is always where the mouse is, and not where it was.
 
     Args:
         complain: Told of every exception of a request; the thread goes on.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import holdfast as hf
 from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
@@ -24,11 +25,11 @@ from holdfast.cli.options import (
 from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.assess import read_region
 from holdfast.errors import InputError
-from holdfast.present.printing import console, number, print_json, print_written
+from holdfast.present.results import printed
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
-    from holdfast.designs.designs import Designs
+    from holdfast.result import Result
 
 
 def command(
@@ -92,65 +93,21 @@ def command(
 
     Example: holdfast design pa10-9dof --vary a8=-0.2..0.2 --vary alpha8=45..135deg --vary tool.z=0..0.3 --out tool
     """
-    from holdfast.designs.search import design as search
-    from holdfast.designs.space import design_space
-    from holdfast.kernels.threads import set_threads
-
     if threads is not None:
-        set_threads(threads)
+        hf.kernels.set_threads(threads)
     given = read_arm(arm, base, tip, hold)
-    space = design_space(given, vary)
-    if maximise == "convergence":
-        from holdfast.cli.before.design_convergence import converging
-
-        converging(space, read_task(task, arm, given), law, designs, climbs, keep_reach, seed, out, json_)
-        return
-    if law is not None or keep_reach:
-        raise InputError("--law and --keep-reach belong to --maximise convergence; leave them out")
+    space = hf.designs.design_space(given, vary)
+    rows = read_task(task, arm, given)
+    found: Result
     with progress_bar(json_, "designs") as progress:
-        found = search(
-            given,
-            space,
-            maximise,
-            read_region(region, arm, given),
-            read_task(task, arm, given),
-            level=level,
-            failures=read_failures(given, failures),
-            length=length,
-            poses=poses,
-            designs=designs,
-            climbs=climbs,
-            fresh=fresh,
-            seed=seed,
-            store=out,
-            progress=progress,
-        )
-    files = [] if out is None else found.save(out)
-    if json_:
-        print_json({**found.to_dict(), "files": [str(f) for f in files]})
-        return
-    _print(found)
-    print_written(console(), files)
-
-
-def _print(found: Designs) -> None:
-    """The best design and what it gains, for people."""
-    from rich.markup import escape
-    from rich.table import Table
-
-    from holdfast.present.designs.page import at_bound, headline
-
-    out = console()
-    out.print(escape(headline(found)), soft_wrap=True)
-    table = Table("parameter", "given arm", "best design", "bounds", box=None, pad_edge=False)
-    values: Any = found.values[found.best].tolist()
-    for p, before, after in zip(found.space.parameters, found.space.start.tolist(), values, strict=True):
-        side = at_bound(p, after)
-        mark = f" (at the {side} bound)" if side else ""
-        table.add_row(p.name, p.text(before), p.text(after) + mark, f"{p.text(p.lower)} to {p.text(p.upper)}")
-    out.print(table)
-    out.print(
-        f"{len(found.values):,} designs tried; {len(found.front)} of them are on the front of reach and guaranteed "
-        f"{escape(found.index.name)}, reach {number(found.reach[found.front[0]])} to {number(found.reach[found.front[-1]])} m",
-        soft_wrap=True,
-    )
+        common: dict[str, Any] = {"designs": designs, "climbs": climbs, "seed": seed, "store": out, "progress": progress}
+        if maximise == "convergence":
+            chosen = LAWS.make(law or "pseudoinverse", given, option="--law", task=rows)
+            found = hf.design_for_convergence(chosen, space, keep_reach=keep_reach, **common)
+        elif law is not None or keep_reach:
+            raise InputError("--law and --keep-reach belong to --maximise convergence; leave them out")
+        else:
+            common |= {"level": level, "failures": read_failures(given, failures), "length": length}
+            place = read_region(region, arm, given)
+            found = hf.design(given, space, maximise, place, rows, poses=poses, fresh=fresh, **common)
+    printed(found, json_, [] if out is None else found.save(out), listed=True)

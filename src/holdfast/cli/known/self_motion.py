@@ -31,7 +31,8 @@ from holdfast.files.output import writing
 from holdfast.present.printing import console, number, print_json, print_written
 
 if TYPE_CHECKING:
-    from holdfast.arm.model import Arm, Joint
+    from holdfast.arm.machine import Joint
+    from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.reach.bounds import Arcs
     from holdfast.reach.tolerance import TolerantWorkspace

@@ -42,7 +42,7 @@ def run(
 ) -> None:
     """Run a whole experiment with simulated people, from training to the last rating, and record it.
 
-    Example: holdfast teleop run --simulated --operators 24 --seed 1 --out study
+    Example: holdfast teleop run --simulated --operators 24 --seed 1 --out experiment
     """
     if not simulated:
         raise InputError(
@@ -78,7 +78,7 @@ def analyse(
 ) -> None:
     """Statistics of an experiment: writes DIR/report.html, and every table as CSV beside it.
 
-    Example: holdfast teleop analyse study
+    Example: holdfast teleop analyse experiment
     """
     from holdfast.teleop.analysis.eligibility import analyse_records
     from holdfast.teleop.records.tables import hand_paths
@@ -97,6 +97,8 @@ def replay(folder: FolderArgument) -> None:
     """Drive the arm with the recorded commands again: does every trial give the same path?
 
     Exit code 0 if all do; 3 if one does not.
+
+    Example: holdfast teleop replay experiment
     """
     from holdfast.teleop.records.check import SAME
     from holdfast.teleop.records.check import replay as again
@@ -118,6 +120,8 @@ def verify(folder: FolderArgument) -> None:
     """Is every trial, rating, answer and event as it was written? Compares the records with their digests.
 
     Exit code 0 if all is; 3 if something is not, and then the first damaged trial is named first.
+
+    Example: holdfast teleop verify experiment
     """
     from holdfast.teleop.records.verification import verify as checked
 
@@ -144,7 +148,7 @@ def backup(
 ) -> None:
     """Copy the folder of an experiment, also while it is served, and verify the copy.
 
-    Example: holdfast teleop backup study /mnt/safe/study-2026-11-22
+    Example: holdfast teleop backup experiment experiment-2026-11-22
     """
     from holdfast.teleop.records.copies import backup as copy
 
@@ -159,7 +163,10 @@ def export(
     out: Annotated[Path | None, typer.Option("--out", help="Folder for the tables.", show_default="DIR/export")] = None,
     parquet: Annotated[bool, typer.Option("--parquet", help="Parquet in place of CSV; needs pyarrow.")] = False,
 ) -> None:
-    """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol."""
+    """Write trials, cycles, subjects and events as tables, with a data dictionary and the protocol.
+
+    Example: holdfast teleop export experiment
+    """
     from holdfast.teleop.records.tables import export as write
 
     with _opened(folder) as records, working("writing"):
@@ -207,7 +214,10 @@ def subjects(
         str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.", show_default=False)
     ] = None,
 ) -> None:
-    """The subjects of an experiment and where their sessions stand."""
+    """The subjects of an experiment and where their sessions stand.
+
+    Example: holdfast teleop subjects experiment
+    """
     if drop is not None and delete is not None:
         raise InputError("give --drop or --delete, not both")
     with _opened(folder) as records:

@@ -51,7 +51,7 @@ def serve(
 ) -> None:
     """Run an experiment with people: serves the page of the stations and that of the experimenter. Ctrl-C ends it.
 
-    Example: holdfast teleop serve --data study
+    Example: holdfast teleop serve --data experiment
     """
     try:
         from holdfast.teleop.serve import app

@@ -149,8 +149,7 @@ def read_state(
 
     from holdfast import arms
     from holdfast.arm.poses import pose_numbers
-    from holdfast.arm.targets import target_pose
-    from holdfast.arm.task import as_task
+    from holdfast.arm.task import as_task, target_pose
     from holdfast.cli.laws import read_law
     from holdfast.studio.server import middle
     from holdfast.studio.state import SHOWS, State

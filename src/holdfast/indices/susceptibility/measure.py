@@ -49,7 +49,7 @@ _ADVICE = {
     JointStatus.OK: "the measure of this joint is what its formula says",
     JointStatus.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not "
     "swing, so the angle and its gradient are 0 by convention, and near here both change abruptly",
-    JointStatus.NOT_DEFINED: "a sliding joint does not swing, it slides to its stop: its swing angle is 0 by convention",
+    JointStatus.NOT_DEFINED: "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention",
     JointStatus.NO_INERTIA: "all the mass this joint carries lies on its axis, so its acceleration is 0/0: give the links "
     "their inertia or the joint its armature",
     JointStatus.BAD_INPUT: "the configuration held NaN or infinity: look at where it came from",
@@ -121,7 +121,7 @@ class Susceptibility(Labelled, Objective):
 
     @property
     def joint_unit(self) -> tuple[str, ...]:
-        """Unit of each joint's measure; the swing angle of a sliding joint is 0 by convention."""
+        """Unit of each joint's measure; the swing angle of a prismatic joint is 0 by convention."""
         return tuple(self.formula.sliding if p else self.formula.turning for p in self.arm.prismatic)
 
     def _value_unit(self) -> str:
@@ -312,7 +312,7 @@ def torque(
 def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
     """How fast each joint would accelerate as it fails, the others held; English and Maciejewski 1998, eq. (22).
 
-    Armature counts as inertia. Where all the mass that a turning joint carries lies on its axis it is NaN.
+    Armature counts as inertia. Where all the mass that a revolute joint carries lies on its axis it is NaN.
 
     Raises:
         ArmError: A link of which nothing is known or whose inertia no body has, or a joint that carries no mass.
@@ -323,9 +323,9 @@ def acceleration(arm: Arm, weights: Weights = None) -> Susceptibility:
 
 @constructor(needs=("inertia",))
 def swing_angle(arm: Arm, weights: Weights = None) -> Susceptibility:
-    """How far each turning joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
+    """How far each revolute joint would swing, the others held, until it hangs; English and Maciejewski 1998, eq. (36)-(39).
 
-    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a sliding joint, for a balanced one and
+    In (-pi, pi], joint limits and obstacles ignored. It and its gradient are 0 for a prismatic joint, for a balanced one and
     where gravity runs along the axis; near those it changes abruptly, and at pi it is discontinuous.
 
     Raises:

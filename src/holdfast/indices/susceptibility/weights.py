@@ -87,12 +87,12 @@ def largest_static_torque(arm: Arm) -> Array:
     As English and Maciejewski 1998, eq. (46), take for their planar arm, computed for any. Turning joints without limits
     take every angle. It is 0 for a joint that gravity never loads.
 
-    Every torque is a sinusoid of each turning joint and affine in each sliding joint, so the best value of one joint, the
+    Every torque is a sinusoid of each revolute joint and affine in each prismatic joint, so the best value of one joint, the
     others held, has a closed form: many starts spread over the workspace climb joint by joint until none gains.
 
     Raises:
         ArmError: A link of which nothing is known.
-        InputError: A sliding joint without limits.
+        InputError: A prismatic joint without limits.
     """
     require_masses(arm)
     low, high = np.where(np.isfinite(arm.lower), arm.lower, -np.pi), np.where(np.isfinite(arm.upper), arm.upper, np.pi)

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm import rotations
-from holdfast.arm.model import Arm
+from holdfast.arm.poses import rotations_of_quaternions
 from holdfast.assessment.answer import Answer
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.rows import provenance
@@ -79,7 +78,7 @@ class Facts(Answer):
         else:
             columns = self.a.columns
             position = columns["position"][:][s.number]
-            rotation = rotations.of_quaternions(columns["quaternion"][:][s.number])
+            rotation = rotations_of_quaternions(columns["quaternion"][:][s.number])
         return Rows(s.number, position, rotation, s.q, s.reached, s.value, s.by_failure, s.worst, s.weight)
 
     @cached_property
@@ -132,7 +131,7 @@ class Facts(Answer):
     def scene(self) -> tuple[Scene, int]:
         """What the views show, and how many poses are drawn."""
         a, rows = self.a, self.rows
-        posture = chain(a.arm, self.representative[0])
+        posture = a.arm.frames(self.representative[0])[:, :3, 3]
         none = np.zeros((0, 3))
         points, values, missing, drawn = none, np.zeros(0), none, 0
         if rows is not None:
@@ -225,26 +224,3 @@ class Facts(Answer):
         width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
         per = "per decade" if self.log else self.unit and f"per{self.unit}"
         return Bin(edges, share / width, "", f"probability density {per}".strip())
-
-
-def chain(arm: Arm, q: Array) -> Array:
-    """Base, origins of the joint frames and tool point (n + 2, 3) in the world, m, at one configuration (n,)."""
-    return np.vstack([arm.base[:3, 3], *joint_positions(arm, q)])
-
-
-def joint_positions(arm: Arm, q: Array) -> tuple[Array, Array]:
-    """Origins (n, 3) of the joint frames, and the tool point (3,), in the world, m, at one configuration (n,)."""
-    t = np.array(arm.base)
-    origins = np.empty((arm.n, 3))
-    for k, joint in enumerate(arm.joints):
-        t = t @ joint.origin
-        moved = np.eye(4)
-        if joint.prismatic:
-            moved[:3, 3] = q[k] * joint.axis
-            t = t @ moved  # the slider is drawn where it is, not where its rail begins
-            origins[k] = t[:3, 3]
-        else:
-            origins[k] = t[:3, 3]
-            moved[:3, :3] = rotations.of_vectors(q[k] * joint.axis)
-            t = t @ moved
-    return origins, (t @ arm.tool)[:3, 3]

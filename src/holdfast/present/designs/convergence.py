@@ -11,8 +11,9 @@ from markupsafe import Markup
 from holdfast import arms
 from holdfast.assessment.rows import provenance
 from holdfast.designs.convergence import FAILURES, TARGETS, ConvergenceDesigns
+from holdfast.notice import says
 from holdfast.present.designs.figures import parameters_figure
-from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table
+from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table, written
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.report import figures, page
 from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
@@ -26,13 +27,20 @@ _MEANINGS = {
 }
 
 
-def write(d: ConvergenceDesigns, path: str | Path) -> Path:
-    """Write the report as one HTML file that needs nothing else.
-
-    Raises:
-        StoreError: The file cannot be written; what was there is as it was.
-    """
+@says("drawing the report")
+def write(d: ConvergenceDesigns, path: Path) -> Path:
+    """What to build, what that gains, and how it was found, as a page."""
     return page.write(build(d), path)
+
+
+@says("writing the results")
+def save(d: ConvergenceDesigns, folder: Path) -> list[Path]:
+    """designs.csv, a row for each design with its values (m, rad) and measures (fractions), best-arm.yaml and report.html."""
+    lines = [",".join((*d.space.names, *d.measures))]
+    columns = [*d.values.T.tolist(), *(m.tolist() for m in d.measures.values())]
+    lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
+    files = written(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: d.arm_file()})
+    return [*files, d.report(folder / "report.html")]
 
 
 def build(d: ConvergenceDesigns) -> Page:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, plane_normal
-from holdfast.present.assessment.facts import chain
 from holdfast.regions.region import Region
 from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
 from holdfast.report.scenes import Scale, Scene, View, draw_view, view_spans
@@ -85,7 +84,7 @@ def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) ->
     scenes = []
     none = np.zeros((0, 3))
     for arm in (given, best):
-        posture = chain(arm, _posture(arm, task, region, seed))
+        posture = arm.frames(_posture(arm, task, region, seed))[:, :3, 3]
         scenes.append(Scene(none, np.zeros(0), none, posture, posture[1:-1], arm.prismatic, box))
     view = _view(given, scenes)
     # Both panels show the same part of the world.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import math
+import csv
+import io
 import shlex
 from pathlib import Path
 
@@ -13,23 +14,24 @@ from numpy.typing import NDArray
 from holdfast import arms
 from holdfast.arms.dh_file import text as table_text
 from holdfast.assessment.rows import provenance
-from holdfast.designs.choice import SAME, farther
-from holdfast.designs.designs import Checked, Designs
-from holdfast.designs.space import DesignSpace, Parameter
+from holdfast.designs.designs import Checked, Designs, chosen, interval_text
+from holdfast.designs.space import DesignSpace
+from holdfast.errors import StoreError
 from holdfast.failures import failure_sets
+from holdfast.files.output import replaced
+from holdfast.notice import says
 from holdfast.present.commands import failures_option, region_file, region_files, task_option
+from holdfast.present.designs.console import at_bound
 from holdfast.present.designs.figures import arms_figure, front_figure
-from holdfast.probability.intervals import Interval
 from holdfast.report import figures, page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import article, as_given, counted, either, number, percent
+from holdfast.words import as_given, counted, either, number, percent
 
 Array = NDArray[np.float64]
 
 ARM_FILE = "best-arm.yaml"
 _MOST_FRONT = 10  # designs of the front in the table
-_AT_BOUND = 1e-6  # of the width between the bounds
 _WORDS = {
     "a": "length of link {row} (a)",
     "alpha": "twist of link {row} (alpha)",
@@ -46,13 +48,50 @@ _WORDS = {
 }
 
 
-def write(designs: Designs, path: str | Path) -> Path:
-    """Write the report as one HTML file that needs nothing else.
+@says("drawing the report")
+def write(designs: Designs, path: Path) -> Path:
+    """What to build, what that gains, and what it costs in reach, as a page."""
+    return page.write(build(designs), path)
+
+
+@says("writing the results")
+def save(d: Designs, folder: Path) -> list[Path]:
+    """report.html, best-arm.yaml, designs.csv and, for what comes next, region.yaml if the region can be stored."""
+    texts = {ARM_FILE: arm_file(d), "designs.csv": _table(d)}
+    if d.region.storable:
+        texts["region.yaml"] = region_file(d.region) + "\n"
+        if d.region.listed is not None:
+            texts["poses.csv"] = d.region.listed.table()
+    files = written(folder, texts)
+    return [d.report(folder / "report.html"), *files]
+
+
+def written(folder: Path, texts: dict[str, str]) -> list[Path]:
+    """The files, written one by one.
 
     Raises:
-        StoreError: The file cannot be written; what was there is as it was.
+        StoreError: The folder cannot be made, or a file not written.
     """
-    return page.write(build(designs), path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            replaced(folder / name, text)
+    except OSError as error:
+        raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+    return [folder / name for name in texts]
+
+
+def _table(d: Designs) -> str:
+    """All designs as CSV, rad and m."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    names = [f"{p.name} ({p.unit})" for p in d.space.parameters]
+    writer.writerow(["design", *names, "guaranteed", "reach (m)", "reached", "on the front"])
+    front = set(d.front.tolist())
+    columns = (d.guaranteed, d.reach, d.reached)
+    for k, values in enumerate(d.values.tolist()):
+        writer.writerow([k, *values, *(float(c[k]) for c in columns), int(k in front)])
+    return out.getvalue()
 
 
 def build(designs: Designs) -> Page:
@@ -69,71 +108,14 @@ def build(designs: Designs) -> Page:
     ]
     return Page(
         f"Designs of {d.space.arm.name}",
-        headline(d),
+        d.headline,
         [s for s in sections if s.blocks],
         f"{d.region.name}; {', '.join(d.space.names)}",
         footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 
-def headline(d: Designs) -> str:
-    """The answer in one or two sentences."""
-    given, best = d.checked.given, d.checked.best
-    name, share = d.index.name, _share(d.level)
-    if not best.guaranteed.value > 0 and not given.guaranteed.value > 0:
-        return (
-            f"No design within these bounds guarantees any {name} for {share} of the poses of the region: too many poses are "
-            "not reached, or a joint whose lock ends the task remains. Widen the bounds, or give a smaller region or level."
-        )
-    more = farther(d.guaranteed, d.reach, d.best)
-    if d.best_is_start:
-        text = (
-            f"Nothing that guarantees more than the given arm was found: for {share} of the poses of the region its {name} is "
-            f"at least {_interval(given.guaranteed)}, {_failures(d)}."
-        )
-        return f"{text} {more}".rstrip()
-    if d.guaranteed[d.best] <= (1 + SAME) * d.start_guaranteed:
-        return (
-            f"No design guarantees more than the given arm, but the best one guarantees as much, {_interval(best.guaranteed)} "
-            f"for {share} of the poses (the given arm {_interval(given.guaranteed)}), and reaches {d.reach[d.best]:.3f} m "
-            f"instead of {d.start_reach:.3f} m. {more}"
-        ).rstrip()
-    if best.guaranteed.value <= given.guaranteed.value:
-        return (
-            f"No gain that lasts was found: on the {counted(d.poses, 'pose')} of the search the best design guarantees a "
-            f"{name} of {number(float(d.guaranteed[d.best]))}, but on fresh ones {_interval(best.guaranteed)}, and the given "
-            f"arm {_interval(given.guaranteed)}. Search with more poses."
-        )
-    reaches = f"The reach goes from {d.start_reach:.3f} m to {d.reach[d.best]:.3f} m."
-    return (
-        f"For {share} of the poses of the region the best design keeps {article(name)} {name} of at least "
-        f"{_interval(best.guaranteed)}, {_failures(d)}; the given arm {_interval(given.guaranteed)}. {reaches} {more}"
-    ).rstrip()
-
-
 # ---- what to build -------------------------------------------------------------------------------------------------------
-
-
-def _share(x: float) -> str:
-    """A share that somebody chose."""
-    return f"{100 * x:.4g} %"
-
-
-def _interval(p: Interval) -> str:
-    return f"{number(p.value)} ({number(p.low)} to {number(p.high)}, {100 * p.confidence:.4g} %)"
-
-
-def _failures(d: Designs) -> str:
-    sizes = {len(f) for f in d.index.failures}
-    if len(sizes) > 1 or len(d.index.failures) != math.comb(d.space.arm.n, min(sizes)):
-        return "after any of the failures considered"
-    return "whichever joint locks" if sizes == {1} else f"whichever {min(sizes)} joints lock together"
-
-
-def at_bound(p: Parameter, value: float) -> str:
-    """``lower`` or ``upper`` if a value is at that bound, else nothing."""
-    slack = _AT_BOUND * (p.upper - p.lower)
-    return "lower" if value <= p.lower + slack else "upper" if value >= p.upper - slack else ""
 
 
 def bounds_callout(space: DesignSpace, best: Array) -> list[Block]:
@@ -208,14 +190,14 @@ def _arms(d: Designs) -> list[Block]:
 
 
 def _label(d: Designs) -> str:
-    return figures.plain(f"guaranteed {d.index.name} ({_share(d.level)} of the poses)")
+    return figures.plain(f"guaranteed {d.index.name} ({chosen(d.level)} of the poses)")
 
 
 def _front(d: Designs) -> list[Block]:
     start = (d.start_reach, d.start_guaranteed)
     figure = front_figure(d.reach, d.guaranteed, d.front.tolist(), d.best, start, _label(d), d.index.bound)
     text = (
-        f"Guaranteed: the worst-case {d.index.name} that {_share(d.level)} of the {counted(d.poses, 'pose')} of the search "
+        f"Guaranteed: the worst-case {d.index.name} that {chosen(d.level)} of the {counted(d.poses, 'pose')} of the search "
         "have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: the largest distance of "
         "the tool point from the base frame's origin within the joint limits. These are the poses on which designs were "
         "chosen; see below for fresh ones."
@@ -267,13 +249,13 @@ def _distributions(d: Designs) -> list[Block]:
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (
         f"{samples:,} fresh poses of the region, which had no part in the search, each at its best configuration; a pose that "
-        f"is not reached counts as 0. Where a curve crosses {_share(1 - d.level)} is the guaranteed value."
+        f"is not reached counts as 0. Where a curve crosses {chosen(1 - d.level)} is the guaranteed value."
     )
     rows: list[list[Cell]] = [
-        [name, _interval(c.guaranteed), number(float(c.distribution.quantile(0.5, reachable_only=False))), _reached(c)]
+        [name, interval_text(c.guaranteed), number(float(c.distribution.quantile(0.5, reachable_only=False))), _reached(c)]
         for name, c in (("given arm", given), ("best design", best))
     ]
-    head = ["", f"guaranteed for {_share(d.level)} of the poses", "median", "poses reached"]
+    head = ["", f"guaranteed for {chosen(d.level)} of the poses", "median", "poses reached"]
     honest = (
         f"On the {counted(d.poses, 'pose')} on which it was chosen the best design guarantees {number(seen)}; on fresh ones "
         f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is what choosing flatters."
@@ -296,16 +278,6 @@ def arm_file(d: Designs) -> str:
     """The best arm as a file that every command takes."""
     arm = d.arm(d.best)
     return table_text(d.space.table_of(d.values[d.best]), arm.name, arm.gravity, arm.source)
-
-
-def files(d: Designs, table: str) -> dict[str, str]:
-    """Names and texts of what lies beside the report: the best arm, the designs, and the region if it can be stored."""
-    texts = {ARM_FILE: arm_file(d), "designs.csv": table}
-    if d.region.storable:
-        texts["region.yaml"] = region_file(d.region) + "\n"
-        if d.region.listed is not None:
-            texts["poses.csv"] = d.region.listed.table()
-    return texts
 
 
 def _file(d: Designs) -> list[Block]:
@@ -353,7 +325,7 @@ def _method(d: Designs) -> list[Block]:
         ("Region", f"{d.region.name}: {d.region.describe()}; the same for all designs"),
         (
             "Guaranteed",
-            f"the {_share(1 - d.level)} quantile, over the poses of the region, of the index at the best configuration of "
+            f"the {chosen(1 - d.level)} quantile, over the poses of the region, of the index at the best configuration of "
             "each pose; a pose that is not reached counts as 0",
         ),
         *d.method,

@@ -11,7 +11,6 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task, plane_normal
 from holdfast.convergence.table import axis_label
-from holdfast.present.assessment.facts import chain
 from holdfast.report.manifolds import JointPanel, Projection, RegionMap, region_figure, self_motion_figure
 from holdfast.solvers.self_motions import SelfMotion
 
@@ -46,7 +45,7 @@ def self_motion_picture(arm: Arm, motion: SelfMotion, arcs: list[Arcs]) -> Figur
         chosen = q[np.linspace(0, len(q) - 1, _CONFIGURATIONS + longest[0].closed).astype(int)[:_CONFIGURATIONS]]
     elif len(motion.q):
         chosen = motion.q[np.linspace(0, len(motion.q) - 1, _CONFIGURATIONS).astype(int)]
-    chains = np.array([chain(arm, q) for q in chosen])
+    chains = arm.frames(chosen)[..., :3, 3]
     views = (
         [Projection(chains @ np.array(directions).T, labels, title) for directions, labels, title in _views(arm)]
         if len(chosen)

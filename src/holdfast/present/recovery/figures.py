@@ -9,7 +9,6 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.present.assessment.facts import chain
 from holdfast.present.assessment.sections.survival import before_and_after_figure
 from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, style
 from holdfast.report.scenes import Scale, Scene, View, color_bar, dot_size, draw_view, view_spans
@@ -44,9 +43,8 @@ def scene_figure(recovery: Recovery) -> Figure:
     moving = len(recovery.q) > 1
     way = _on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
     points = arm.forward_kinematics(way)[:, :3, 3] if moving else np.zeros((0, 3))
-    ghosts = [chain(arm, q) for q in _on_the_way(recovery.q, _BETWEEN + 2)[1:-1]] if moving else []
-    start = chain(arm, recovery.at)
-    final = chain(arm, recovery.q[-1]) if moving else start
+    between = _on_the_way(recovery.q, _BETWEEN + 2)[1:-1] if moving else np.zeros((0, arm.n))
+    start, *ghosts, final = arm.frames(np.vstack([recovery.at, between, recovery.q[-1]]))[..., :3, 3]
     # What only widens the view: the places of everything that is drawn by hand below.
     reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     box = np.array([reach.min(axis=0), reach.max(axis=0)])

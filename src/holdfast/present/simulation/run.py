@@ -13,7 +13,7 @@ from holdfast.caching import cached_property
 from holdfast.files.output import made, writing
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
-from holdfast.present.stick_figure import corners, projections
+from holdfast.present.stick_figure import projections
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
@@ -124,7 +124,7 @@ class _RunReport:
         """The stick figure over time."""
         seen, law = self.seen, self.runs.law
         few = np.unique(np.linspace(0, len(seen.time) - 1, _FRAMES).astype(int))
-        chain = corners(self.arm, seen.q[few])
+        chain = self.arm.frames(seen.q[few])[..., :3, 3]
         start = chain[0, -1]
         linear = law.task.rows[:, :3]
         into = linear.T @ linear if law.task.frame == "base" else np.eye(3)

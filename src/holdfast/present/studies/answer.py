@@ -9,7 +9,7 @@ from holdfast.words import article, interval
 
 
 def headline(stand: Sequence[Standing]) -> str:
-    """The first index, as found and at its best, and the law and arm that arrive most often."""
+    """The first index, as found and at its best, and the law and arm that reach the target most often."""
     parts = []
     found = [s for s in stand if not s.law]
     if found:

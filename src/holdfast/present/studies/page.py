@@ -29,7 +29,7 @@ from holdfast.words import as_given, counted, either, number, percent
 
 T = TypeVar("T")
 
-_ENDS = ("arrives", "stands still elsewhere", "keeps moving", "undecided")
+_ENDS = ("reaches the target", "stops elsewhere", "keeps moving", "undecided")
 
 
 @says("drawing the report")
@@ -65,8 +65,8 @@ def build(study: Study) -> Page:
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
         Section("Which joint is the worst to lose", _worst(found)),
-        Section("Arriving with a locked joint that nobody knows of", _laws(laws)),
-        Section("From where the hand still arrives", _others(study, "workspace", results.workspace, "starts", "percent")),
+        Section("Reaching the target with a locked joint that nobody knows of", _laws(laws)),
+        Section("Starts that still reach the target", _others(study, "workspace", results.workspace, "starts", "percent")),
         Section("Tasks that the computer drives", _others(study, "bank", results.bank, "sets of tasks", "percent, or cycles")),
         Section("How it was computed", _provenance(study, found)),
     ]
@@ -310,7 +310,8 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
     blocks: list[Block] = [
         Picture(
             figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
-            f"{told} random motions of each arm, between places of the hand at random configurations, each with every joint "
+            f"{told} random motions of each arm, between places of the end effector at random configurations, each "
+            f"with every joint "
             "locked in turn from the start. Not every target is in reach with a joint locked; undecided: at the time limit, or "
             "next to a singular configuration.",
         )

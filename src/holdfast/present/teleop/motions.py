@@ -1,4 +1,4 @@
-"""How the hand went in chosen trials, with what a failure took away of the workspace."""
+"""How the end effector went in chosen trials, with what a failure took away of the workspace."""
 
 from __future__ import annotations
 

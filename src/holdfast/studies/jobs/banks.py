@@ -32,7 +32,7 @@ class BankJob(LawJob):
         cases = ("healthy_or_failed", 2)
         return [
             Column("q0", "float64", (joints, ("joint", law.arm.n)), "rad or m", "configuration at the start"),
-            Column("target", "float64", (joints, ("row", law.task.m)), "m", "where the hand should go"),
+            Column("target", "float64", (joints, ("row", law.task.m)), "m", "where the end effector should go"),
             Column("end", "uint8", (joints, cases), "1", "how the trial ended; 0 arrived"),
             Column("measures", "float64", (joints, cases, ("measure", RECORDED)), "mixed", "M1 to M11 of Goel et al. 2003"),
         ]

@@ -31,7 +31,7 @@ class ConvergenceJob(LawJob):
             Column("target", "float64", (("row", 4), ("column", 4)), "m", "tool pose"),
             Column("code", "uint8", locked, "1", "0 converged, 1 stuck, 2 moving, 3 undecided, 255 none"),
             Column("reason", "uint8", locked, "1", "why a run is undecided"),
-            Column("in_reach", "uint8", locked, "1", "1 if the hand came to the target, or could have"),
+            Column("in_reach", "uint8", locked, "1", "1 if the end effector came to the target, or could have"),
             Column("limits_passed", "uint8", locked, "1", "1 if a joint left its limits"),
         ]
 

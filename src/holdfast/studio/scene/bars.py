@@ -1,4 +1,4 @@
-"""The live numbers of a window as small HTML: bars per joint, what is lost, and where the hand is."""
+"""The live numbers of a window as small HTML: bars per joint, what is lost, and where the end effector is."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def bars_html(bars: Bars | str, what: str, names: Sequence[str], conditions: Seq
 
 
 def losses_html(arm: Arm, task: Task, reading: Reading, failed: Sequence[int]) -> str:
-    """What the failure takes from the hand, in words."""
+    """What the failure takes from the end effector, in words."""
     if not reading.hit:
         return ""
     names = " and ".join(escape(arm.joint_names[k]) for k in reading.hit)

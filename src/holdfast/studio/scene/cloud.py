@@ -17,7 +17,7 @@ from holdfast.regions.region import Region
 
 Array = NDArray[np.float64]
 MOST = 2500  # points that are drawn
-POSES = 1200  # of a region around the hand
+POSES = 1200  # of a region around the end effector
 
 
 @dataclass(frozen=True)
@@ -40,14 +40,14 @@ class Cloud:
 
 
 def around(index: Index, hand: Array, size: float, progress: Callable[[int, int], None]) -> Cloud:
-    """A region of a quarter of the arm's length around the hand, orientations as the hand's within 30 degrees; assessed now."""
+    """A region of a quarter of the arm's length around the tool, orientations within 30 degrees of its own; assessed now."""
     from holdfast.regions.region import rpy_from_rotation
 
     half = np.radians(30)
     extent = np.r_[np.full(3, 0.5 * size), np.full(3, 2 * half)]
     region = Region.box(hand[:3, 3], extent[:3], rpy_from_rotation(hand[:3, :3]), extent[3:])
     found = assess(index.arm, region, index, poses=POSES, restarts=20, progress=progress, keep=True)
-    return cloud_of(found, f"{POSES} poses within {100 * 0.25 * size:.0f} cm and 30 deg of the hand")
+    return cloud_of(found, f"{POSES} poses within {100 * 0.25 * size:.0f} cm and 30 deg of the end effector")
 
 
 def read_cloud(arm: Arm, path: str) -> Cloud:

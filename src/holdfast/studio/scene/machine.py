@@ -1,4 +1,6 @@
-"""The compiled arm behind a window: where its bodies are, what a failure takes, how the hand is followed, and its laws."""
+"""The compiled arm behind a window: where its bodies are, what a failure takes, how the end effector is followed, and
+its laws.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ from holdfast.solvers.inverse_kinematics import solver
 from holdfast.studio.scene.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
 
 Array = NDArray[np.float64]
-TOLERANCE = 1e-6  # m and rad, of a hand that is dragged
+TOLERANCE = 1e-6  # m and rad, of an end effector that is dragged
 SLIDE = 0.05  # rad (and m): longest step along a self-motion
 
 
@@ -86,29 +88,13 @@ class Machine:
 
     @cached_property
     @recalled
-    def _frames(self) -> Kernel:
-        q = kinematics.joint_symbols(self.arm)
-        moving, _ = kinematics.frames(self.arm, kinematics.joint_steps(self.arm, q))
-        chain = kinematics.chain(self.arm, q)
-        rows = [ca.horzcat(r, p) for r, p in [*moving, (chain.rotation, chain.position)]]
-        return Kernel("frames of the arm", [q], [ca.densify(ca.vertcat(*rows))])
-
-    @cached_property
-    @recalled
     def _task_jacobian(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
         return Kernel("task jacobian", [q], [ca.densify(self.task.jacobian(self.arm, q))])
 
-    def frames(self, q: Array) -> Array:
-        """Base, what moves with each joint, and the tool, (n + 2, 4, 4) of q (n,) or (N, n + 2, 4, 4) of (N, n), world."""
-        rows = self._frames.rows(np.atleast_2d(q)).reshape(-1, self.arm.n + 2, 3, 4)
-        out = np.zeros((len(rows), self.arm.n + 2, 4, 4))
-        out[:, :, :3], out[:, :, 3, 3] = rows, 1.0
-        return out[0] if np.ndim(q) == 1 else out
-
     def hand(self, q: Array) -> Array:
         """Tool pose (4, 4) in the world."""
-        return np.asarray(self.frames(q)[-1])
+        return np.asarray(self.arm.frames(q)[-1])
 
     @cached_property
     def size(self) -> float:
@@ -183,10 +169,11 @@ class Machine:
         values = np.abs(measure.by_joint(q))
         return Bars(measure.name, "smaller", tuple(measure.joint_unit), values, int(np.nan_to_num(values).argmax()))
 
-    # ---- following the hand ----------------------------------------------------------------------------------------
+    # ---- following the end effector ----------------------------------------------------------------------------------------
 
     def reach(self, q: Array, pose: Array, failed: Sequence[int]) -> tuple[Array, bool]:
-        """The configuration near q (n,) that brings the hand to a pose (4, 4), failed joints standing; and whether it does.
+        """The configuration near q (n,) that brings the end effector to a pose (4, 4), failed joints locked; and
+        whether it does.
 
         Where the pose is out of reach it is the nearest found, never farther than q itself.
         """
@@ -196,7 +183,7 @@ class Machine:
         return engine.near(q, pose, free, TOLERANCE)
 
     def apart(self, q: Array, pose: Array) -> float:
-        """How far the hand at q (n,) is from a pose (4, 4), by the rows of the task; m and rad."""
+        """How far the end effector at q (n,) is from a pose (4, 4), by the rows of the task; m and rad."""
         from scipy.spatial.transform import Rotation
 
         hand = self.hand(q)

@@ -1,4 +1,4 @@
-"""What a failure takes from the hand at one configuration: from the Jacobian alone, in plain NumPy."""
+"""What a failure takes from the end effector at one configuration: from the Jacobian alone, in plain NumPy."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def ellipsoid(j: Array, failed: Sequence[int] = ()) -> Ellipsoid:
 
     Args:
         j: (3, n) linear rows of the Jacobian, world frame.
-        failed: Joints, from 0, that stand still.
+        failed: Joints, from 0, that stay still.
     """
     u, sigma, _ = np.linalg.svd(without(j, failed), full_matrices=True)
     radii = np.zeros(3)
@@ -69,7 +69,7 @@ def losses(j: Array, failed: Sequence[int]) -> list[Loss]:
 
     Args:
         j: (m, n) task Jacobian.
-        failed: Joints, from 0, that stand still.
+        failed: Joints, from 0, that stay still.
     """
     if not len(failed):
         return []
@@ -94,11 +94,11 @@ def manipulability_kept(found: Sequence[Loss]) -> float:
 
 
 def null_directions(j: Array, failed: Sequence[int]) -> Array:
-    """Joint rates (r, n) of norm 1 that leave the hand's task velocity at 0, failed joints standing; orthonormal.
+    """Joint rates (r, n) of norm 1 that leave the end effector's task velocity at 0, failed joints locked; orthonormal.
 
     Args:
         j: (m, n) task Jacobian.
-        failed: Joints, from 0, that stand still.
+        failed: Joints, from 0, that stay still.
     """
     n = j.shape[1]
     moving = [k for k in range(n) if k not in set(failed)]

@@ -85,14 +85,14 @@ class Stage:
     # ---- live ------------------------------------------------------------------------------------------------------
 
     def move(self, frames: Array, gizmo: bool) -> None:
-        """Put the arm where its frames (n + 2, 4, 4) say, and the handle into its hand unless someone holds it."""
+        """Put the arm where its frames (n + 2, 4, 4) say, and the handle into its end effector unless someone holds it."""
         self.figure.move(frames)
         if gizmo:
             self.gizmo.position = frames[-1, :3, 3]
             self.gizmo.wxyz = quaternions(frames[-1:, :3, :3])[0]
 
     def read(self, reading: Reading, hand: Array) -> None:
-        """Show what a failure takes at the hand (4, 4)."""
+        """Show what a failure takes at the end effector (4, 4)."""
         self._ellipsoid(self.before, reading.before, hand[:3, 3])
         self._ellipsoid(self.after, reading.after, hand[:3, 3])
         self.after.visible = self._shown and bool(reading.hit)
@@ -118,7 +118,7 @@ class Stage:
         handle.position = place
 
     def _mark(self, loss: Loss, hand: Array) -> Array:
-        """Segments (_RING + 3, 2, 3): a line through the hand both ways, and a ring about the axis of the turn."""
+        """Segments (_RING + 3, 2, 3): a line through the end effector both ways, and a ring about the axis of the turn."""
         task = self.machine.task
         twist = task.rows.T @ loss.direction
         turn = hand[:3, :3] if task.frame == "tool" else np.eye(3)

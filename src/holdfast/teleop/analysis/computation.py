@@ -64,7 +64,7 @@ def analyse(
         computer: The same of the computer operator, one row for each task and scenario.
         missing: What to do if a subject has no trial at all of a law in a group of tasks: ``refuse``; ``complete`` leaves such
             subjects out of everything, and lists them; ``mixed`` fits a linear mixed model of single trials in place of the
-            ANOVA. In any case cell means are over the trials that arrived, and ``notes`` count the others.
+            ANOVA. In any case cell means are over the trials that reached the target, and ``notes`` count the others.
         groups: Number of groups of difficulty.
         difficulty: Whose CPM of the reference scenario tasks are sorted by: the operators' median, or the computer's.
         normalise: Whether CPM of operators and computer are each divided by their own largest measures or by common ones.

@@ -25,7 +25,7 @@ ENDS = tuple(e.name.lower() for e in End)
 UNRATED, ABSENT = "no rating", "not recorded"
 CAUSES = {
     **{e.name.lower(): e.sentence for e in End if e != End.ARRIVED},
-    UNRATED: "the hand arrived, and the operator did not rate the trial",
+    UNRATED: "the end effector arrived, and the operator did not rate the trial",
     ABSENT: "the table has no such trial",
 }
 """Why a trial has no CPM."""
@@ -62,7 +62,7 @@ class Observed:
         tasks: (T,) numbers.
         conditions: (S,) the scenarios.
         measures: (P, T, S, 12) M1 to M12, NaN in trials without a CPM.
-        ratings: (P, T, S) M12 of every trial that was rated, whether the hand arrived or not.
+        ratings: (P, T, S) M12 of every trial that was rated, whether the end effector arrived or not.
         cause: (P, T, S) why there is no CPM; empty where there is one.
         rated: Operators rated trials at all. If not, CPM is made of eleven measures.
         cpm: (P, T, S) combined performance measures.
@@ -247,7 +247,7 @@ def _check(table: DataFrame, what: str) -> None:
             s, t, c = table.loc[bad, ["subject", "task", "scenario"]].iloc[0]
             raise InputError(
                 f"the {what} has {name} = {values[bad][0]:g} for subject {s}, task {t}, scenario {c}; a measure of a trial "
-                "that arrived is a number of 0 or more"
+                "that reached the target is a number of 0 or more"
             )
 
 

@@ -35,7 +35,7 @@ def notes(
         yield (
             f"{counted(int(lost.sum()), 'trial')} of {lost.size:,} {'has' if lost.sum() == 1 else 'have'} no CPM "
             f"({where}). Means are over the "
-            "trials that arrived, which flatters a law under which the hardest ones do not."
+            "trials that reached the target, which flatters a law under which the hardest ones do not."
         )
     short = cells.tasks < grouped.sizes
     if short.any():

@@ -208,7 +208,7 @@ def gains(of_tasks: DataFrame, observed: Observed, conditions: Sequence[int], gr
 
 
 def measures(observed: Observed, machine: Observed | None) -> DataFrame:
-    """The distribution of CPM and each measure in each scenario, over all trials that arrived."""
+    """The distribution of CPM and each measure in each scenario, over all trials that reached the target."""
     from pandas import DataFrame
 
     out = []

@@ -159,10 +159,10 @@ def most_disorienting(bank: TaskBank, besides: Indices) -> int:
 
 
 def trapped(bank: TaskBank, arm: Arm, task: str | Task = "planar", seed: int = 0) -> int | None:
-    """A task in which the failed arm under the pseudoinverse is drawn to where it stands still, but which can be done.
+    """A task in which the failed arm under the pseudoinverse is drawn to where it is still, but which can be done.
 
     The computer, steering straight, must come to a standstill in scenario 3; and some other way of steering, by one of 64
-    random points on the way, must bring the hand into the circle.
+    random points on the way, must bring the end effector into the circle.
 
     Returns:
         Index into the bank; None if it holds no such task.

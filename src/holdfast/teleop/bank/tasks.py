@@ -176,9 +176,9 @@ class TaskBank:
     Attributes:
         tasks: The tasks.
         scenarios: The conditions.
-        measures: (S, N, 11) M1 to M11; NaN where the hand did not arrive.
+        measures: (S, N, 11) M1 to M11; NaN where the end effector did not reach it.
         end: (S, N) :class:`holdfast.teleop.End`.
-        cpm: (S, N) combined performance measures; NaN where the hand did not arrive.
+        cpm: (S, N) combined performance measures; NaN where the end effector did not reach it.
         normalisers: (11,) of the CPM: the largest measures of all these trials.
     """
 
@@ -222,7 +222,7 @@ class TaskBank:
         return np.asarray(self.cpm[self.scenario("failure-tolerant", failed=True)] / self.difficulty)
 
     def completed(self) -> NDArray[np.bool_]:
-        """(N,) True where the hand arrived in every scenario."""
+        """(N,) True where the end effector arrived in every scenario."""
         return np.asarray((self.end == End.ARRIVED).all(axis=0))
 
 

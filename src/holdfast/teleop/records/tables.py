@@ -47,7 +47,7 @@ _COLUMNS = {
     "joint": ("", "joint that the task has fail; empty for none"),
     "end": ("", "arrived, still, time, aborted or broken_off"),
     "cycles": ("1", "control cycles from start to end"),
-    **{m.name: (m.unit, m.about + "; empty where the hand did not arrive") for m in MEASURES[:RECORDED]},
+    **{m.name: (m.unit, m.about + "; empty where the end effector did not reach it") for m in MEASURES[:RECORDED]},
     MEASURES[RECORDED].name: ("1", "step of the rating, from 0; empty where there is none"),
     "began": ("", "UTC, ISO 8601"),
     "ended": ("", "UTC, ISO 8601; empty for a trial that was broken off"),
@@ -89,7 +89,8 @@ def computer_table(protocol: Protocol) -> pd.DataFrame:
 def computer_trials(protocol: Protocol) -> Trials:
     """The protocol's tasks under computer control: scenario by scenario, in each all tasks.
 
-    A trial is over after a way of 50 m at full speed, or when the hand has stood still for 2.5 m of it: 1000 and 50 of the
+    A trial is over after a way of 50 m at full speed, or when the end effector has stood still for 2.5 m of it: 1000
+    and 50 of the
     paper's cycles.
     """
     limit = protocol.stick.limit
@@ -146,8 +147,9 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
     Returns:
         ``task`` (from 1), ``joint`` (that fails; empty for none), the start (joint names, rad and m), the target (``target_x``
-        and so on, m), then for each scenario its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where the hand
-        did not arrive.
+        and so on, m), then for each scenario its number k: ``end_k``, ``M1_k`` to ``M11_k``, ``cpm_k``; empty where
+        the end effector
+        did not reach it.
     """
     import pandas as pd
 
@@ -169,7 +171,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
 
 def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
-    """Where the hand was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
+    """Where the end effector was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
 
     Returns:
         From a subject's code (None means the computer), a task's and a scenario's number (from 1) it makes (K, m) tool points,

@@ -76,21 +76,16 @@ def views(protocol: Protocol) -> list[dict[str, Any]]:
 def workspace(arm: Arm, task: Task) -> tuple[list[float], float | None]:
     """Centre, m, and radius, m, of the boundary of a planar arm's workspace: its stretched length about the first joint.
 
-    The radius is None for an arm that is not planar, or that has sliding joints. Joint limits play no part.
+    The radius is None for an arm that is not planar, or that has prismatic joints. Joint limits play no part.
     """
-    place, places, axes = arm.base, [], []
-    for joint in arm.joints:
-        place = place @ joint.origin
-        places.append(place[:3, 3])
-        axes.append(place[:3, :3] @ joint.axis)
-    centre = places[0].tolist()
+    centre = arm.frames_at_zero[0, :3, 3].tolist()
     rows = task.rows[:, :3]
     if arm.prismatic.any() or len(rows) != 2:
         return centre, None
     normal = np.cross(*rows)
-    if np.abs(np.cross(axes, normal)).max() > _PARALLEL:
+    if np.abs(np.cross(arm.axes_at_zero, normal)).max() > _PARALLEL:
         return centre, None
-    flat = np.array([*places, (place @ arm.tool)[:3, 3]]) @ rows.T
+    flat = arm.frames_at_zero[:, :3, 3] @ rows.T
     return centre, float(np.linalg.norm(np.diff(flat, axis=0), axis=1).sum())
 
 

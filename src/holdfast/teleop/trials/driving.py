@@ -26,10 +26,10 @@ class Rules:
 
     Attributes:
         radius: Of the target circle, m.
-        at_rest: The hand must also be told to stand, as people must; the computer need not.
+        at_rest: The end effector must also be told to stand, as people must; the computer need not.
         cycle_limit: Cycles allowed.
-        still: m per cycle; a hand that is commanded but moves less ...
-        patience: ... for so many cycles one after the other stands still, and the trial is over.
+        still: m per cycle; an end effector that is commanded but moves less ...
+        patience: ... for so many cycles one after the other is still, and the trial is over.
 
     Source: Goel et al. 2003, section 4, for radius and rest; limit, ``still`` and ``patience`` are ours.
     """

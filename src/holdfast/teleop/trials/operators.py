@@ -29,13 +29,15 @@ class Person:
     """How one simulated person steers.
 
     Attributes:
-        delay: From what is seen to what the hand begins to do, s. About 0.24 s for a simple reaction: Card, Moran, Newell
+        delay: From what is seen to what the end effector begins to do, s. About 0.24 s for a simple reaction: Card,
+        Moran, Newell
             1983, the model human processor.
         lag: Time constant of hand and stick, s: a first-order lag; 0.1 to 0.2 s: McRuer and Jex 1967.
         noise: Standard deviation of the command, as a share of its size: Harris and Wolpert 1998, noise grows with the signal.
         bias: The direction is misjudged by this angle throughout a trial, rad; drawn anew, with its sign, for each trial.
         slowing: The speed is the distance to go divided by this time, s, within the limit of the stick.
-        look_back: If the hand is farther from the target than so long ago, s, or stood still, the straight way is given up ...
+        look_back: If the end effector is farther from the target than so long ago, s, or stood still, the straight way
+        is given up ...
         turn: ... for a while, for one turned away by this angle, rad; left and right by turns, farther each time.
         gives_up: Time after which the trial is aborted, s.
     """
@@ -166,7 +168,7 @@ class SimulatedPeople(Operator):
         Args:
             rows: (K,) trials under way.
             cycle: Now.
-            moved: (K,) how far the hand is from where it was one look-back ago, m.
+            moved: (K,) how far the end effector is from where it was one look-back ago, m.
             lost_ground: (K,) by how much it is farther from the target, m.
         """
         watched = cycle - self._delay[rows] >= self._look_back[rows]

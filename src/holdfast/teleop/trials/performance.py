@@ -49,20 +49,20 @@ MEASURES = (
     Measure("M12", "subjective operator assessment", "1"),
 )
 RECORDED = 11  # of them: all but the rating
-_STANDS = 1e-12  # of the command: below it the hand has no direction
+_STANDS = 1e-12  # of the command: below it the end effector has no direction
 
 
 def measures(trials: Trials) -> Array:
     """M1 to M11 of each trial.
 
-    With the commanded velocity v, the hand's actual velocity a at the beginning of a cycle, its position x, and the straight
+    With the commanded velocity v, its actual velocity a at the beginning of a cycle, its position x, and the straight
     segment from the start to the target:
 
     * M1 number of cycles; M2 length of the polygon through the x; M3, M4 largest and mean distance of the x from the segment;
       M5 sum of all increases of the distance to the target; M6 sum of all changes of all joints (rad; and m, of sliding
       joints);
     * M7, M8 mean and largest ``|v - a| / |v|`` over the cycles with a command; M9, M10 mean and largest angle between v and a
-      over those in which the hand moved as well; M11 sum of the changes of v.
+      over those in which the end effector moved as well; M11 sum of the changes of v.
 
     Means over no cycle are 0.
 
@@ -70,7 +70,7 @@ def measures(trials: Trials) -> Array:
         trials: N recorded trials.
 
     Returns:
-        (N, 11). NaN in the rows of trials that did not arrive, as their time, path and errors are cut off, not performed.
+        (N, 11). NaN in the rows of trials that did not reach it, as their time, path and errors are cut off, not performed.
 
     Source: reconstruction of the lost table of Goel et al. 2003.
     """
@@ -149,7 +149,7 @@ def cpm(values: ArrayLike, normalisers: ArrayLike | None = None) -> CPM:
     different sets.
 
     Args:
-        values: (..., k) measures: eleven without, twelve with the operator's rating. Trials that did not arrive are NaN.
+        values: (..., k) measures: eleven without, twelve with the operator's rating. Trials that did not reach it are NaN.
         normalisers: (k,) to use in place of the largest values, to put other trials on the same scale.
 
     Returns:

@@ -1,4 +1,4 @@
-"""What an operator is asked to do: steer the hand from a start to a target, and under which conditions."""
+"""What an operator is asked to do: steer the end effector from a start to a target, and under which conditions."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Stick:
-    """Rate control: the commanded velocity of the hand is proportional to the deflection, outside a dead zone.
+    """Rate control: the commanded velocity of the end effector is proportional to the deflection, outside a dead zone.
 
     Nothing is rescaled outside the dead zone.
 

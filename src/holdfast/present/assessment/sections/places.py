@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.rotations import to_zyx
+from holdfast.arm.poses import zyx_angles
 from holdfast.present.assessment.facts import Facts, Rows
 from holdfast.probability.distribution import Distribution
 from holdfast.regions.region import Region
@@ -82,7 +82,7 @@ def _worst_table(f: Facts, d: Distribution, rows: Rows, name: str) -> Table:
 
 def _angles(rotations: Array, region: Region) -> Array:
     """Roll, pitch, yaw: of the two triples of a rotation, and their turns, the one next to the middle of the region."""
-    first = to_zyx(rotations)
+    first = zyx_angles(rotations)
     center = np.array(region.center[3:]) if region.kind == "box" else np.zeros(3)
     second = np.stack([first[:, 0] + np.pi, np.pi - first[:, 1], first[:, 2] + np.pi], axis=1)
     both = np.stack([first, second])

@@ -1,0 +1,397 @@
+"""The data of a machine: joints, links, tool, base, gravity and payload; checked and immutable."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked_class, real_numbers
+from holdfast.caching import cached_property
+from holdfast.errors import ArmError, InputError
+
+Array = NDArray[np.float64]
+JointType = Literal["revolute", "continuous", "prismatic"]
+GRAVITY = (0.0, 0.0, -9.81)
+_JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
+_MOST = 1e12  # of any number, so that their products stay finite
+_QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
+
+
+@checked_class
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """One degree of freedom: its frame sits at ``origin`` in the previous link frame, it moves about or along ``axis``.
+
+    Attributes:
+        name: Unique in the arm.
+        type: ``revolute``, ``continuous`` (revolute without limits) or ``prismatic``.
+        origin: (4, 4) pose of the joint frame at q = 0 in the frame of the previous link (or base).
+        axis: (3,) unit vector in the joint frame.
+        lower, upper: Position limits, rad or m; infinite where there are none.
+        velocity: Largest speed, rad/s or m/s; infinite if not given.
+        effort: Largest torque or force, N m or N; infinite if not given.
+        friction: Viscous friction, N m s/rad or N s/m.
+        armature: Rotor inertia at the joint, kg m^2 or kg.
+    """
+
+    name: str
+    type: JointType
+    origin: Array
+    axis: Array
+    lower: float = -np.inf
+    upper: float = np.inf
+    velocity: float = np.inf
+    effort: float = np.inf
+    friction: float = 0.0
+    armature: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.type not in ("revolute", "continuous", "prismatic"):
+            raise ArmError(f"joint '{self.name}' has type '{self.type}'; use revolute, continuous or prismatic")
+        object.__setattr__(self, "origin", transform(self.origin, f"origin of joint '{self.name}'"))
+        axis = _numbers(self.axis, f"axis of joint '{self.name}'")
+        length = float(np.linalg.norm(axis)) if axis.shape == (3,) and np.abs(axis).max() < _MOST else 0.0
+        if not (np.isfinite(length) and length > 1e-9):
+            raise ArmError(f"axis of joint '{self.name}' is {axis.tolist()}; it must be 3 finite numbers below 1e12, not all 0")
+        # An axis that is a unit vector already keeps its bits, so that an arm read back is the same arm.
+        object.__setattr__(self, "axis", _frozen(snapped(axis if abs(length - 1) < 4e-15 else axis / length)))
+        for field_name in _JOINT_NUMBERS:
+            value = float(getattr(self, field_name))
+            sign = "" if field_name in ("lower", "upper") else " of 0 or more"
+            if np.isnan(value) or (value < 0 and field_name not in ("lower", "upper")):
+                raise ArmError(f"{field_name} of joint '{self.name}' is {value:g}; it must be a number{sign}")
+            object.__setattr__(self, field_name, value)
+        if self.lower > self.upper:
+            raise ArmError(
+                f"limits of joint '{self.name}' are upside down: lower {self.lower:g} is above upper {self.upper:g}; swap them"
+            )
+
+    @property
+    def prismatic(self) -> bool:
+        """True for a prismatic joint."""
+        return self.type == "prismatic"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the joint variable: rad or m."""
+        return "m" if self.prismatic else "rad"
+
+    @property
+    def shown(self) -> tuple[float, str]:
+        """Factor and unit in which people read the joint variable: (1, "m") or (180/pi, "deg")."""
+        return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
+
+    def motion(self, value: float) -> Array:
+        """(4, 4) pose of what moves with the joint in the joint's own frame; ``value`` in rad or m."""
+        return motion(self.type, self.axis, value)
+
+
+@checked_class
+@dataclass(frozen=True, eq=False)
+class Link:
+    """Inertial data of a rigid body.
+
+    Attributes:
+        mass: kg, 0 or more.
+        com: (3,) centre of mass in the link's frame, m. For a DH arm this is the frame of its table row (the distal
+            frame in the standard convention); for a URDF arm the URDF link frame.
+        inertia: (3, 3) about the centre of mass, in the axes of the link's frame, kg m^2.
+        name: For messages.
+    """
+
+    mass: float
+    com: Array
+    inertia: Array
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        label = f"link '{self.name}'" if self.name else "link"
+        com, inertia = _numbers(self.com, f"com of {label}"), _numbers(self.inertia, f"inertia of {label}")
+        if com.shape != (3,) or inertia.shape != (3, 3):
+            raise ArmError(f"{label}: com has shape {com.shape} and inertia {inertia.shape}; they must be (3,) and (3, 3)")
+        if not (np.isfinite(self.mass) and np.isfinite(com).all() and np.isfinite(inertia).all()):
+            raise ArmError(f"{label}: mass, com and inertia must be finite numbers")
+        if self.mass < 0:
+            raise ArmError(f"{label}: mass is {self.mass:g} kg; it must be 0 or more")
+        if max(self.mass, float(np.abs(com).max()), float(np.abs(inertia).max())) > _MOST:
+            raise ArmError(f"{label}: a mass, com or inertia is beyond {_MOST:g}; give kg, m and kg m^2")
+        if not np.allclose(inertia, inertia.T, atol=1e-9 * max(1.0, float(np.abs(inertia).max()))):
+            raise ArmError(f"{label}: the inertia matrix is not symmetric")
+        object.__setattr__(self, "mass", float(self.mass))
+        object.__setattr__(self, "com", _frozen(com))
+        object.__setattr__(self, "inertia", _frozen((inertia + inertia.T) / 2))
+
+    def moved(self, transform: ArrayLike) -> Link:
+        """The same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new one."""
+        t = np.asarray(transform, dtype=np.float64)
+        rotation = t[:3, :3]
+        return Link(self.mass, rotation @ self.com + t[:3, 3], rotation @ self.inertia @ rotation.T, self.name)
+
+    @staticmethod
+    def joined(bodies: Sequence[Link], name: str | None = None) -> Link:
+        """Rigidly connected bodies, all in one frame, as one (parallel axis theorem)."""
+        mass = sum(b.mass for b in bodies)
+        if mass <= 0:
+            total = np.sum([b.inertia for b in bodies], axis=0) if bodies else np.zeros((3, 3))
+            return Link(0.0, np.zeros(3), total, name)
+        com = np.sum([b.mass * b.com for b in bodies], axis=0) / mass
+        inertia = np.zeros((3, 3))
+        for b in bodies:
+            r = b.com - com
+            inertia += b.inertia + b.mass * (r @ r * np.eye(3) - np.outer(r, r))
+        return Link(mass, com, inertia, name)
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Which part of a file an arm is.
+
+    Attributes:
+        base: Link on which it stands.
+        tip: Link whose frame is the tool; None once the tool is another one.
+        held: Joints of the file that were told to stand, and where, rad or m.
+    """
+
+    base: str
+    tip: str | None
+    held: tuple[tuple[str, float], ...] = ()
+
+    def __str__(self) -> str:
+        tip = [] if self.tip is None else [f"tip '{self.tip}'"]
+        return ", ".join([f"base '{self.base}'", *tip, *(f"'{name}' held at {value:g}" for name, value in self.held)])
+
+
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """What is known about a serial arm.
+
+    Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.
+
+    Attributes:
+        name: For people and files.
+        joints: From base to tip; at least one.
+        links: One body per joint, moving with it, each in its joint's moving frame; None where nothing is known.
+        base: (4, 4) pose of the arm's base in the world.
+        tool: (4, 4) pose of the tool in the last joint's moving frame. The tool point is its origin, the tool axis its z.
+        flange: (4, 4) pose of the last link's own frame in the last joint's moving frame: the last row's frame of a DH table,
+            the identity for a URDF file. Tools and payloads are given in it.
+        gravity: (3,) gravity acceleration in the world, m/s^2 (downward vector).
+        payload: Body held by the end effector, in the last joint's moving frame.
+        source: Where the description comes from, for reports.
+        chain: Which links of that file are base and tip; None for a DH table.
+        states: Configurations (n,) that have a name, rad and m, such as ``home``.
+    """
+
+    name: str
+    joints: tuple[Joint, ...]
+    links: tuple[Link | None, ...] = ()
+    base: Array = field(default_factory=lambda: np.eye(4))
+    tool: Array = field(default_factory=lambda: np.eye(4))
+    gravity: Array = field(default_factory=lambda: np.array(GRAVITY))
+    payload: Link | None = None
+    source: str = ""
+    flange: Array = field(default_factory=lambda: np.eye(4))
+    chain: Chain | None = None
+    states: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        joints = tuple(self.joints)
+        if not joints:
+            raise ArmError(f"arm '{self.name}' has no joints; it needs at least one")
+        names = [j.name for j in joints]
+        double = sorted({x for x in names if names.count(x) > 1})
+        if double:
+            raise ArmError(f"arm '{self.name}': the joint name '{double[0]}' is used more than once; names must be unique")
+        links = tuple(self.links) or (None,) * len(joints)
+        if len(links) != len(joints):
+            raise ArmError(f"arm '{self.name}' has {len(joints)} joints and {len(links)} links; it needs one link per joint")
+        gravity = _numbers(self.gravity, f"gravity of arm '{self.name}'")
+        if gravity.shape != (3,) or not np.isfinite(gravity).all():
+            raise ArmError(f"arm '{self.name}': gravity must be 3 finite numbers, m/s^2, for example {GRAVITY}")
+        object.__setattr__(self, "joints", joints)
+        object.__setattr__(self, "links", links)
+        object.__setattr__(self, "base", transform(self.base, f"base of arm '{self.name}'"))
+        object.__setattr__(self, "tool", transform(self.tool, f"tool of arm '{self.name}'"))
+        object.__setattr__(self, "flange", transform(self.flange, f"flange of arm '{self.name}'"))
+        object.__setattr__(self, "gravity", _frozen(gravity))
+        # An arm made by replace() may have other joints than the states were written for.
+        states = {name: _frozen(q) for name, q in self.states.items() if np.shape(q) == (len(joints),)}
+        object.__setattr__(self, "states", states)
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return len(self.joints)
+
+    @cached_property
+    def lower(self) -> Array:
+        """(n,) lower limits, rad or m; -inf where there is none."""
+        return _frozen(np.array([j.lower for j in self.joints]))
+
+    @cached_property
+    def upper(self) -> Array:
+        """(n,) upper limits, rad or m; inf where there is none."""
+        return _frozen(np.array([j.upper for j in self.joints]))
+
+    @cached_property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names from base to tip."""
+        return tuple(j.name for j in self.joints)
+
+    @cached_property
+    def prismatic(self) -> NDArray[np.bool_]:
+        """(n,) True for prismatic joints."""
+        sliding = np.array([j.prismatic for j in self.joints])
+        sliding.setflags(write=False)
+        return sliding
+
+    def joint_index(self, joint: str | int) -> int:
+        """Index from 0 of a joint given by name or index from 0.
+
+        Raises:
+            InputError: There is no such joint; the message lists those there are.
+        """
+        if isinstance(joint, (int, np.integer)) and not isinstance(joint, bool):
+            if 0 <= joint < self.n:
+                return int(joint)
+            raise InputError(f"joint index {joint} is out of range; '{self.name}' has joints 0 to {self.n - 1}")
+        if isinstance(joint, str) and joint in self.joint_names:
+            return self.joint_names.index(joint)
+        raise InputError(f"'{self.name}' has no joint '{joint}'; its joints are {', '.join(self.joint_names)}")
+
+    def joint_indices(self, joints: Iterable[str | int]) -> tuple[int, ...]:
+        """Indices from 0, sorted, of joints given by name or index from 0; see :meth:`joint_index`."""
+        return tuple(sorted(self.joint_index(j) for j in joints))
+
+    @cached_property
+    def frames_at_zero(self) -> Array:
+        """(n + 1, 4, 4) poses in the world of the joint frames and of the tool, all joints at 0."""
+        frames, pose = [], self.base
+        for joint in self.joints:
+            pose = pose @ joint.origin
+            frames.append(pose)
+        return _frozen(np.array([*frames, pose @ self.tool]))
+
+    @cached_property
+    def axes_at_zero(self) -> Array:
+        """(n, 3) unit vectors in the world of the joint axes, all joints at 0."""
+        return _frozen(np.array([t[:3, :3] @ j.axis for t, j in zip(self.frames_at_zero, self.joints, strict=False)]))
+
+    @cached_property
+    def length_unit(self) -> float:
+        """A length of about the arm's own size, m: its links end to end and the tool, rounded to a power of two.
+
+        Errors are divided by it before they are compared with a threshold. A power of two rounds nothing in that: copies of
+        an arm in sizes a power of two apart do the same to the last bit. 1 m where nothing has a length.
+        """
+        size = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in self.joints[1:])
+        size += float(np.linalg.norm(self.tool[:3, 3]))
+        slides = [max(abs(j.lower), abs(j.upper)) for j in self.joints if j.prismatic]
+        size += sum(x for x in slides if np.isfinite(x))
+        return float(2.0 ** np.round(np.log2(size))) if size > 0 else 1.0
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """SHA-256 of the numbers that define the arm (not its name or source): the same arm has the same one."""
+        data: dict[str, Any] = {
+            "joints": [
+                [j.name, j.type, j.origin.tolist(), j.axis.tolist(), *(getattr(j, key) for key in _JOINT_NUMBERS)]
+                for j in self.joints
+            ],
+            "links": [_body(x) for x in (*self.links, self.payload)],
+            "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist(), self.flange.tolist()],
+        }
+        return hashlib.sha256(json.dumps(data).encode()).hexdigest()
+
+    def check_configurations(self, q: ArrayLike) -> Array:
+        """``q`` as float64, ``(n,)`` or ``(N, n)``.
+
+        Raises:
+            InputError: Wrong number of joint values, or not numbers.
+        """
+        a = real_numbers(q, f"q for '{self.name}'", f"numbers, {self.n} per configuration")
+        if a.ndim not in (1, 2) or a.shape[-1] != self.n:
+            got = a.shape[-1] if a.ndim else 0
+            raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
+        return a
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.name!r}, {self.n} joints)"
+
+
+def _body(link: Link | None) -> list[Any] | None:
+    return None if link is None else [link.mass, link.com.tolist(), link.inertia.tolist()]
+
+
+def _frozen(a: Array) -> Array:
+    b = np.array(a, dtype=np.float64)
+    b.setflags(write=False)
+    return b
+
+
+def _numbers(value: ArrayLike, what: str) -> Array:
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ArmError(f"{what} must be numbers in an array of the right shape") from error
+
+
+def snapped(a: Array) -> Array:
+    """Rounding noise of cos(pi/2) and the like becomes exactly 0, 1 or -1, so that symbolic products vanish."""
+    b = a.copy()
+    for value in (-1.0, 0.0, 1.0):
+        b[np.abs(b - value) < 1e-15] = value
+    return b
+
+
+def transform(value: ArrayLike, what: str) -> Array:
+    """A pose (4, 4) from a caller, checked; ``what`` is what an error calls it."""
+    t = _numbers(value, what)
+    if t.shape != (4, 4) or not np.isfinite(t).all():
+        raise ArmError(f"{what} must be a 4x4 array of finite numbers, got shape {t.shape}")
+    if np.abs(t).max() > _MOST:
+        raise ArmError(f"{what} is beyond {_MOST:g} m; give lengths in metres")
+    rotation = t[:3, :3]
+    if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-6) or np.linalg.det(rotation) < 0:
+        raise ArmError(f"{what}: its upper left 3x3 block is not a rotation (orthonormal, determinant +1)")
+    if not np.allclose(t[3], [0, 0, 0, 1]):
+        raise ArmError(f"{what}: its last row is {t[3].tolist()}; it must be 0, 0, 0, 1")
+    out = t.copy()
+    out[:3, :3] = snapped(rotation)
+    return _frozen(out)
+
+
+# ---- motions of joints -----------------------------------------------------------------------------------------------
+
+
+def motion(kind: str, axis: Array, value: float) -> Array:
+    """(4, 4) motion of a joint by itself, rad or m; the identity for types without one axis."""
+    pose = np.eye(4)
+    if kind == "prismatic":
+        pose[:3, 3] = axis * value
+    elif kind in ("revolute", "continuous"):
+        pose[:3, :3] = _turn(axis, value)
+    return pose
+
+
+def cos_sin(angle: float) -> tuple[float, float]:
+    """Cosine and sine, exact at quarter turns."""
+    quarters = round(angle / (np.pi / 2))
+    # Exact zeros make terms vanish from the generated code; the file's author meant them.
+    if abs(angle - quarters * np.pi / 2) < _QUARTER_TURN_SLACK:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
+    return float(np.cos(angle)), float(np.sin(angle))
+
+
+def _turn(axis: Array, angle: float) -> Array:
+    """(3, 3) rotation about a unit axis (Rodrigues)."""
+    c, s = cos_sin(angle)
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))

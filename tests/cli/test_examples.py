@@ -1,0 +1,110 @@
+"""The example in the help of every command works in an empty folder, and ``--json`` is ``to_dict()`` of the result."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import re
+import shlex
+import sys
+from importlib import import_module
+
+import pytest
+import typer
+
+from holdfast.cli.program import COMMANDS
+from holdfast.present.printing import plain
+from holdfast.present.results import printed
+
+# ---- what an example needs beside the command ----------------------------------------------------------------------------
+
+FILES = {
+    "path.yaml": "line: {from: {xyz: [0.45, -0.1, 0.5]}, to: {xyz: [0.45, 0.1, 0.5]}}\ntiming: {duration: 2}\n",
+    "cell.yaml": "box: {center: [0.5, 0, 0.5], size: 0.1, rpy_center: [180, 0, 0], rpy_size: 10}\nangles: deg\n",
+}
+STUDY = "study new tools.yaml --arm planar-3r --poses 64 --chunk 32"
+EXPERIMENT = "teleop run --simulated --operators 2 --seed 1 --out experiment"
+DONE = [STUDY, "study run tools.yaml --out tools"]
+FIRST = {  # commands before
+    "report": ["assess planar-3r --poses 16 --out results"],
+    "study run": [STUDY],
+    **{f"study {of}": DONE for of in ("status", "verify", "report")},
+    "study merge": [STUDY, *(f"study run tools.yaml --out machine{k}/tools --part {k}/2" for k in (1, 2))],
+    **{f"teleop {of}": [EXPERIMENT] for of in ("replay", "verify", "backup", "export", "subjects")},
+    "teleop analyse": ["teleop run --simulated --operators 4 --seed 1 --out experiment"],
+}
+CHEAPER = {  # options at the end, the last of which counts
+    "assess": "--poses 16",
+    "basins": "--grid 4",
+    "compare": "--motions 2",
+    "optimise": "--starts 2",
+    "design": "--designs 4 --climbs 1 --poses 8 --fresh 32",
+    "follow": "--samples 11",
+    "recover": "--samples 0",
+    "swing": "--duration 0.2",
+    "teleop run": "--operators 2",
+    "teleop tasks": "--per-joint 20 --select 4 --no-special",
+    "tolerant-workspace": "--points 50",
+    "trade-off": "--samples 16",
+    "workspace": "--starts 2 --configurations 2 --points 1",
+}
+SERVERS = {"studio", "teleop serve"}  # until they are stopped: tested apart
+QUICK = {"arms", "describe", "index", "susceptibility", "stationary", "swing"}
+QUICK |= {"study new", "study run", "teleop allocation", "teleop protocol", "teleop texts"}
+
+
+def examples():
+    """Each command with its function and the examples in its docstring."""
+    for name, place in COMMANDS.items():
+        module, _, function = place.partition(":")
+        made = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
+        parts = [("", made)]
+        if isinstance(made, typer.Typer):
+            parts = [(f" {each.name or each.callback.__name__}", each.callback) for each in made.registered_commands]
+        for part, each in parts:
+            yield f"{name}{part}", each, re.findall(r"Example: holdfast (.+)", each.__doc__)
+
+
+HERE = {name: (each, found[0]) for name, each, found in examples() if found and name not in SERVERS}
+
+
+def test_every_command_has_an_example():
+    for name, _, found in examples():
+        assert found, f"{name}: its docstring has no line 'Example: holdfast {name} ...'"
+        assert all(text.startswith(name) for text in found)
+
+
+def carry_out(name, cli, monkeypatch, folder):
+    monkeypatch.chdir(folder)
+    for file, text in FILES.items():
+        (folder / file).write_text(text, encoding="utf-8")
+    function, text = HERE[name]
+    for first in FIRST.get(name, []):
+        assert cli(*shlex.split(first))[0] == 0, first
+    words = shlex.split(f"{text} {CHEAPER.get(name, '')}")
+    code, out, err = cli(*words)
+    assert code == 0, err
+    assert out
+    module = sys.modules[function.__module__]
+    if "json_" not in inspect.signature(function).parameters or not hasattr(module, "printed"):
+        return
+    results = []
+    monkeypatch.setattr(
+        module, "printed", lambda result, *rest, **more: (results.append((result, more)), printed(result, *rest, **more))
+    )
+    code, out, err = cli(*words, "--json")
+    assert code == 0, err
+    ((result, asked),) = results
+    asked.pop("listed", None)
+    expected = json.loads(json.dumps(plain(result.to_dict(**asked))))
+    assert {key: value for key, value in json.loads(out).items() if key in expected} == expected
+
+
+@pytest.mark.parametrize("name", sorted(QUICK))
+def test_the_example(name, cli, monkeypatch, tmp_path):
+    carry_out(name, cli, monkeypatch, tmp_path)
+
+
+@pytest.mark.parametrize("name", sorted(set(HERE) - QUICK))
+def test_the_example_that_takes_longer(name, cli, monkeypatch, tmp_path):
+    carry_out(name, cli, monkeypatch, tmp_path)
