@@ -8,14 +8,12 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.model import Arm
 from holdfast.arm.task import as_task
+from holdfast.assessment.plan import Plan
 from holdfast.assessment.single_points import Structure, structure, structures
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
-from holdfast.indices.index import Index
 from holdfast.probability.distribution import Distribution, Interval
-from holdfast.regions.region import Region
 from holdfast.words import article, as_given, either, interval, number, percent, share
 
 EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
@@ -26,15 +24,8 @@ class Sampled(Protocol):
     """What of an assessment the answer is made of; see :class:`holdfast.Assessment`."""
 
     @property
-    def arm(self) -> Arm: ...  # noqa: D102
-    @property
-    def region(self) -> Region: ...  # noqa: D102
-    @property
-    def index(self) -> Index: ...  # noqa: D102
-    @property
-    def poses(self) -> int: ...  # noqa: D102
-    @property
-    def sampling(self) -> str: ...  # noqa: D102
+    def plan(self) -> Plan: ...  # noqa: D102
+
     @property
     def kept(self) -> bool: ...  # noqa: D102
     @property
@@ -67,10 +58,10 @@ class Answer:
             raise InputError(f"threshold is {threshold:g}; it must be a finite number")
         self.a = assessment
         self.d = assessment.distribution
-        self.index = assessment.index
+        self.index = assessment.plan.index
         self.larger = self.index.better == "larger"
-        self.noun = "configuration" if assessment.region.kind == "joints" else "pose"
-        self.reached = f"{self.noun}s" if assessment.region.kind == "joints" else "reached poses"
+        self.noun = "configuration" if assessment.plan.region.kind == "joints" else "pose"
+        self.reached = f"{self.noun}s" if assessment.plan.region.kind == "joints" else "reached poses"
         self.chosen = threshold is not None
         self.threshold = assessment.default_threshold() if threshold is None else float(threshold)
 
@@ -102,7 +93,7 @@ class Answer:
         """``whichever joint locks`` and the like."""
         sizes = {len(s) for s in self.index.failures}
         size = sizes.pop() if len(sizes) == 1 else 0
-        if size and len(self.index.failures) == math.comb(self.a.arm.n, size):
+        if size and len(self.index.failures) == math.comb(self.a.plan.arm.n, size):
             return "whichever joint locks" if size == 1 else f"whichever {size} joints lock together"
         count = len(self.index.failures)
         return f"if {either(self.index.failure_names)} locks" if count == 1 else f"after any of the {count} failures considered"
@@ -135,7 +126,7 @@ class Answer:
     @cached_property
     def why(self) -> str:
         """What keeps the answer at nothing, joint or structure, and the next figures that say something."""
-        a, index, names = self.a, self.index, self.a.arm.joint_names
+        a, index, names = self.a, self.index, self.a.plan.arm.joint_names
         own = self.structures[0]
         ends = [k for k in own.fatal if any(k in s for s in index.failures)]
         if own.never:
@@ -159,16 +150,16 @@ class Answer:
             p = a.interval(**{f"at_{'least' if self.larger else 'most'}": self.threshold}, optimised=True)
             parts[-1] += f"; at the best configuration of each pose it is {number(float(best.quantile(0.5)))}, "
             parts[-1] += f"and the probability {interval(p)}"
-        elif a.region.kind != "joints":
+        elif a.plan.region.kind != "joints":
             parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
         return f"{' '.join(parts)}."
 
     @property
     def drawn(self) -> str:
         """How poses were chosen."""
-        listed = self.a.region.listed
-        each = listed is not None and self.a.poses == len(listed)
-        return "each pose of the list once" if each else f"{self.a.sampling} poses of the region"
+        listed = self.a.plan.region.listed
+        each = listed is not None and self.a.plan.poses == len(listed)
+        return "each pose of the list once" if each else f"{self.a.plan.sampling} poses of the region"
 
     def share(self, count: int) -> str:
         """A count of poses as a share of all, with its interval if all count alike."""
@@ -192,11 +183,11 @@ class Answer:
     @cached_property
     def structures(self) -> tuple[Structure, list[Structure]]:
         """Of the task of the run, and of all tasks with that one among them."""
-        everything = structures(self.a.arm)
+        everything = structures(self.a.plan.arm)
         task = self.index.task
         for s in everything:
-            standard = as_task(self.a.arm, s.task)
+            standard = as_task(self.a.plan.arm, s.task)
             if s.task == task.name and standard.rows.shape == task.rows.shape and np.allclose(standard.rows, task.rows):
                 return s, everything
-        own = structure(self.a.arm, task)
+        own = structure(self.a.plan.arm, task)
         return own, [own, *everything]

@@ -21,7 +21,6 @@ from holdfast.errors import InputError, StoreError
 from holdfast.failures import failure_sets
 from holdfast.files import reading
 from holdfast.files.output import replaced
-from holdfast.notice import says
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
 from holdfast.result import Result
@@ -188,10 +187,6 @@ class Comparison(Result):
             said.append(f"Task {task}: {name} has the largest probability, {probability}, of at {sign} {self.threshold:g}.")
         return [*said, *self.notes]
 
-    def to_dict(self, thresholds: Sequence[float] | None = None, report: Path | None = None) -> dict[str, Any]:
-        """See :meth:`Assessment.to_dict`; of every candidate, and the table."""
-        return super().to_dict(thresholds=thresholds, report=report)
-
     def save(self, folder: str | Path) -> list[Path]:
         """Write a folder that :func:`load_comparison` and ``holdfast report`` read: one in it for each candidate, a report.
 
@@ -211,15 +206,6 @@ class Comparison(Result):
         listed = [{"name": name, "tool": tool} for name, tool in zip(self.names, self.tools, strict=True)]
         replaced(target / LIST, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
         return [target / LIST, self.report(target / "report.html")]
-
-    @says("drawing the report")
-    def report(self, path: str | Path) -> Path:
-        """Write the comparison as one self-contained HTML file.
-
-        Raises:
-            StoreError: The file cannot be written; what was there is as it was.
-        """
-        return super().report(path)
 
 
 @checked

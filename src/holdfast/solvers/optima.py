@@ -77,17 +77,8 @@ class Optima(Optimum, Result):
         """(N,) of the objective at :attr:`before`."""
         return self.start_value if self.initial is None else self.objective(self.initial)
 
-    @property
-    def clearance_before(self) -> Array:
-        """(N,) of the arm from itself at :attr:`before`, m; NaN where it is not looked at."""
-        return self._apart(self.before)
-
-    @property
-    def clearance_after(self) -> Array:
-        """(N,) of the arm from itself at the best configurations, m; NaN where it is not looked at."""
-        return self._apart(self.q)
-
-    def _apart(self, q: Array) -> Array:
+    def apart(self, q: Array) -> Array:
+        """(N,) clearance of the arm from itself, m, at q (N, n); NaN where it is not looked at."""
         return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
 
     @property
@@ -95,20 +86,16 @@ class Optima(Optimum, Result):
         """(N,) True where the configuration given is better than the one found, and as clear."""
         lost = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
         better = lost > 1e-9 * np.abs(self.value)
-        return np.asarray(better & ~(self.clearance_before < self.margin))
+        return np.asarray(better & ~(self.apart(self.before) < self.margin))
 
     def describe(self) -> list[str]:
-        """Where the best configurations bring the objective."""
-        rows, unit = self.rows, "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
+        """Where the best configurations bring the objective; of several poses the median of those reached."""
+        some, unit = np.atleast_1d(self.success), "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
+        values = [np.atleast_1d(x)[some] for x in (self.value_before, self.value)]
+        before, after = (f"{number(float(np.median(x)))}{unit}" if x.size else "none" for x in values)
         what = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"
-        if len(rows.q) == 1:
-            change = f"{number(float(rows.value_before[0]))} before, {number(float(rows.value[0]))}{unit} after"
-        else:
-            found = int(rows.success.sum())
-            before, after = (float(np.median(x[rows.success])) if found else np.nan for x in (rows.value_before, rows.value))
-            change = f"{counted(found, 'pose')} of {len(rows.q)} reached, median {number(before)} before, "
-            change += f"{number(after)}{unit} after"
-        return [f"{what}: {change}.", f"Task {self.task.describe()}; the configurations are the best found, not proved best."]
+        reached = f"{counted(int(some.sum()), 'pose')} of {some.size} reached, " if some.size > 1 else ""
+        return [f"{what}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
 
     def require_any(self) -> Optima:
         """Itself, unless no pose has a configuration.

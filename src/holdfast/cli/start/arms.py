@@ -11,12 +11,12 @@ def command(json_: JsonOption = False) -> None:
 
     Example: holdfast arms
     """
-    from holdfast.present.arms.console import show, to_dict
+    from holdfast.present.arm.console import library, show_library
 
     if json_:
-        print_json(to_dict())
+        print_json(library())
     else:
-        show(console())
+        show_library(console())
 
 
 def describe(

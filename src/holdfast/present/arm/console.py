@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast import arms
 from holdfast.arm.model import Arm
 from holdfast.arm.soundness import check
 from holdfast.assessment.single_points import explain, structures
@@ -83,6 +84,22 @@ def show(arm: Arm, out: Console) -> None:
         who = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more like it"
         colour = "red" if severity == "error" else "yellow"
         out.print(f"[{colour}]{severity}[/] {escape(who)}: {escape(message)}", soft_wrap=True)
+
+
+def library() -> list[dict[str, Any]]:
+    """The built-in arms."""
+    entries = [arms.about(name) for name in arms.names()]
+    return [{"name": e.name, "joints": e.n, "summary": e.summary, "source": e.source, "licence": e.licence} for e in entries]
+
+
+def show_library(out: Console) -> None:
+    """The built-in arms as a table."""
+    from rich.table import Table
+
+    table = Table("name", "joints", "what it is", "licence", box=None, pad_edge=False)
+    for e in library():
+        table.add_row(e["name"], str(e["joints"]), e["summary"], e["licence"])
+    out.print(table)
 
 
 def shown_position(value: float, unit: str) -> str:

@@ -13,6 +13,7 @@ from holdfast.arm.model import Arm
 from holdfast.arms.tool import attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
+from holdfast.notice import says
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections.upgrades import paired
 from holdfast.present.commands import capsule_files, command_line, region_files
@@ -25,12 +26,9 @@ from holdfast.words import article, as_given, counted, fixed, interval, number, 
 _MOST_UPGRADES = 3  # joints per candidate; its own report has all
 
 
+@says("drawing the report")
 def write(comparison: Comparison, path: Path) -> Path:
-    """Write the comparison as one HTML file that needs nothing else.
-
-    Raises:
-        StoreError: The file cannot be written; what was there is as it was.
-    """
+    """The comparison as a page, which begins with the table."""
     return page.write(build(comparison), path)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.assessment.assessment import Assessment
+from holdfast.assessment.single_points import explain
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures as drawing
 from holdfast.report import page, scenes
@@ -17,7 +18,6 @@ from holdfast.words import interval
 
 # The sections, in order: files of `sections` with a TITLE and blocks(facts: Facts) -> list[Block]; one without is left out.
 SECTIONS = (
-    "verdict",
     "key_numbers",
     "structure",
     "views",
@@ -33,18 +33,7 @@ SECTIONS = (
 
 
 def write(assessment: Assessment, path: Path, threshold: float | None = None) -> Path:
-    """Write the report as one HTML file that needs nothing else.
-
-    Args:
-        assessment: What to report.
-        path: The file; it is replaced in one step.
-        threshold: The value of the index that the task needs. Half of the largest possible value if there is one, else
-            the median over the reached poses.
-
-    Raises:
-        StoreError: The file cannot be written; what was there is as it was.
-        InputError: The threshold is not a finite number.
-    """
+    """See :meth:`holdfast.Assessment.report`."""
     return page.write(build(assessment, threshold), path)
 
 
@@ -52,7 +41,8 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
     """The report as blocks, before it becomes HTML; see :func:`write`."""
     facts = Facts(assessment, threshold)
     found = [import_module(f"holdfast.present.assessment.sections.{name}") for name in SECTIONS]
-    parts = [Section(each.TITLE.format(noun=facts.noun), each.blocks(facts)) for each in found]
+    parts = [Section("", [_verdict(facts)])]
+    parts += [Section(each.TITLE.format(noun=facts.noun), each.blocks(facts)) for each in found]
     a = assessment
     return Page(
         f"Fault tolerance of {a.arm.name}",
@@ -62,6 +52,17 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         _alerts(facts),
         "Written by holdfast. This file needs no network and no other file.",
     )
+
+
+def _verdict(f: Facts) -> Callout:
+    """Single points of failure by structure, said at once."""
+    own, everything = f.structures
+    text = explain(f.a.arm, own, everything)
+    fatal = not own.survives
+    title = "A single locked joint ends this task everywhere" if fatal else ""
+    if own.never:
+        title = "The task is impossible for this arm"
+    return Callout(text, "bad" if fatal else "good", title)
 
 
 def _alerts(f: Facts) -> list[Callout]:

@@ -33,7 +33,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
     """All poses by name; ``asked`` is the objective as it was written."""
     found, names = optima.rows, optima.arm.joint_names
     value_before, before, worse = found.value_before, found.before, found.worse
-    apart, apart_after = found.clearance_before, found.clearance_after
+    apart, apart_after = found.apart(found.before), found.apart(found.q)
     measures = list(_measures(found))
 
     def by_joint(values: Array) -> dict[str, Any]:
@@ -144,7 +144,7 @@ def _show_clearance(found: Optima, out: Console) -> None:
 
     if found.clearance is None:
         return
-    before, after = found.clearance_before, found.clearance_after
+    before, after = found.apart(found.before), found.apart(found.q)
     close, blocked = too_close(found.margin), int(found.blocked.sum())
     if len(before) == 1:
         apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])

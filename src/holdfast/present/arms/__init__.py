@@ -1,1 +1,0 @@
-"""Where arms come from, as people read it."""
