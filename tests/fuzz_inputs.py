@@ -410,8 +410,8 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast.assessment import load
     from holdfast.clearance import Capsules
     from holdfast.cli.options import read_weights
-    from holdfast.designs.memory import BEFORE, FILE, Memory
     from holdfast.engine import Threads
+    from holdfast.engine.memory import BEFORE, FILE, Memory
     from holdfast.paths.path import in_file as read_path
     from holdfast.paths.path_file import pose_table
     from holdfast.recovery.waypoints import read_waypoints

@@ -7,10 +7,12 @@ import threading
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import holdfast as hf
 from holdfast import notice
-from holdfast.notice import says, working
+from holdfast.notice import Count, another, each, says, working
+from holdfast.report import figures
 
 
 class Clock:
@@ -110,7 +112,7 @@ def test_work_within_work_and_aside_is_not_named(clock, said):
 def test_who_is_told_tells(clock, said):
     told = []
     with working("outside", lambda *x: told.append(x)) as advance, working("inside") as within:
-        clock.now = 2.0
+        look(clock, 2.0)
         within(1, 3)
         advance(1, 2)
     assert told == [(1, 2)]
@@ -127,10 +129,84 @@ def test_it_can_be_switched_off(clock, said, monkeypatch):
     assert said() == []
 
 
+def test_how_far_it_has_come_is_said_where_nobody_knows_the_time(clock, said):
+    with working("thinking"), Count("thoughts", 24, most=True) as outer:
+        with Count("words", 5) as inner:
+            inner(2)
+            look(clock, 1.1)
+            assert said() == ["holdfast: thinking, so far 2 of 5 words"]
+            outer(7)
+            inner(1)
+            look(clock, 4.0)
+        assert said() == ["holdfast: thinking, so far 7 of at most 24 thoughts"]
+    assert said() == []
+
+
+def test_the_time_follows_from_the_parts_of_a_whole_once_enough_are_done(clock, said):
+    with working("thinking"):
+        clock.now = 2.0  # spent on something else
+        with Count("thoughts", 100, whole=True) as tell:
+            look(clock, 1.0)
+            assert said() == ["holdfast: thinking"]
+            tell(9)
+            look(clock, 9.0)
+            assert said() == ["holdfast: thinking, so far 9 of 100 thoughts"]
+            tell(1)
+            look(clock, 0.0)
+            assert said() == ["holdfast: thinking, about 90 s more"]
+        look(clock, 1000.0)
+        assert said() == []
+
+
+def test_a_part_of_work_within_work_tells_no_time(clock, said):
+    with working("outside"), working("inside"), Count("parts", 10, whole=True) as tell:
+        tell(5)
+        look(clock, 2.0)
+    assert said() == ["holdfast: outside: inside, so far 5 of 10 parts"]
+
+
+def test_items_count_once_the_next_is_asked_for(clock, said):
+    with working("thinking"):
+        for k in each("items", range(7), most=True, every=2):
+            if k == 5:
+                look(clock, 2.0)
+                break
+        assert notice._outer.counts == []
+    assert said() == ["holdfast: thinking, so far 4 of at most 7 items"]
+
+
+def test_what_has_no_total_is_counted(clock, said):
+    another("figure")
+    with working("drawing"):
+        for seconds in (2.0, 8.0):
+            figures.svg(Figure(), "a", "nothing")
+            look(clock, seconds)
+    figures.svg(Figure(), "b", "nothing")
+    assert said() == ["holdfast: drawing, so far 1 figure", "holdfast: drawing, so far 2 figures"]
+
+
+def test_a_count_is_told_from_any_thread_and_opened_in_the_main_one(clock, said):
+    def aside(tell):
+        tell(3)
+        with Count("others", 9) as other:
+            other(4)
+
+    with working("thinking"), Count("parts", 8) as tell:
+        thread = threading.Thread(target=aside, args=[tell])
+        thread.start()
+        thread.join()
+        look(clock, 2.0)
+    assert said() == ["holdfast: thinking, so far 3 of 8 parts"]
+
+
 def test_an_error_ends_it(clock):
     with pytest.raises(KeyboardInterrupt), working("thinking"):
         raise KeyboardInterrupt
     assert notice._outer is None
+    with working("outside"):
+        with pytest.raises(ValueError, match="inside"), working("inside"), Count("parts", 2):
+            raise ValueError("inside")
+        assert (notice._outer.names, notice._outer.counts) == (["outside"], [])
 
 
 def test_somebody_looks_in_while_the_main_thread_does_not_speak(monkeypatch):
@@ -179,8 +255,34 @@ def test_every_public_function_that_may_take_long_says_so():
     assert silent <= set(QUICK)
 
 
+def wish(arm):
+    return hf.indices.manipulability(arm, "planar")
+
+
+def assess(arm, region):
+    return hf.assess(arm, region, poses=region.block + 4, task="planar")
+
+
+def tolerant(arm):
+    """Not one of those that are known in closed form: its joints have limits."""
+    return hf.tolerant_workspace(arm.with_limits(-2 * np.ones(3), 2 * np.ones(3)), "planar", points=4, angles=2)
+
+
+def along(arm, x):
+    """A short timed path from where the arm stands."""
+    here = arm.forward_kinematics(x)
+    there = here.copy()
+    there[0, 3] += 0.01
+    return hf.paths.TimedPath(hf.paths.line(here, there), hf.paths.Constant(1.0))
+
+
+def best_path(arm, x):
+    poses = along(arm, x).pose(np.linspace(0, 1, 3))
+    return hf.solvers.best_path(arm, poses, lambda q: q[:, 0] ** 2, "planar", starts=4)
+
+
 CALLS = {
-    "assessing poses": lambda arm, law, x: hf.assess(arm, hf.Region.around(arm, x), poses=4, task="planar"),
+    "assessing poses": lambda arm, law, x: assess(arm, hf.Region.around(arm, x)),
     "solving inverse kinematics": lambda arm, law, x: hf.solve_ik(arm, arm.forward_kinematics(x), task="planar"),
     "tracing self-motions": lambda arm, law, x: hf.self_motion(arm, [1.5, 1.5], "planar", starts=4),
     "simulating motions": lambda arm, law, x: hf.simulate(law, x, [1.5, 1.5]),
@@ -190,7 +292,16 @@ CALLS = {
     "simulating the basins": lambda arm, law, x: hf.basins(law, [1.5, 1.5], 1, at=1.0, starts=4),
     "simulating failures": lambda arm, law, x: hf.convergence_map(law, 1, 2, configurations=1),
     "looking for the ranges of the joints": lambda arm, law, x: hf.joint_bounds(arm, [1.5, 1.5], "planar", starts=4),
-    "planning the way back": lambda arm, law, x: hf.recover(arm, "joint2", x, "home", samples=0),
+    "planning the way back": lambda arm, law, x: hf.recover(arm, "joint2", x, "home", samples=20),
+    "optimising configurations": lambda arm, law, x: hf.optimise(arm, arm.forward_kinematics(x), wish(arm), starts=3),
+    "following the path": lambda arm, law, x: hf.follow(arm, along(arm, x), maximise=wish(arm), q=x, samples=5),
+    "looking for the best path": lambda arm, law, x: best_path(arm, x),
+    "looking for configurations with a locked joint": lambda arm, law, x: hf.reachable_when_locked(
+        arm, [1.5, 1.5], "joint1", [0.5], "planar"
+    ),
+    "measuring the failure-tolerant workspace": lambda arm, law, x: tolerant(arm),
+    "simulating the physics": lambda arm, law, x: hf.simulate_physics(law, x, [1.5, 1.5], time_limit=1.0),
+    "simulating the swing": lambda arm, law, x: hf.free_swing(arm, x, "joint2", duration=1.0),
 }
 
 
@@ -209,3 +320,32 @@ def test_what_is_named_is_what_was_asked_for(what, clock, monkeypatch):
     CALLS[what](arm, hf.control.Pseudoinverse(arm, "planar"), np.array([0.3, 0.5, 0.7]))
     assert names == [what]
     assert notice._outer is None
+
+
+class Running(Clock):
+    """Nothing is quick: at each look it is later."""
+
+    def __call__(self):
+        self.now += 50.0
+        return self.now
+
+
+@pytest.mark.interpreted
+@pytest.mark.parametrize("what", CALLS)
+def test_long_work_says_how_long_or_how_far(what, clock, said, monkeypatch):
+    """Everything that takes long says something from which a person can tell whether to wait."""
+    told = Count.add
+
+    def add(self, count):
+        told(self, count)
+        if notice._outer is not None:
+            notice._outer.look()
+
+    monkeypatch.setattr(Count, "add", add)
+    monkeypatch.setattr(notice, "_clock", Running())
+    monkeypatch.setattr(notice, "_AT_MOST", 0.0)  # at each look
+    arm = hf.arms.load("planar-3r")
+    CALLS[what](arm, hf.control.Pseudoinverse(arm, "planar"), np.array([0.3, 0.5, 0.7]))
+    lines = [line for line in said() if "compiling" not in line]
+    assert all(line.startswith(f"holdfast: {what}") for line in lines)
+    assert any(line.endswith(" more") or ", so far " in line for line in lines)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from holdfast.sobol_sequence import sobol
+from holdfast.probability.sobol_sequence import sobol
 
 
 @pytest.mark.parametrize("dimensions", [*range(1, 17), 23])

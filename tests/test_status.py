@@ -7,7 +7,10 @@ import pytest
 
 from holdfast import Status
 from holdfast.errors import HoldfastError
+from holdfast.recovery import Ending
+from holdfast.simulation import Outcome, Reason
 from holdfast.status import require_ok
+from holdfast.teleop.trials import End
 
 CODES = {
     "OK": 0,
@@ -17,6 +20,9 @@ CODES = {
     "INFEASIBLE": 4,
     "NO_INERTIA": 5,
     "UNDEFINED": 6,
+    "SLOWED": 7,
+    "DEGENERATE": 8,
+    "NOT_DEFINED": 9,
     "NOT_COMPUTED": 255,
 }
 
@@ -29,14 +35,29 @@ def test_codes_do_not_change():
 
 @pytest.mark.parametrize("status", Status)
 def test_every_status_has_a_sentence_of_advice(status):
-    assert Status(int(status)).advice
-    assert "\n" not in status.advice
+    assert Status(int(status)).sentence
+    assert "\n" not in status.sentence
     if status is not Status.OK:
-        assert ":" in status.advice  # what it is: what to try
+        assert ":" in status.sentence  # what it is: what to try
+
+
+@pytest.mark.parametrize("kind", [Outcome, Reason, Ending, End])
+def test_the_numbers_of_motions_do_not_change(kind):
+    """Those of outcomes, reasons and ends are in studies and records; each says in a sentence of its own what it means."""
+    names = {
+        Outcome: "CONVERGED STUCK MOVING UNDECIDED",
+        Reason: "NONE SINGULAR SLOW STEPS BAD_INPUT HALF_TURN",
+        Ending: "HOME HOME_WITH_ROWS_GIVEN_UP PATH_UNFINISHED NO_ROUTE_FOUND NOTHING_FOUND PROVED_UNREACHABLE "
+        "START_OUTSIDE_LIMITS START_TOO_CLOSE LOCK_ELSEWHERE",
+        End: "ARRIVED STILL TIME ABORTED BROKEN_OFF",
+    }
+    assert [k.name for k in sorted(kind)] == names[kind].split()
+    assert [int(k) for k in sorted(kind)] == list(range(len(kind)))
+    assert len({k.sentence for k in kind}) == len(kind)
 
 
 def test_no_two_statuses_give_the_same_advice():
-    assert len({s.advice for s in Status}) == len(Status)
+    assert len({s.sentence for s in Status}) == len(Status)
 
 
 def test_require_ok_names_the_first_row_and_counts():

@@ -10,13 +10,13 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
+from holdfast.arms.spec import ArmSpec
 from holdfast.files.output import replaced, writing
 from holdfast.recovery.waypoints import write_waypoints
 from holdfast.report.figures import save_png
 from holdfast.studies import template
 from holdfast.teleop.protocol import protocol
 from holdfast.teleop.serve import texts
-from holdfast.written import ArmSpec
 
 
 @contextmanager

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from holdfast.arm.model import Arm
-from holdfast.errors import TaskError
+from holdfast.errors import InputError, TaskError
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
 
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
@@ -74,3 +77,26 @@ def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None
 def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
     """Names for people and files: joint names, joined by ``+``."""
     return ["+".join(arm.joint_names[k] for k in s) for s in sets]
+
+
+def read_joint(arm: Arm, text: str) -> int:
+    """A joint by name or number from 1, as an index from 0."""
+    text = text.strip()
+    if text in arm.joint_names:
+        return arm.joint_index(text)
+    if text.isdecimal():
+        if 1 <= int(text) <= arm.n:
+            return int(text) - 1
+        raise InputError(f"joint {text} is out of range; '{arm.name}' has joints 1 to {arm.n}")
+    return arm.joint_index(text)
+
+
+def read_failures(arm: Arm, text: str) -> FailureSpec:
+    """Failures as people write them, as the library takes them: ``single``, ``2``, ``joint2; joint1+joint4``."""
+    text = text.strip()
+    if text in ("single", "pairs"):
+        return text
+    # A lone number could be a joint or how many: it is how many, as --help says.
+    if text.isdecimal():
+        return int(text)
+    return [[read_joint(arm, j) for j in part.split("+")] for part in text.split(";") if part.strip()]

@@ -1,4 +1,4 @@
-"""Word on stderr of silent work that takes a while: what it is, and how long it will take."""
+"""Word on stderr of silent work that takes a while: what it is, and how long it will take or else how far it has come."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from typing import Any, ParamSpec, TypeVar
 
@@ -18,8 +18,10 @@ Progress = Callable[[int, int], None]
 
 _LONG = 1.0  # s
 _AGAIN, _AT_MOST = 4.0, 60.0  # next word after as many times as long, but not later than so many s
+_ENOUGH = 10  # once such a part of a whole is done, the time left follows from it: threads hand over whole blocks
 _SOON = 0.1  # s: what is done by then was done before
 _clock = time.monotonic
+_lock = threading.Lock()
 
 
 @contextmanager
@@ -34,7 +36,8 @@ def long(what: str, seconds: float) -> Iterator[None]:
 def working(what: str, progress: Progress | None = None) -> Iterator[Progress]:
     """Say what is being done once it has taken a second, and how long the rest takes as soon as that is known.
 
-    Of work within other work only the outer one is named. What is not done in the main thread is for others to tell of.
+    Work within other work is named only beside the outer one, with how far it has come. What is not done in the main thread is
+    for others to tell of.
 
     Args:
         what: For example "comparing control laws".
@@ -44,13 +47,21 @@ def working(what: str, progress: Progress | None = None) -> Iterator[Progress]:
         To be told (done, in all).
     """
     global _outer
-    if _outer is not None or threading.current_thread() is not threading.main_thread():
+    if threading.current_thread() is not threading.main_thread():
         yield progress or told
+        return
+    if (within := _outer) is not None:
+        within.names.append(what)
+        try:
+            yield progress or told
+        finally:
+            within.names.pop()
         return
     _outer = work = _Work(what)
     try:
         if progress is None:
             _watch()
+        work.silent = progress is not None
         yield progress or work.advance
     finally:
         _outer = None
@@ -82,17 +93,90 @@ def says(what: str, counts: bool = True) -> Callable[[Callable[P, T]], Callable[
     return decorated
 
 
+class Count:
+    """How much is done of something that others wait for: a context manager, which gives what is to be told.
+
+    Opened in the main thread, it may be told from any; elsewhere it tells nobody. It is for blocks, not for rows.
+
+    Args:
+        of: For example "starts".
+        total: So many; 0 if nobody knows, and then ``of`` is one: "start".
+        most: Or fewer.
+        whole: This is all that the work consists of, and each takes about as long: the time left follows from it.
+    """
+
+    def __init__(self, of: str, total: int, most: bool = False, whole: bool = False) -> None:
+        self._of, self._total, self._most, self._whole = of, total, most, whole
+        self._work: _Work | None = None
+        self._name, self.done = "", 0
+
+    def __enter__(self) -> Callable[[int], None]:
+        if _outer is not None and threading.current_thread() is threading.main_thread():
+            self._work, self._name = _outer, _outer.names[-1]
+            self._whole = self._whole and len(_outer.names) == 1 and not _outer.share
+            _outer.counts.append(self)
+            if self._whole:
+                _outer.first = _clock(), 0.0
+        return self.add
+
+    def __exit__(self, *_: object) -> None:
+        if self._work is not None:
+            self._work.counts.remove(self)
+            if self._whole:
+                self._work.share = 0.0
+
+    def add(self, count: int) -> None:
+        """So many more are done."""
+        if self._work is not None:
+            with _lock:
+                self.done += count
+            if self._whole and _ENOUGH * self.done >= self._total:
+                self._work.note(self.done, self._total)
+
+    def text(self, what: str) -> str:
+        """How far it has come, in words, within such work."""
+        name = "" if self._name == what else f": {self._name}"
+        of = f" of {'at most ' * self._most}{self._total:,} {self._of}"
+        return f"{what}{name}, so far {self.done:,}{of if self._total else f' {self._of}' + 's' * (self.done > 1)}"
+
+
+def each(of: str, items: Collection[T], most: bool = False, whole: bool = False, every: int = 1) -> Iterator[T]:
+    """The items, one done when the next is asked for: a :class:`Count` that is told of ``every`` so many."""
+    with Count(of, len(items), most, whole) as tell:
+        for k, item in enumerate(items, 1):
+            yield item
+            if not k % every:
+                tell(every)
+
+
+def another(of: str) -> None:
+    """One more is done of something of which nobody knows how many there will be, for example a "figure"."""
+    if _outer is not None and threading.current_thread() is threading.main_thread():
+        if of not in _outer.others:
+            _outer.others[of] = Count(of, 0).__enter__()
+        _outer.others[of](1)
+
+
 class _Work:
     """Work under way in the main thread."""
 
     def __init__(self, what: str) -> None:
         self.what, self.begun, self.next = what, _clock(), _LONG
+        self.names = [what]  # of work within work
+        self.counts: list[Count] = []  # from the outermost
+        self.others: dict[str, Callable[[int], None]] = {}  # of what has no total
         self.first = self.begun, 0.0  # when, and how much was done
         self.share = 0.0
         self.left: float | None = None
+        self.silent = False  # somebody else tells of it
 
     def advance(self, done: int, total: int, left: float | None = None) -> None:
         """So much is done; ``left`` seconds are left, if that is known better here than there."""
+        self.note(done, total, left)
+        self.look()
+
+    def note(self, done: int, total: int, left: float | None = None) -> None:
+        """As :meth:`advance`, but nothing is said yet."""
         now, share = _clock(), done / max(total, 1)
         if not self.share:
             if now - self.begun < _SOON:
@@ -100,20 +184,21 @@ class _Work:
             elif self.next > _LONG:  # it was named without a time
                 self.next = 0.0
         self.share, self.left = share, left
-        self.look()
 
     def look(self) -> None:
         """Say something if it is time."""
         passed = _clock() - self.begun
-        if passed < self.next:
+        if passed < self.next or self.silent:
             return
         named, self.next = self.next > _LONG, min(_AGAIN * max(passed, _LONG), passed + _AT_MOST)
-        rest = self._rest()
-        if rest is None:
-            if not named:
-                _say(self.what)
-        elif rest >= _LONG:
-            _say(f"{self.what}, about {_shown(rest)} more")
+        rest, count = self._rest(), next((c for c in tuple(self.counts) if c.done), None)
+        if rest is not None:
+            if rest >= _LONG:
+                _say(f"{self.what}, about {_shown(rest)} more")
+        elif count is not None:
+            _say(count.text(self.what))
+        elif not named:
+            _say(self.what)
 
     def _rest(self) -> float | None:
         """Seconds that are probably left; None while that is not known."""
@@ -143,6 +228,10 @@ def _looking() -> None:
         idle = 0 if work is not None else idle + 1
         if work is not None:
             work.look()
+
+
+def unheard(count: int) -> None:
+    """In place of :meth:`Count.add`."""
 
 
 def told(done: int, total: int, left: float | None = None) -> None:

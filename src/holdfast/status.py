@@ -15,7 +15,7 @@ from holdfast.errors import HoldfastError
 
 
 class Status(IntEnum):
-    """Status of one row; ``Status(code).advice`` says what to try."""
+    """Status of one row, or of one joint of it; ``Status(code).sentence`` says what to try. Stored: the numbers stay."""
 
     OK = 0
     NOT_FOUND = 1
@@ -24,24 +24,32 @@ class Status(IntEnum):
     INFEASIBLE = 4
     NO_INERTIA = 5
     UNDEFINED = 6
+    SLOWED = 7
+    DEGENERATE = 8
+    NOT_DEFINED = 9
     NOT_COMPUTED = 255
 
     @property
-    def advice(self) -> str:
-        """One sentence: what this status means and what to try."""
-        return _ADVICE[self]
+    def sentence(self) -> str:
+        """What it means and what to try."""
+        return _SENTENCES[self]
 
 
-_ADVICE = {
+_SENTENCES = {
     Status.OK: "solved",
     Status.NOT_FOUND: "no solution was found within the budget: give more restarts or widen the joint limits; "
     "this does not prove that there is none",
     Status.BAD_INPUT: "the input held NaN or infinity: look at where it came from",
     Status.SINGULAR: "the task Jacobian is singular here, so the index is 0 by convention: move off the singularity",
     Status.INFEASIBLE: "no choice meets the constraint: relax it",
-    Status.NO_INERTIA: "the arm has no inertial data for this: add masses and inertias to its description",
+    Status.NO_INERTIA: "all the mass that a joint carries lies on its axis, so its acceleration is 0/0: give the links their "
+    "inertia or the joint its armature",
     Status.UNDEFINED: "the formula gives no number at this configuration, which is finite: look at where it divides by zero "
     "or takes a root or logarithm",
+    Status.SLOWED: "the joints' limits let only a part of the commanded velocity pass: command less, or move off the limits",
+    Status.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not swing, "
+    "so the angle and its gradient are 0 by convention, and near here both change abruptly",
+    Status.NOT_DEFINED: "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention",
     Status.NOT_COMPUTED: "not computed yet: resume the run",
 }
 
@@ -52,5 +60,5 @@ def require_ok(status: NDArray[np.uint8], what: str) -> None:
     if bad.size:
         first = Status(int(np.atleast_1d(status)[bad[0]]))
         raise HoldfastError(
-            f"{what}: {bad.size} of {np.size(status)} rows failed; first: row {bad[0]}, {first.name.lower()}: {first.advice}"
+            f"{what}: {bad.size} of {np.size(status)} rows failed; first: row {bad[0]}, {first.name.lower()}: {first.sentence}"
         )

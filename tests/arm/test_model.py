@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import FrozenInstanceError, replace
 from typing import Any
 
@@ -12,8 +13,9 @@ from scipy.spatial.transform import Rotation
 
 import holdfast as hf
 from holdfast import arms
+from holdfast.arm import urdf
 from holdfast.arm.dh import DH
-from holdfast.arm.machine import Joint, Link
+from holdfast.arm.machine import Joint, Link, Machine
 from holdfast.arm.model import Arm
 from holdfast.arms.builtin import DATA
 from holdfast.errors import ArmError, InputError
@@ -161,6 +163,40 @@ def test_an_arm_does_not_change_and_its_copies_do() -> None:
 def test_from_urdf_is_the_reader() -> None:
     arm = Arm.from_urdf(str(DATA.joinpath("panda.urdf")), tip="panda_link8", name="mine", hold={"panda_finger_joint1": 0.01})
     assert (arm.name, arm.n) == ("mine", 7)
+
+
+def test_an_arm_has_all_that_its_machine_says() -> None:
+    file = str(DATA.joinpath("panda.urdf"))
+    machine, arm = urdf.load(file, tip="panda_link8"), Arm.from_urdf(file, tip="panda_link8")
+    assert type(machine) is Machine
+    assert type(arm) is Arm
+    assert (arm.title, arm.source, arm.fingerprint) == (
+        machine.name + f" ({machine.chain})",
+        machine.source,
+        machine.fingerprint,
+    )
+    assert repr(machine) == "Machine('panda', 7 joints)"
+
+
+def test_an_arm_goes_to_another_process_without_what_was_compiled_from_it() -> None:
+    arm = replace(arms.load("ur5-rail"), name="used")
+    q = np.array(arms.about("ur5-rail").home)
+    arm.forward_kinematics(q), arm.without_limits.frames(q)
+    there = pickle.loads(pickle.dumps(arm))
+    assert (there.title, there.fingerprint) == (arm.title, arm.fingerprint)
+    np.testing.assert_array_equal(there.frames(q), arm.frames(q))
+
+
+def test_limits_are_changed_and_taken_away() -> None:
+    arm = arms.load("ur5-rail")
+    lower, upper = arm.lower + 0.1, arm.upper - 0.1
+    narrow = arm.with_limits(lower, upper)
+    np.testing.assert_array_equal([narrow.lower, narrow.upper], [lower, upper])
+    assert replace(narrow, joints=arm.joints).fingerprint == arm.fingerprint
+    assert not np.isfinite([arm.without_limits.lower, arm.without_limits.upper]).any()
+    assert arm.without_limits is arm.without_limits
+    with pytest.raises(InputError, match="has 2 values per configuration; it must have 7"):
+        arm.with_limits([0, 0], upper)
 
 
 def test_the_jacobian_derivative_by_differences() -> None:

@@ -11,7 +11,7 @@ import yourdfpy
 
 import holdfast as hf
 from holdfast.arms.builtin import DATA
-from holdfast.written import ArmSpec, each_arm
+from holdfast.arms.spec import ArmSpec, each_arm
 
 IIWA, PANDA = str(DATA.joinpath("iiwa14.urdf")), str(DATA.joinpath("panda.urdf"))
 Q7 = "0.1 0.5 -0.2 -1.1 0.4 1.2 0.3"

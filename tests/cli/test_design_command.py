@@ -11,7 +11,7 @@ import pytest
 
 import holdfast as hf
 from holdfast import arms
-from holdfast.designs.memory import FILE
+from holdfast.engine.memory import FILE
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check

@@ -36,7 +36,7 @@ def test_a_motion_is_printed_written_and_drawn(cli, tmp_path):
     table, figure = tmp_path / "run.csv", tmp_path / "run.png"
     code, out, err = cli(*CALL, "--target", "1.7071068 0.7071068", "--csv", table, "--plot", figure)
     assert (code, err) == (0, "")
-    assert "arrives" in out
+    assert "reaches the target" in out
     assert "locked" in out
     assert "-315 deg" in out
     rows = np.loadtxt(table, delimiter=",", skiprows=1)
@@ -54,7 +54,7 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
     page = (out / "report.html").read_text(encoding="utf-8")
     check(page, scripts=1)
-    assert "comes to rest elsewhere" in page
+    assert "stops elsewhere" in page
     assert "locked: joint1" in page
     data = json.loads(re.search(r"var data = (\{.*\});", page)[1])
     assert data["marked"][0] == [1]
@@ -78,7 +78,7 @@ def test_reaching_the_target_and_keeping_the_limits_are_two_facts(cli, tmp_path)
     past = np.flatnonzero((low < limits[:, 0] - 1) | (high > limits[:, 1] + 1))
     assert past.tolist() == [1, 5]
     for text in (" ".join(said.split()), page):
-        assert "The hand arrives" in text
+        assert "The end effector reaches the target" in text
         assert "On the way panda_joint2 goes to -188.9 deg (limit -101" in text
         assert "and panda_joint6 goes to -24.27 deg (limit -1" in text
         assert "a real arm would stop there" in text

@@ -159,7 +159,7 @@ def test_subjects_are_listed_dropped_and_deleted(cli, refused, copy, monkeypatch
     assert "12 of 12 trials" in text
     code, text, _ = cli("teleop", "subjects", copy, "--drop", "S02")
     assert (code, text.count("dropped")) == (0, 2)
-    monkeypatch.setattr(Analysis, "write", lambda self, folder, *_: folder / "report.html")  # drawing takes most of the time
+    monkeypatch.setattr(Analysis, "save", lambda self, folder, *_: [folder / "report.html"])  # drawing takes most of the time
     code, text, _ = cli("teleop", "analyse", copy, "--difficulty", "computer", "--groups", "2")
     assert code == 0
     assert "2 simulated subjects" in text

@@ -10,6 +10,8 @@ import pytest
 import holdfast as hf
 import oracles
 from holdfast.arm import kinematics
+from holdfast.control import damping_search
+from holdfast.kernels.program import Program
 
 STEP = 1e-5
 
@@ -80,3 +82,15 @@ def test_the_search_is_not_differentiated():
     rates, slopes = law.with_slopes(q, v, ca.vertcat(q, v))
     alone, both = (ca.Function("rates", [q, v], out, {"cse": True}).n_instructions() for out in ([rates], [rates, slopes]))
     assert both < 2 * alone
+
+
+def test_the_peak_error_that_is_written_down_once_is_the_one_of_every_call():
+    """The same program: the same bits."""
+    sizes = [
+        ca.SX.sym(name, n) for name, n in (("squares", 3), ("c", 3), ("first", 5), ("second", 5), ("third", 5), ("columns", 5))
+    ]
+    squares, c, *products, columns = (ca.vertsplit(x) for x in sizes)
+    s, missing = ca.SX.sym("s"), ca.SX.sym("missing")
+    error = damping_search._PeakError(squares, c, products, columns, missing)
+    one, other = (Program("error", [s, missing, *sizes], [ca.vertcat(*found)]) for found in (error(s), error._written(s)))
+    assert one.digest == other.digest

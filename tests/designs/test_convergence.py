@@ -16,7 +16,7 @@ import oracles
 from holdfast.convergence.places import read_places
 from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
 from holdfast.designs.arrival import Failures
-from holdfast.designs.memory import BEFORE, FILE
+from holdfast.engine.memory import BEFORE, FILE
 from holdfast.simulation import Reason
 from holdfast.words import percent
 

@@ -11,6 +11,7 @@ from holdfast.designs import design_space
 from holdfast.designs.evaluation import Evaluated, Evaluator
 from holdfast.designs.family import Family
 from holdfast.designs.gradient import sensitivity
+from holdfast.kernels import compiled
 
 
 def alone(space, values, poses, starts=128):
@@ -45,6 +46,16 @@ def test_the_same_bits_for_any_number_of_threads(evaluator3, found3, threads):
     again = evaluator3(found3.values)
     for name in Evaluated.__dataclass_fields__:
         np.testing.assert_array_equal(getattr(again, name), getattr(found3, name))
+
+
+def test_many_designs_are_computed_by_better_code_from_the_first_step_on(space3, found3, poses3, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
+    for worth in ("WORTH", "WORTH_SHORT"):
+        monkeypatch.setattr(compiled, worth, 10)
+    family = Family(space3, task="planar")
+    again = Evaluator(family, poses3)(found3.values)
+    assert {k._compiled.level for k in (family.inverse.step, family.ascent)} == {1}
+    np.testing.assert_array_equal(again.value, found3.value)
 
 
 def test_no_designs(evaluator3, space3):

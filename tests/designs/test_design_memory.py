@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.designs.memory import BEFORE, FILE, Memory
+from holdfast.engine.memory import BEFORE, FILE, Memory
 
 PLAN = {"arm": "abc", "seed": 3, "vary": ["a3=0..1m"]}
 

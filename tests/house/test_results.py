@@ -35,11 +35,8 @@ APART = {
     "equilibria.RestPoints",
     "recovery.WhatIsLeft",
     "solvers.SelfMotion",
-    "teleop.Replay",
-    "teleop.TaskBank",
 }
 NO_NUMBERS = {"LawComparison", "Recovery", "TargetMeasures"}
-NO_NUMBERS |= {"teleop.analysis.Analysis"}
 
 
 def named(classes):
@@ -55,7 +52,7 @@ RESULTS = named(
         "equilibria": "Basins Curves Orbit RestPoints",
         "recovery": "Replay WhatIsLeft",
         "solvers": "SelfMotion",
-        "teleop": "Replay TaskBank",
+        "teleop": "Replay TaskChoice",
         "teleop.analysis": "Analysis",
     }
 )
@@ -78,7 +75,7 @@ VALUES = named(
         "recovery": "Leg RestOfPath RowsGivenUp",
         "simulation": "Path",
         "solvers": "Component FibrePath",
-        "teleop": "Binning CPM Entry Next RecordedCycles Subject Trials",
+        "teleop": "Binning CPM Entry Next RecordedCycles Subject TaskBank Trials",
         "teleop.analysis": "Anova Cells Condition Correlation Effect Groups Mixed Observed Paired WaldTest",
     }
 )

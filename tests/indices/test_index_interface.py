@@ -149,7 +149,7 @@ def test_errors_say_what_would_be_right(mixed7, planar4):
 def test_status_sentences():
     assert Status(3) is Status.SINGULAR
     for status in Status:
-        assert status.advice
+        assert status.sentence
     require_ok(np.zeros(3, dtype=np.uint8), "the test")
     with pytest.raises(HoldfastError, match="the test: 2 of 4 rows failed; first: row 1, bad_input: the input held NaN"):
         require_ok(np.array([0, 2, 0, 1], dtype=np.uint8), "the test")

@@ -88,6 +88,7 @@ def test_a_product_inside_a_sum_is_rounded_once_where_the_machine_can():
 
 
 def test_quick_code_serves_until_enough_rows_have_come(fresh, monkeypatch, rng):
+    monkeypatch.setattr(compiled, "SHORT", 0)
     monkeypatch.setattr(compiled, "WORTH", 2000)
     monkeypatch.setattr(compiled, "AT_ONCE", 500)
     x, y = long_function(60)
@@ -106,6 +107,7 @@ def test_quick_code_serves_until_enough_rows_have_come(fresh, monkeypatch, rng):
 
 
 def test_vast_programs_stay_as_they_are(fresh, monkeypatch, rng):
+    monkeypatch.setattr(compiled, "SHORT", 0)
     for name in ("WORTH", "AT_ONCE", "VAST"):
         monkeypatch.setattr(compiled, name, 500)
     x, y = long_function(60)
@@ -119,6 +121,7 @@ def test_vast_programs_stay_as_they_are(fresh, monkeypatch, rng):
 
 def test_a_thread_of_the_pool_makes_better_code_itself(fresh, threads, monkeypatch, rng):
     """Every processor is busy there; in the background all rows of the meantime would be computed by the quick code."""
+    monkeypatch.setattr(compiled, "SHORT", 0)
     monkeypatch.setattr(compiled, "WORTH", 1000)
     monkeypatch.setattr(compiled, "AT_ONCE", 500)
     threads(2)
@@ -133,6 +136,7 @@ def test_a_thread_of_the_pool_makes_better_code_itself(fresh, threads, monkeypat
 
 def test_a_thread_of_the_pool_does_not_wait_for_other_code(fresh, threads, monkeypatch, rng):
     """What is being compiled may need what that thread makes."""
+    monkeypatch.setattr(compiled, "SHORT", 0)
     monkeypatch.setattr(compiled, "WORTH", 1000)
     monkeypatch.setattr(compiled, "AT_ONCE", 500)
     threads(2)
@@ -150,6 +154,44 @@ def test_a_thread_of_the_pool_does_not_wait_for_other_code(fresh, threads, monke
 def test_a_short_program_is_compiled_well_at_once(fresh):
     x = ca.SX.sym("x")
     assert Kernel("short", [x], [ca.sin(x)])._compiled.level == 1
+
+
+def test_better_code_is_made_at_once_where_many_rows_are_expected(fresh, monkeypatch, rng):
+    monkeypatch.setattr(compiled, "SHORT", 0)
+    made, compile_program = [], llvm_backend.compile_program
+
+    def watched(program, level, machine=None):
+        made.append((program.name, level))
+        return compile_program(program, level, machine)
+
+    monkeypatch.setattr(llvm_backend, "compile_program", watched)
+    x, y = long_function(60)
+    with compiled.expecting(compiled.WORTH - 1):
+        few = Kernel("few", [x], [y])
+    with compiled.expecting(compiled.WORTH):
+        many = Kernel("many", [x], [y + 1])
+        with pytest.raises(ValueError, match="inside"), compiled.expecting(0):
+            raise ValueError("inside")
+        Kernel("many again", [x], [y + 2])
+    Kernel("after", [x], [y + 3])
+    assert made == [("few", 0), ("many", 1), ("many again", 1), ("after", 0)]
+    assert (few._compiled.level, many._compiled.level) == (0, 1)
+    rows = rng.normal(size=(100, 9))
+    monkeypatch.setenv("HOLDFAST_CACHE", "off")
+    np.testing.assert_array_equal(Kernel("quick", [x], [y + 1]).rows(rows), many.rows(rows))
+
+
+def test_short_programs_wait_longer_for_better_code(fresh, monkeypatch, rng):
+    """Their quick code is nearly as quick."""
+    monkeypatch.setattr(compiled, "WORTH", 1000)
+    monkeypatch.setattr(compiled, "WORTH_SHORT", 3000)
+    x, y = long_function(60)
+    kernel = Kernel("short", [x], [y])
+    monkeypatch.setattr(compiled, "SHORT", kernel.program.size + 1)
+    for level in (0, 0, 1):
+        kernel.rows(rng.normal(size=(1024, 9)))
+        settle()
+        assert kernel._compiled.level == level
 
 
 def test_the_level_can_be_asked_for(fresh, monkeypatch):
@@ -231,6 +273,7 @@ def test_a_child_process_has_threads_and_a_compiler_of_its_own(method, fresh, th
 def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatch, rng):
     """Every round is a new program, compiled quickly by each thread, run in the pool, and compiled well in the background."""
     monkeypatch.setattr(compiled, "AT_ONCE", 100)
+    monkeypatch.setattr(compiled, "SHORT", 0)
     monkeypatch.setattr(compiled, "WORTH", 2000)
     threads(2)
     rows = rng.normal(size=(5000, 9))

@@ -6,6 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from holdfast import notice
 from holdfast.kernels import BACKENDS, Loop
 
 TOLERANCE = 1e-8
@@ -163,3 +164,31 @@ def test_a_residual_of_the_next_state_saves_a_step(loop, most, rng):
     assert (second.steps[~needed] == 1).all()
     some = slice(17, 41)
     assert_same(ahead.run(state[some], parameters[some], TOLERANCE, most), second, some)
+
+
+# ---- who waits is told ---------------------------------------------------------------------------------------------------
+
+
+def test_the_stretches_after_which_somebody_is_told_change_nothing(loop, rng, monkeypatch):
+    state, parameters = draw(rng, 300)
+    state[7], parameters[7] = 1.0, np.nan  # never done
+    whole = loop.run(state, parameters, TOLERANCE, 60)
+    monkeypatch.setattr("holdfast.kernels.loop._STRETCH", 3)
+    assert_same(loop.run(state, parameters, TOLERANCE, 60), whole)
+
+
+def test_who_is_told_hears_of_every_row_within_the_tolerance(loop, rng):
+    state, parameters = draw(rng, 700)
+    state[7], parameters[7] = 1.0, np.nan
+    told = []
+    assert sum(loop.run(state, parameters, TOLERANCE, 60, over=told.append).done) == sum(told) == 699
+
+
+def test_a_row_that_goes_on_and_on_tells_of_its_steps(loop, monkeypatch):
+    monkeypatch.delenv("HOLDFAST_NOTICES")
+    monkeypatch.setattr(notice, "_watch", lambda: None)
+    with notice.working("looking for roots"):
+        told = []
+        monkeypatch.setattr(notice.Count, "add", lambda count, number: told.append((count.text("looking for roots"), number)))
+        loop.run(np.ones((1, 2)), np.full((1, 2), np.nan), TOLERANCE, 2500)
+    assert [number for text, number in told if "of at most 2,500 steps" in text] == [1000, 1000, 500]

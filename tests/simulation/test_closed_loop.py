@@ -11,7 +11,8 @@ import holdfast as hf
 import oracles
 from holdfast import arms
 from holdfast.control import Damped, FailureTolerant, Pseudoinverse
-from holdfast.simulation import Outcome, Reason, simulate
+from holdfast.kernels import compiled
+from holdfast.simulation import Outcome, Reason, batch, simulate
 
 RAD = np.deg2rad
 
@@ -118,8 +119,8 @@ def test_a_run_caught_at_half_a_turn_is_told_soon_and_is_not_called_singular(rng
 
     taken, run = [], Loop.run
 
-    def counted(self, *given):
-        result = run(self, *given)
+    def counted(self, *given, **told):
+        result = run(self, *given, **told)
         taken.append(int(result.steps.max(initial=0)))
         return result
 
@@ -374,6 +375,18 @@ def test_batch_is_single_and_threads_do_not_matter(three, random_runs, threads):
     np.testing.assert_array_equal(one.q_final, runs.q_final[7])
     assert len(one) == 1
     assert sum(runs.counts().values()) == len(runs)
+
+
+def test_many_runs_are_computed_by_better_code_from_the_first_step_on(tmp_path, monkeypatch, rng):
+    monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
+    q0, target = rng.uniform(-2, 2, (4, 3)), rng.uniform(-1, 1, (4, 2))
+    ends = []
+    for calls, level in ((0, 0), (compiled.WORTH, 1)):
+        monkeypatch.setattr(batch, "CALLS", calls)
+        runs = simulate(Pseudoinverse(arms.load("planar-3r"), "planar"), q0, target, locked=[1])
+        assert runs._motion._steps.loop.step._compiled.level == level
+        ends.append(runs.q_final)
+    np.testing.assert_array_equal(*ends)
 
 
 def test_gain_and_speed_limit_only_take_time(three, random_runs):

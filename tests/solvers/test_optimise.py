@@ -480,7 +480,7 @@ def test_a_formula_without_a_value_has_a_status_of_its_own(flat4, rng):
     want[0] = Status.BAD_INPUT
     np.testing.assert_array_equal(found.status, want)
     np.testing.assert_allclose(found.value[want == Status.OK], np.log(x[want == Status.OK]))
-    assert "formula" in Status(int(index.evaluate(q[np.flatnonzero(want == Status.UNDEFINED)[0]]).status)).advice
+    assert "formula" in Status(int(index.evaluate(q[np.flatnonzero(want == Status.UNDEFINED)[0]]).status)).sentence
 
 
 @pytest.mark.interpreted

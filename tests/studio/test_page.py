@@ -258,7 +258,7 @@ def test_what_takes_long_is_shown_beside_the_arm_and_cleared(studio, visit):
     page, window = visit(studio("planar-3r", q=(0.3, 0.8, 0.9), target=target, show="laws", **PLANAR))
     assert window.settle(60)
     assert len(window.stage.ghosts) == 2
-    wait_for(page, lambda: "pseudoinverse: arrives" in text_of(page))  # settled here is not drawn there
+    wait_for(page, lambda: "pseudoinverse: reaches the target" in text_of(page))  # settled here is not drawn there
     window.ask("best-worst")
     assert window.settle(60)
     window.ask("take1")

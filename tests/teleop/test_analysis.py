@@ -369,7 +369,7 @@ def test_report_and_tables(rng, tmp_path):
         start, target = protocol.arm.forward_kinematics(protocol.tasks.q0[task - 1])[:2, 3], protocol.tasks.target[task - 1]
         return None if subject is None and task == 2 else np.linspace(start, target, 30)
 
-    page = a.write(tmp_path / "new" / "study", protocol, paths, show=[2]).read_text(encoding="utf-8")
+    page = a.save(tmp_path / "new" / "study", protocol, paths, show=[2])[0].read_text(encoding="utf-8")
     assert "Teleoperation with a failed joint: 6 simulated subjects" in page
     assert page.count("<svg") == 7
     assert len(re.findall(r"<figcaption>Simulated operators", page)) == 7
@@ -398,7 +398,7 @@ def test_people_three_laws_and_a_mixed_model(rng, tmp_path):
     table = trials(rng, tasks=6, scenarios=(*SCENARIOS[2:], (5, "weighted", True)), kind="person")
     lost = lose(table, "S03", [1, 2, 3], 4)
     a = analyse(lost, missing="mixed")
-    page = a.write(tmp_path, show=[]).read_text(encoding="utf-8")
+    page = a.save(tmp_path, show=[])[0].read_text(encoding="utf-8")
     assert "simulated" not in page.lower()
     assert "simulated" not in " ".join(a.describe())
     assert a.who == "6 subjects"
@@ -412,9 +412,9 @@ def test_unwritable_folders_and_unknown_tasks(table, tmp_path):
     a = analyse(table)
     (tmp_path / "file").write_text("")
     with pytest.raises(StoreError, match=r"choose another folder"):
-        a.write(tmp_path / "file")
+        a.save(tmp_path / "file")
     with pytest.raises(InputError, match=r"no task 99 to show; there are 1 to 9"):
-        a.write(tmp_path, show=[99])
+        a.save(tmp_path, show=[99])
 
 
 # ---- workspaces ----------------------------------------------------------------------------------------------------------

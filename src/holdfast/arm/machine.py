@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
@@ -304,7 +304,7 @@ class Machine:
                 [j.name, j.type, j.origin.tolist(), j.axis.tolist(), *(getattr(j, key) for key in _JOINT_NUMBERS)]
                 for j in self.joints
             ],
-            "links": [_body(x) for x in (*self.links, self.payload)],
+            "links": [x and [x.mass, x.com.tolist(), x.inertia.tolist()] for x in (*self.links, self.payload)],
             "frames": [self.base.tolist(), self.tool.tolist(), self.gravity.tolist(), self.flange.tolist()],
         }
         return hashlib.sha256(json.dumps(data).encode()).hexdigest()
@@ -321,12 +321,12 @@ class Machine:
             raise InputError(f"q for '{self.name}' has {got} values per configuration; it must have {self.n}, one per joint")
         return a
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The data alone: what was compiled from them cannot go to another process."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.name!r}, {self.n} joints)"
-
-
-def _body(link: Link | None) -> list[Any] | None:
-    return None if link is None else [link.mass, link.com.tolist(), link.inertia.tolist()]
 
 
 def _frozen(a: Array) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -87,7 +87,7 @@ class Arm(Machine):
 
     @classmethod
     def _of(cls, machine: Machine) -> Arm:
-        return cls(**{field.name: getattr(machine, field.name) for field in fields(machine)})
+        return cls(**machine.__getstate__())
 
     @checked
     def with_tool(self, tool: ArrayLike) -> Arm:

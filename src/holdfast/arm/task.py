@@ -134,14 +134,9 @@ def plane_normal(arm: Machine) -> Array | None:
 
     All revolute axes must be parallel to the normal and all prismatic ones at right angles to it.
     """
-    rotation = arm.base[:3, :3]
-    turning: list[Array] = []
-    sliding: list[Array] = []
-    for joint in arm.joints:
-        rotation = rotation @ joint.origin[:3, :3]
-        # Earlier joints turn about the normal itself, which keeps parallel axes parallel: q = 0 speaks for every q.
-        (sliding if joint.prismatic else turning).append(rotation @ joint.axis)
-    if not turning:
+    # Earlier joints turn about the normal itself, which keeps parallel axes parallel: q = 0 speaks for every q.
+    turning, sliding = arm.axes_at_zero[~arm.prismatic], arm.axes_at_zero[arm.prismatic]
+    if not len(turning):
         return None
     normal = turning[0]
     if any(np.linalg.norm(np.cross(normal, z)) > 1e-9 for z in turning) or any(abs(normal @ s) > 1e-9 for s in sliding):

@@ -65,12 +65,8 @@ def dh_table(arm: Arm) -> DHTable:
 
     Source: Denavit and Hartenberg 1955; the choices above are ours.
     """
-    at = np.eye(4)
-    joints = []  # each joint's frame at q = 0, seen from the base
-    for joint in arm.joints:
-        at = at @ joint.origin
-        joints.append(at)
-    z = [t[:3, :3] @ joint.axis for t, joint in zip(joints, arm.joints, strict=True)]
+    seen = arm.with_base(np.eye(4))
+    joints, z = seen.frames_at_zero[:-1], seen.axes_at_zero
     p = [t[:3, 3] for t in joints]
     # The x axes that from_dh gave; a URDF joint may have any.
     own = [t[:3, 0] if joint.axis[2] == 1.0 else None for t, joint in zip(joints, arm.joints, strict=True)]

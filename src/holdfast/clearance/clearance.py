@@ -23,7 +23,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import Vector, dot, smallest
-from holdfast.sobol_sequence import sobol
+from holdfast.probability.sobol_sequence import sobol
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]

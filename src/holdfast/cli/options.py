@@ -11,18 +11,15 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
+from holdfast.arms.spec import default_task as default_task
+from holdfast.arms.spec import each_arm as each_arm
+from holdfast.arms.spec import read_hold
+from holdfast.arms.spec import read_task as read_task
 from holdfast.errors import InputError
+from holdfast.failures import read_failures as read_failures
+from holdfast.failures import read_joint as read_joint
 from holdfast.files import reading
 from holdfast.grammar import is_number
-from holdfast.written import check_unit_of_joints as check_unit_of_joints
-from holdfast.written import check_unit_of_places as check_unit_of_places
-from holdfast.written import default_task as default_task
-from holdfast.written import each_arm as each_arm
-from holdfast.written import read_failures as read_failures
-from holdfast.written import read_hold
-from holdfast.written import read_joint as read_joint
-from holdfast.written import read_numbers as read_numbers
-from holdfast.written import read_task as read_task
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -132,6 +129,53 @@ def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | 
             raise InputError(f"{option} gives joint '{name}' twice; give each joint once")
         found[name] = float(value)
     return found
+
+
+def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
+    """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
+    parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
+    try:
+        return np.array([float(x) for x in parts])
+    except ValueError as error:
+        wrong = next(x for x in parts if not is_number(x))
+        raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
+
+
+def check_unit_of_joints(arm: Arm, q: NDArray[np.float64], option: str, degrees: bool = False) -> None:
+    """Refuse joint values (n,), rad and m, so far beyond the limits that they must be degrees, or millimetres.
+
+    Raises:
+        InputError: A joint is more than a turn, or ten times its range, beyond its limits.
+    """
+    unit = "degrees" if degrees else "radians, or degrees with --degrees"
+    for joint, value in zip(arm.joints, q.tolist(), strict=True):
+        factor, shown = joint.shown if degrees else (1.0, joint.unit)
+        bounded = np.isfinite(joint.upper - joint.lower)
+        room = 10 * (joint.upper - joint.lower) if joint.prismatic else 2 * np.pi
+        low, high = (joint.lower, joint.upper) if bounded else (-2 * np.pi, 2 * np.pi)
+        if (bounded or not joint.prismatic) and not low - room <= value <= high + room:
+            limits = f"its limits, {factor * low:.4g} to {factor * high:.4g} {shown}" if bounded else "a turn"
+            raise InputError(
+                f"{option}: joint '{joint.name}' is at {factor * value:.6g} {shown}, far beyond {limits}; give "
+                f"{'metres' if joint.prismatic else unit}"
+            )
+
+
+def check_unit_of_places(arm: Arm, places: NDArray[np.float64], option: str) -> None:
+    """Refuse places (3,) or (N, 3), m, so far from an arm that they must be millimetres.
+
+    Raises:
+        InputError: A place is more than ten times as far from the base as the arm, stretched out, could be long.
+    """
+    strokes = sum(max(abs(j.lower), abs(j.upper)) for j in arm.joints if j.prismatic)
+    parts = [*(j.origin for j in arm.joints), arm.tool]
+    longest = sum(float(np.linalg.norm(part[:3, 3])) for part in parts) + strokes
+    away = float(np.linalg.norm(np.atleast_2d(places) - arm.base[:3, 3], axis=1).max(initial=0.0))
+    if np.isfinite(longest) and away > 10 * longest:
+        raise InputError(
+            f"{option}: a place is {away:.4g} m from the base of '{arm.name}', which is at most {longest:.4g} m long; "
+            "give metres"
+        )
 
 
 def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") -> NDArray[np.float64]:

@@ -1,8 +1,10 @@
-"""A progress bar for commands that take long."""
+"""What a command that takes a while is doing, on the terminal."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 
@@ -30,3 +32,16 @@ class progress_bar:
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:
             self._bar.stop()
+
+
+@contextmanager
+def working(text: str) -> Iterator[Callable[[str], None]]:
+    """What is being done, while it is; a function that says what comes next."""
+    from rich.console import Console
+    from rich.markup import escape
+
+    from holdfast import notice
+
+    screen = Console(stderr=True)
+    with notice.working(text, notice.told if screen.is_terminal else None), screen.status(escape(text)) as status:
+        yield lambda now: status.update(escape(now))

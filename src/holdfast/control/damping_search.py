@@ -20,6 +20,7 @@ from itertools import pairwise
 
 import casadi as ca
 
+from holdfast.caching import cached_property
 from holdfast.kernels.program import SX
 from holdfast.linalg import Vector, dot, gram, singular_rows, smallest, solve_spd
 
@@ -151,6 +152,23 @@ class _PeakError:
 
     def __call__(self, s: SX) -> tuple[SX, SX]:
         """Value and slope."""
+        value, slope = self._function(s, *self._given)
+        return value, slope
+
+    @cached_property
+    def _given(self) -> list[SX]:
+        return [ca.vertcat(*x) for x in (self.squares, self.c, *self.products, self.columns)] + [self.missing]
+
+    @cached_property
+    def _function(self) -> ca.Function:
+        """Value and slope of s and the numbers here: written down once, as CasADi's Python takes long for each of 50 calls."""
+        symbols = [ca.SX.sym("x", len(x)) for x in (self.squares, self.c, *self.products, self.columns)]
+        squares, c, *products, columns = ([*ca.vertsplit(x)] for x in symbols)
+        s, missing = ca.SX.sym("s"), ca.SX.sym("missing")
+        known = _PeakError(squares, c, products, columns, missing)._written(s)
+        return ca.Function("error", [s, *symbols, missing], known)
+
+    def _written(self, s: SX) -> tuple[SX, SX]:
         r = [1 / (x + s) for x in self.squares]
         double = [x * x for x in r]
         twice = s + s

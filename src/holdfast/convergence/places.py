@@ -69,7 +69,7 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
     if count < 2:
         raise InputError(f"a lattice of {count} points along its edge is none; give 2 or more")
     reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
-    middle = (arm.base @ arm.joints[0].origin)[:3, 3]
+    middle = arm.frames_at_zero[0, :3, 3]
     line = np.linspace(-reach, reach, count)
     row, column = (x.ravel() for x in np.meshgrid(np.arange(count), np.arange(count), indexing="ij"))
     inside = np.hypot(line[column], line[row]) <= reach * (1 + 1e-12)

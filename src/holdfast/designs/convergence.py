@@ -18,10 +18,10 @@ from holdfast.control.law import Law
 from holdfast.convergence.places import read_places
 from holdfast.designs.arrival import Arrivals, Failures
 from holdfast.designs.joints import DesignJoints, LawOfDesigns
-from holdfast.designs.memory import Memory, Parts
 from holdfast.designs.pattern import Box, improved
 from holdfast.designs.planar import PlanarRest, Radial
 from holdfast.designs.space import DesignSpace, Vary, design_space
+from holdfast.engine.memory import Memory, Parts
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.probability.intervals import Difference, Interval

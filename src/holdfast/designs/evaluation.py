@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.configurations import made_finite
 from holdfast.designs.family import Family
+from holdfast.kernels.compiled import expecting
 from holdfast.solvers.optimum import FIRST_STEPS, LAST_STEPS, RADIUS, best_of_each, default_starts
 
 Array = NDArray[np.float64]
@@ -26,6 +27,7 @@ _FEW = 8  # of a design with neighbours: the given number of random starts by th
 _RESTARTS = 24  # more starts of inverse kinematics where nothing was found
 _POOL = 1 << 12
 _BY_POSE, _BY_START = 2654435761, 40503  # odd: each pose walks through the whole pool of starts
+_IK_ROWS, _ASCENT_ROWS = 500, 100  # steps for each design and pose (measured: 519 and 113)
 _ROWS = 1 << 16  # starts side by side; no result depends on it
 
 
@@ -98,6 +100,9 @@ class Evaluator:
             fresh: Random starts of each design and pose besides; an eighth of ``starts`` if not given.
         """
         fresh = self.starts // _FEW if fresh is None else fresh
+        for steps, kernel in ((_IK_ROWS, "inverse"), (_ASCENT_ROWS, "ascent")):
+            with expecting(len(values) * len(self.poses) * steps):
+                getattr(self.family, kernel)
         if near is not None:
             return self._grown(values, near, fresh)
         if not len(values):

@@ -19,10 +19,10 @@ from holdfast.designs.designs import Check, Checked, Designs
 from holdfast.designs.evaluation import Evaluated, Evaluator
 from holdfast.designs.family import Family
 from holdfast.designs.gradient import sensitivity
-from holdfast.designs.memory import Memory, Parts
 from holdfast.designs.quantile import guaranteed, shares
 from holdfast.designs.reach import Reaches
 from holdfast.designs.space import DesignSpace, Vary, design_space
+from holdfast.engine.memory import Memory, Parts
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec
 from holdfast.notice import says

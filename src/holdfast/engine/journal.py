@@ -2,7 +2,7 @@
 
 A line that a crash cut short does not count, and is taken away before the next is added. Studies keep one line for each chunk
 in them: later lines of a chunk replace earlier ones, and one with ``-`` says that the chunk is lost. Searches for designs keep
-their parts themselves; see :mod:`holdfast.designs.memory`.
+their parts themselves; see :mod:`holdfast.engine.memory`.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ import os
 import queue
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from ctypes import c_int64, c_void_p
 from typing import Any
 
@@ -31,10 +32,22 @@ AT_ONCE = 100  # operations that level 1 compiles in some 15 ms, hardly longer t
 WIDE = 5000  # operations up to which level 1 handles two registers of rows; more of them do not fit
 LONG = 40_000  # operations: nobody waits for level 1 of more
 VAST = 100_000  # operations: level 1 of more takes minutes (measured: 6 s of 74,000, not done after 250 s of 582,000)
-# Rows after which level 1 is compiled, whatever the size of the program. It repays that after 1,200,000 to 5,000,000
-# (measured: steps of an ascent, of a closed loop, of a control cycle); well below, a long batch takes little longer than if it
-# had been compiled beforehand, and a short one wastes nothing.
-WORTH = 750_000
+# Rows after which level 1 is compiled. It repays that after 1,200,000 to 5,000,000 (measured: steps of an ascent, of a closed
+# loop, of a control cycle); well below, a long batch takes little longer than if it had been compiled beforehand, and a short
+# one wastes nothing. Of short programs it repays later (1,700 operations: after 7,000,000; 900: after 10,000,000), if ever.
+WORTH, SHORT, WORTH_SHORT = 750_000, 2000, 5_000_000
+
+_coming: ContextVar[int] = ContextVar("coming", default=0)
+
+
+@contextlib.contextmanager
+def expecting(rows: int) -> Iterator[None]:
+    """Kernels that this thread makes inside will be given about so many rows: where better code repays, it is made at once."""
+    before = _coming.set(rows)
+    try:
+        yield
+    finally:
+        _coming.reset(before)
 
 
 class Compiled:
@@ -52,7 +65,7 @@ class Compiled:
         self._program, self._rows = program, 0
         self.lanes = self._lanes(1)
         best = self._stored(1)
-        if best is None and (program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1"):
+        if best is None and (program.size <= AT_ONCE or os.environ.get("HOLDFAST_LEVEL") == "1" or self._repays(_coming.get())):
             best = self._make(1)
         self.level = 0 if best is None else 1
         self._code = best or self._stored(0) or self._make(0)
@@ -81,7 +94,7 @@ class Compiled:
 
     def _count(self, rows: int) -> None:
         self._rows += rows
-        if self._rows >= WORTH and self._program.size <= VAST:
+        if self._repays(self._rows):
             self._rows = -(1 << 62)  # asked once
             if in_pool() and _busy.acquire(blocking=False):
                 # Every processor is busy: beside one thread more, the others would only be longer on level 0.
@@ -91,6 +104,9 @@ class Compiled:
                     _busy.release()
             else:
                 _in_background(self._improve)
+
+    def _repays(self, rows: int) -> bool:
+        return rows >= (WORTH_SHORT if self._program.size < SHORT else WORTH) and self._program.size <= VAST
 
     def _improve(self) -> None:
         self._code, self.level = self._stored(1) or self._make(1, aside=True), 1

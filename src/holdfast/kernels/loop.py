@@ -13,11 +13,14 @@ from numpy.typing import NDArray
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.threads import in_pool, pool, thread_count
+from holdfast.notice import Count, unheard
 
 Array = NDArray[np.float64]
+Tell = Callable[[int], None]
 
 _BYTES = 1 << 19  # of the state, parameters and results that one worker iterates on: they stay in its cache
 _MOST, _LEAST = 4096, 256  # rows of that; no result depends on it
+_STRETCH = 1000  # steps after which somebody is told of them
 
 
 @dataclass(frozen=True)
@@ -91,7 +94,7 @@ class Loop:
         """Digest of what it was made of, where it is known; see :func:`holdfast.kernels.recalled`."""
         return self.step.made_of
 
-    def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> LoopResult:
+    def run(self, state: Array, parameters: Array, tolerance: float, most_steps: int, *, over: Tell = unheard) -> LoopResult:
         """Iterate.
 
         Args:
@@ -99,20 +102,26 @@ class Loop:
             parameters: (N, p) all parameters of a row one after the other, matrices row by row.
             tolerance: A row is done when its residual is at most this.
             most_steps: Give up after this many steps.
+            over: Is told of how many rows more have come within the tolerance, from any thread.
         """
         rows = len(state)
-        batch = _Batch(state, parameters, tolerance, most_steps)
         workers = min(thread_count(), -(-rows // _LEAST))
+        batch = _Batch(state, parameters, tolerance, most_steps)
+        ends, steps = Count(f"starts of {self.step.name}", rows), Count("steps", most_steps * self.times, most=True)
+        with ends as batch.ended, steps as stepped:
+            batch.over = over
+            if rows <= _LEAST:  # they begin together, and all may be on their way to the last step
+                batch.stepped = stepped
 
-        def work(_: int) -> None:
-            self._iterate(batch, min(self._width, -(-rows // workers)))
+            def work(_: int) -> None:
+                self._iterate(batch, min(self._width, -(-rows // workers)))
 
-        if workers <= 1 or in_pool():
-            workers = 1
-            if rows:
-                work(0)
-        else:
-            list(pool().map(work, range(workers)))
+            if workers <= 1 or in_pool():
+                workers = 1
+                if rows:
+                    work(0)
+            else:
+                list(pool().map(work, range(workers)))
         return batch.result
 
     def _iterate(self, batch: _Batch, most: int) -> None:
@@ -124,7 +133,8 @@ class Loop:
         columns, out, step = self._stage(batch.inputs(left))
         state, after, residual = columns[:size], out[:size], out[-1, : left.size]  # views are made once, not in each step
         begun, waiting = np.zeros(left.size, dtype=np.int64), np.ones(left.size, dtype=bool)  # when rows came; not done
-        now, last = int(ahead), batch.most_steps  # steps taken where a residual is measured; when a row gives up
+        # Steps taken where a residual is measured, and of how many was told; when a row gives up, or this is to be told.
+        now, last, told = int(ahead), min(batch.most_steps, _STRETCH), 0
         while True:
             step()
             small = residual <= tolerance
@@ -139,6 +149,10 @@ class Loop:
             result.residual[rows] = residual[done]
             result.done[rows] = small[done]
             result.steps[rows] = now - begun[done]
+            batch.ended(done.size)
+            batch.stepped((now - told) * self.times)
+            told = now
+            batch.over(int(np.count_nonzero(small[done])))
             state[...] = after
             fresh = batch.take(done.size)
             places, gone = done[: fresh.size], done[fresh.size :]
@@ -159,7 +173,7 @@ class Loop:
                     idle = (~waiting).nonzero()[0]  # they do what another row does, so that nobody needs to look at them
                     columns[:, idle], begun[idle] = columns[:, still[:1]], begun[still[0]]
             now += 1
-            last = int(begun.min()) + batch.most_steps
+            last = min(int(begun.min()) + batch.most_steps, told + _STRETCH)
 
     def walk(self, state: Array, parameters: Array, steps: int) -> Array:
         """The states (steps + 1, N, s) of every row on its way, ``state`` first; the residual is not looked at."""
@@ -189,7 +203,11 @@ class Loop:
 
 
 class _Batch:
-    """Rows that wait for a worker."""
+    """Rows that wait for a worker, and who is told of rows that ended, steps taken, and rows within the tolerance."""
+
+    ended: Tell = staticmethod(unheard)
+    stepped: Tell = staticmethod(unheard)
+    over: Tell = staticmethod(unheard)
 
     def __init__(self, state: Array, parameters: Array, tolerance: float, most_steps: int) -> None:
         rows = len(state)

@@ -57,8 +57,7 @@ class Rates:
         self_motion: (N,) share of the wanted self-motion that the cap lets pass, 0 to 1.
         task: (N,) share of the commanded velocity that is carried out, 0 to 1: below 1 where limits leave no other way.
         damping: (N,) 0 away from singularities; above, the end effector leaves its path a little.
-        status: (N,) ``OK``, ``INFEASIBLE`` where the end effector is slowed, ``SINGULAR`` where rates are damped, or
-        ``BAD_INPUT``.
+        status: (N,) ``OK``, ``SLOWED`` where the end effector is, ``SINGULAR`` where rates are damped, or ``BAD_INPUT``.
     """
 
     rates: Array
@@ -281,7 +280,7 @@ class Resolution(Steps):
         n = self.arm.n
         out = self._kernel.rows(a, t)
         status = np.where(out[:, n + 2] > 0, Status.SINGULAR, Status.OK).astype(np.uint8)
-        status[out[:, n + 1] < 1] = Status.INFEASIBLE
+        status[out[:, n + 1] < 1] = Status.SLOWED
         status[np.isnan(out).any(axis=1)] = Status.BAD_INPUT
         result = (out[:, :n], out[:, n], out[:, n + 1], out[:, n + 2], status)
         if a.ndim == 1 and t.ndim == 1:

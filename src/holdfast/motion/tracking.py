@@ -21,7 +21,7 @@ from holdfast.motion.events import Course, Curvature, find_events
 from holdfast.motion.redundancy import AugmentedJacobian, ExtendedJacobian, GradientProjection
 from holdfast.motion.resolution import Resolution, chosen_task
 from holdfast.motion.trajectory import Trajectory
-from holdfast.notice import says
+from holdfast.notice import Count, says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
 from holdfast.solvers.inverse_kinematics import clipped, hand_error, solve_ik, solver
@@ -38,6 +38,7 @@ _SETTLE = 10  # steps: time constant of the gain that is chosen if none is given
 _FARTHEST = 0.02  # rad (and m) of self-motion in one step: more would take the end effector off its path
 _PROBES = 64
 _CATCH_UP = 3.0  # times the largest twist of the path
+_BLOCK = 500  # steps after which somebody is told of them
 _AT = 1e-6  # rad and m from a limit
 _GRID = 101  # poses whose whole manifold is traced
 
@@ -274,11 +275,15 @@ def _run(kernel: Kernel, start: Array, targets: Array, step: float) -> tuple[Arr
     out = np.zeros((2 * n + 3, kernel.lanes))
     once, steps = kernel.bound(columns, out), np.empty((count, len(out)))
     columns[:n] = start[:, None]
-    for k in range(count):
-        columns[n : n + 12] = data[k]
-        once()
-        steps[k] = out[:, 0]
-        columns[:n] = out[:n]
+    with Count("steps of the motion", count) as tell:
+        for first in range(0, count, _BLOCK):
+            last = min(first + _BLOCK, count)
+            for k in range(first, last):
+                columns[n : n + 12] = data[k]
+                once()
+                steps[k] = out[:, 0]
+                columns[:n] = out[:n]
+            tell(last - first)
     broken = ~np.isfinite(steps).all(axis=1)
     if broken.any():
         raise HoldfastError(

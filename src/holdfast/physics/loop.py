@@ -16,7 +16,7 @@ from holdfast.control.law import Law
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
-from holdfast.notice import says
+from holdfast.notice import each, says
 from holdfast.physics.model import compiled, mujoco_spec
 from holdfast.physics.run import Ending, PhysicalRun, Why
 from holdfast.physics.servos import Servos, leads
@@ -132,7 +132,7 @@ def _drive(
     patience, still = int(np.ceil(STILL_FOR / law.gain / period)), 0
     cycles: list[Array] = []
     end: tuple[Ending, Why] | None = None
-    for k in range(int(np.ceil(limit / period - 1e-9)) + 1):
+    for k in each("control cycles", range(int(np.ceil(limit / period - 1e-9)) + 1), most=True, every=100):
         if k * period >= next_lock - EARLY:
             healthy = lock_time > k * period + EARLY
             plant = plant.locked(healthy)

@@ -14,7 +14,7 @@ from holdfast.arm.machine import Joint
 from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError, InputError
-from holdfast.notice import says
+from holdfast.notice import each, says
 from holdfast.physics.model import mujoco_model
 
 Array = NDArray[np.float64]
@@ -298,7 +298,8 @@ class _Swing:
         tool = model.site("tool").id
         rows = [(0.0, 0.0, *data.site_xpos[tool])]
         outcome: Outcome = "moving"
-        for k in range(1, int(np.ceil(max(duration, at_least) / step - 1e-9)) + 1):
+        last = int(np.ceil(max(duration, at_least) / step - 1e-9))
+        for k in each("time steps", range(1, last + 1), most=True, every=CHECK_EVERY):
             mujoco.mj_step(model, data)
             mujoco.mj_kinematics(model, data)
             rows.append((data.qpos[0], data.qvel[0], *data.site_xpos[tool]))

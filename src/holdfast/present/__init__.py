@@ -9,7 +9,7 @@ from typing import Any
 # What presents a result, by the name of its class: the module of its words and numbers (to_dict, show), which draws
 # nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
-    "Analysis": ("", "teleop.page"),
+    "Analysis": ("teleop.numbers", "teleop.page"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),
     "ConvergenceDesigns": ("designs.console", "designs.convergence"),
@@ -20,6 +20,7 @@ PRESENTERS = {
     "Recovery": ("", "recovery.figures"),
     "Runs": ("simulation.console", "simulation.run"),
     "TargetMeasures": ("", "convergence.targets"),
+    "TaskChoice": ("teleop.choice", "teleop.bank"),
     "TradeOff": ("control.console", "control.trade_offs"),
     "Trajectory": ("motion.console", "motion.trajectory"),
 }

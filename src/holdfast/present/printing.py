@@ -65,9 +65,9 @@ def print_each(
         show(of, q, out)
 
 
-def console() -> Console:
+def console(stderr: bool = False) -> Console:
     """Where tables for people go; wide when no terminal says how wide it is, so that names are not cut."""
     from rich.console import Console
 
-    wide = Console(highlight=False)
-    return wide if wide.is_terminal else Console(highlight=False, width=140)
+    wide = Console(stderr=stderr, highlight=False)
+    return wide if wide.is_terminal else Console(stderr=stderr, highlight=False, width=140)

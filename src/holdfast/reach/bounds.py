@@ -13,7 +13,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_pose
 from holdfast.errors import InputError, TaskError
-from holdfast.notice import says
+from holdfast.notice import each, says
 from holdfast.reach.extrema import CriticalPoints, critical_points
 from holdfast.solvers import joint_space
 
@@ -242,7 +242,7 @@ def _decide(solve: CriticalPoints, pose: Array, cuts: list[_Cuts], known: Array,
     ends = exact & reached(joint, _towards(at, good)) & ~reached(joint, _towards(at, bad))
     moved = np.flatnonzero(~ends)
     joint, good, bad = joint[moved], good[moved], bad[moved]
-    for _ in range(_HALVINGS):
+    for _ in each("halvings", range(_HALVINGS)):
         half = (good + bad) / 2
         found = reached(joint, half)
         good, bad = np.where(found, half, good), np.where(found, bad, half)

@@ -15,6 +15,7 @@ from holdfast.arm.task import Task
 from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
+from holdfast.notice import each
 from holdfast.solvers.inverse_kinematics import scaled_error, solver
 
 Array = NDArray[np.float64]
@@ -87,7 +88,7 @@ class CriticalPoints:
         keep = np.concatenate([~held, np.ones((count, m), dtype=bool)], axis=1)
         done = np.zeros(count, dtype=bool)
         left = np.arange(count)
-        for _ in range(_STEPS):
+        for _ in each("steps of Newton's method", range(_STEPS), most=True):
             residual, slope = self._evaluate(pose, x[left, :n], x[left, n:])
             residual[:, m : m + n] *= bound[left]
             small = np.abs(residual).max(axis=1) <= TOLERANCE

@@ -11,6 +11,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import TaskError
+from holdfast.notice import each
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import solver
 
@@ -90,7 +91,7 @@ def reached(arm: Arm, task: Task, poses: Array, seed: int) -> Bools:
 def survival(arm: Arm, task: Task, poses: Array, angles: list[Array], seed: int) -> list[Bools]:
     """For each joint (N, K): whether each pose was reached with the joint locked at each of its angles (K,)."""
     engine, made = solver(arm, task), []
-    for k, values in enumerate(angles):
+    for k, values in enumerate(each("joints locked", angles)):
         rows, columns = np.repeat(np.arange(len(poses)), values.size), np.tile(values, len(poses))
         if not rows.size:
             made.append(np.zeros((len(poses), values.size), dtype=bool))

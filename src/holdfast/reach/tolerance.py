@@ -14,7 +14,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError, TaskError
-from holdfast.notice import says
+from holdfast.notice import Count, each, says
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.reach import closed_form as tolerant_planar
 from holdfast.reach import samples as tolerant_sampled
@@ -28,6 +28,7 @@ _GRID = 161  # points along each edge of the map of the exact region
 _RADII = 1600
 _SEARCH_RADII, _POLISH_RADII = 32, 160
 _SEARCH_POINTS = 250  # at most, of which the limits are chosen
+_GENERATIONS = 60  # of a search for limits at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,18 +298,20 @@ def _best_exact(arm: Arm, three: ThreeLinks, seed: int) -> Array:
         links = np.array([three.link_limits(j) for j in joints])
         return np.where(beyond, 0.0, -tolerant_planar.area(three, links, radii))
 
-    found = search(
-        lambda x: cost(x.T, _SEARCH_RADII),
-        # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
-        [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
-        vectorized=True,
-        updating="deferred",
-        popsize=12,
-        maxiter=60,
-        rng=np.random.default_rng(seed),
-        polish=False,
-    ).x
-    for _ in range(3):  # a simplex that has shrunk onto a ridge starts again
+    with Count("generations", _GENERATIONS, most=True) as tell:
+        found = search(
+            lambda x: cost(x.T, _SEARCH_RADII),
+            # The mirror image of a region is as large: the middle of joint 2 may as well be positive.
+            [(0, np.pi), (0, np.pi), (0, np.pi), (-np.pi, np.pi), (0, np.pi)],
+            vectorized=True,
+            updating="deferred",
+            popsize=12,
+            maxiter=_GENERATIONS,
+            callback=lambda x, convergence: tell(1),
+            rng=np.random.default_rng(seed),
+            polish=False,
+        ).x
+    for _ in each("simplex searches", range(3)):  # a simplex that has shrunk onto a ridge starts again
         found = polish(
             lambda x: float(cost(x[None], _POLISH_RADII)[0]),
             found,

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
+from holdfast.notice import each
 from holdfast.paths.path import Path
 from holdfast.recovery.goals import RowsGivenUp, configurations_of
 from holdfast.recovery.routes import Metric, Space
@@ -82,7 +83,7 @@ def rest_of_path(
     """Follow a path from configurations of its first pose; also every motion (S, n) found, the shortest first."""
     share = _samples(path)
     poses = path.pose(share)
-    found = np.array([_reached(solver, space, pose, at, rng) for pose in poses])
+    found = np.array([_reached(solver, space, pose, at, rng) for pose in each("poses of the path", poses)])
     first = configurations_of(solver, space, metric, poses[0], at, starts, rng)
     kept = np.ones((len(first), solver.rows.m))
     q, last = _tracked(solver, space, poses, first, kept)
@@ -130,7 +131,7 @@ def _tracked(solver: RowSolver, space: Space, poses: Array, first: Array, kept: 
     q[0] = first
     last = np.zeros(len(first), dtype=np.int64)
     alive = np.arange(len(first))
-    for k in range(1, len(poses)):
+    for k in each("waypoints", range(1, len(poses)), most=True):
         if not alive.size:
             break
         before = q[k - 1, alive]

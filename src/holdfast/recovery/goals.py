@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.notice import each
 from holdfast.recovery.routes import Metric, Space
 from holdfast.recovery.rows import RowSolver, preferred, subsets
 from holdfast.solvers.descent import descend
@@ -115,7 +116,7 @@ def rows_to_give_up(
         q = solver.nearest(np.tile(begin, (len(sets), 1)), poses, kept[owner], space.free)
         good = _good(solver, space, q, poses, kept[owner])
         missed = np.linalg.norm(solver.errors(q, poses), axis=1)
-        for k, given_up in enumerate(sets):
+        for k, given_up in enumerate(each("sets of rows", sets)):
             some = np.flatnonzero(good & (owner == k))
             if not some.size:
                 continue

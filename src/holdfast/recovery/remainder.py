@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.clearance.clearance import Clearance
+from holdfast.notice import Count
 from holdfast.probability.intervals import Interval, Sums
 from holdfast.recovery.rows import RowSolver
 from holdfast.regions.region import Region
@@ -151,16 +152,18 @@ def _reached(
     """(N,) True where one of the starts leads to a configuration of the pose that keeps limits and clearance."""
     done = np.zeros(len(poses), dtype=bool)
     used, wave = 0, 2
-    while used < STARTS and not done.all():
-        left = np.flatnonzero(~done)
-        many = np.repeat(left, wave)
-        kept = np.ones((len(many), solver.rows.m))
-        q = solver.run(solver.starts(len(many), at, free, rng), poses[many], kept, free)
-        good = solver.meets(q, poses[many], kept, free)
-        if clearance is not None:
-            some = np.flatnonzero(good)
-            good[some] = clearance(q[some]) >= margin
-        done[many[good]] = True
-        used += wave
-        wave = min(2 * wave, STARTS - used)
+    with Count("starts of each pose", STARTS, most=True) as tell:
+        while used < STARTS and not done.all():
+            left = np.flatnonzero(~done)
+            many = np.repeat(left, wave)
+            kept = np.ones((len(many), solver.rows.m))
+            q = solver.run(solver.starts(len(many), at, free, rng), poses[many], kept, free)
+            good = solver.meets(q, poses[many], kept, free)
+            if clearance is not None:
+                some = np.flatnonzero(good)
+                good[some] = clearance(q[some]) >= margin
+            done[many[good]] = True
+            used += wave
+            tell(wave)
+            wave = min(2 * wave, STARTS - used)
     return done

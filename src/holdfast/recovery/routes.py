@@ -12,6 +12,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
+from holdfast.notice import each
 from holdfast.recovery.bounds import clearance_slopes
 from holdfast.solvers import joint_space
 
@@ -191,7 +192,7 @@ def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: 
     if open_.size:
         k = int(order[open_[0]])
         best = Route(np.stack([start, goals[k]]), float(direct[k]), bound, k, True)
-    for _ in range(tries):
+    for _ in each("searches for a route", range(tries), most=True):
         length = np.inf if best is None else best.length
         some = np.flatnonzero(direct < length * (1 - 1e-9))
         if not some.size:
@@ -250,7 +251,7 @@ def _connect(space: Space, metric: Metric, start: Array, goals: Array, rng: np.r
     here, there = _Tree(space, metric, start[None]), _Tree(space, metric, goals)
     reach = _REACH * float(metric.length(np.where(space.free, space.high - space.low, 0.0)))
     forward = True
-    for _ in range(_ROUNDS):
+    for _ in each("rounds of a search for a route", range(_ROUNDS), most=True):
         if len(here.nodes) + len(there.nodes) > _NODES:
             break
         grown, other = (here, there) if forward else (there, here)

@@ -13,6 +13,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from holdfast.notice import another
 from holdfast.report.page import environment
 from holdfast.report.scales import round_numbers
 
@@ -108,6 +109,7 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
         "readings": list(motion.readings),
         "marked": [np.flatnonzero(row).tolist() for row in marked],
     }
+    another("figure")
     return Markup(
         environment()
         .get_template("animation.html")

@@ -28,6 +28,7 @@ from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
 from holdfast.files.output import replaced
+from holdfast.notice import another
 from holdfast.report.palette import AMBER as AMBER
 from holdfast.report.palette import BLUE as BLUE
 from holdfast.report.palette import FAINT as FAINT
@@ -120,6 +121,7 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     numbers = itertools.count()
     text = re.sub(r'\bid="[^"]+"', lambda m: f'id="{name}-{next(numbers)}"', text)
     text = re.sub(r'(href="#|url\(#)([^")]+)', lambda m: m[1] + new.get(m[2], m[2]), text)
+    another("figure")
     return Markup(text.replace("<svg ", f'<svg role="img" aria-label="{escape(about)}" ', 1).strip())
 
 
@@ -135,6 +137,7 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
         figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
         FigureCanvasAgg(figure).print_png(data)  # type: ignore[no-untyped-call]
     replaced(file, data.getvalue(), "picture")
+    another("figure")
     return file
 
 

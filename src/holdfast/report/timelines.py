@@ -10,6 +10,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from holdfast.notice import another
 from holdfast.report.page import environment
 from holdfast.report.palette import BLUE, INK, ORANGE, SOFT
 from holdfast.report.scales import AxisScale, Kind
@@ -120,6 +121,7 @@ def small_multiples(time: Array, panels: Sequence[Timeline], about: str, xlabel:
 
 
 def _page(panels: list[dict[str, Any]], height: float, below: list[dict[str, Any]], about: str) -> Markup:
+    another("figure")
     template = environment().get_template("timelines.html")
     return Markup(
         template.render(panels=panels, below=below, about=about, width=_WIDE, height=round(height), ink=INK, soft=SOFT)

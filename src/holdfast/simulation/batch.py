@@ -14,9 +14,12 @@ from holdfast.arm import kinematics
 from holdfast.caching import cached_property
 from holdfast.control.law import Law
 from holdfast.errors import InputError
+from holdfast.kernels.compiled import expecting
 from holdfast.kernels.kernel import Kernel
+from holdfast.kernels.loop import Tell
 from holdfast.kernels.recall import recalled
 from holdfast.kernels.threads import in_pool, pool, thread_count
+from holdfast.notice import Count, unheard
 from holdfast.simulation.cycles import SUBSTEPS, Cycles
 from holdfast.simulation.endless_motion import circling
 from holdfast.simulation.residual import Nearest
@@ -34,6 +37,7 @@ DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: 
 FLIPS = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction
 MOST_STEPS = 100_000
 LOOK, LOOKS = 500, 4  # steps between two looks at runs that half a turn may have caught; as many stretches decide
+CALLS = 1500  # of the loop, for each run (measured of several arms, tasks and laws: 900 to 11,000, once 130)
 BLOCK, LEAST_BLOCK = 8192, 256  # runs that one thread makes together; no result depends on it
 
 
@@ -83,14 +87,19 @@ class Motion:
         A few thousand at a time, so that everything about them is done while they are in the cache, and by every thread.
         """
         rows, workers = len(q0), 1 if in_pool() else thread_count()
+        with expecting(rows * CALLS):
+            _ = self._steps.loop  # the first time it is made here: the threads do not know how many runs there are
         each = -(-rows // max(workers, 1))
         block = max(-(-each // max(-(-each // BLOCK), 1)), LEAST_BLOCK)
         blocks = [slice(k, min(k + block, rows)) for k in range(0, max(rows, 1), block)]
 
-        def work(some: slice) -> dict[str, NDArray[Any]]:
-            return self._block(q0[some], target[some], lock_time[some], setting)
+        # The last runs of a block take longest: only of several blocks one after the other the pace is even.
+        with Count("runs", rows, whole=len(blocks) > 4 * workers) as over:
 
-        done = [work(b) for b in blocks] if workers == 1 or len(blocks) == 1 else list(pool().map(work, blocks))
+            def work(some: slice) -> dict[str, NDArray[Any]]:
+                return self._block(q0[some], target[some], lock_time[some], setting, over)
+
+            done = [work(b) for b in blocks] if workers == 1 or len(blocks) == 1 else list(pool().map(work, blocks))
         ends = done[0] if len(done) == 1 else {name: np.concatenate([d[name] for d in done]) for name in done[0]}
         return Runs(
             law=self.law,
@@ -103,20 +112,25 @@ class Motion:
             _setting=setting,
         )
 
-    def _block(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> dict[str, NDArray[Any]]:
+    def _block(self, q0: Array, target: Array, lock_time: Array, setting: Setting, tell: Tell) -> dict[str, NDArray[Any]]:
         """Fields of :class:`Runs`."""
         numbers = self._system.numbers(target)
         good = np.isfinite(q0).all(axis=1) & np.isfinite(target).all(axis=tuple(range(1, target.ndim)))
         chosen: slice | NDArray[np.int64] = slice(None) if good.all() else np.flatnonzero(good)
         flips = target.ndim == 3 and self.law.task.angular
+        # A run whose joints lock later ends at each lock, and goes on.
+        later = bool(((lock_time > 0) & np.isfinite(lock_time)).any())
+        over = unheard if later else tell
 
         def advance(states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
             if flips and not self.cycles:
-                return self._until_caught(states, parameters)
-            result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.loop.times))
+                return self._until_caught(states, parameters, over)
+            result = self._steps.loop.run(states, parameters, 0.0, -(-MOST_STEPS // self._steps.loop.times), over=over)
             return result.state, result.done
 
         states = self._phases(q0[chosen], numbers[chosen], lock_time[chosen], setting, advance)
+        if later:
+            tell(len(q0))
         if not good.all():
             states, known = np.full((len(q0), states.shape[1]), np.nan), states
             states[chosen] = known
@@ -158,7 +172,7 @@ class Motion:
         """(N,) True where the end effector is half a turn from its target: there the orientation's error jumps."""
         return np.asarray(self._turn.rows(q, place, rotation)[:, 0] > np.pi - FLIPS)
 
-    def _until_caught(self, states: Array, parameters: Array) -> tuple[Array, NDArray[np.bool_]]:
+    def _until_caught(self, states: Array, parameters: Array, over: Tell) -> tuple[Array, NDArray[np.bool_]]:
         """As the loop itself, but rows that half a turn has caught are given up while they still run.
 
         Where the motion on either side of half a turn leads to it, steps across it shrink until next to nothing is left of
@@ -171,7 +185,7 @@ class Motion:
         span = LOOK * self._steps.calls
         for looks_left in reversed(range(MOST_STEPS // span)):
             before = parts["time"][left, 0]
-            result = self._steps.loop.run(states[left], parameters[left], 0.0, -(-span // self._steps.loop.times))
+            result = self._steps.loop.run(states[left], parameters[left], 0.0, -(-span // self._steps.loop.times), over=over)
             states[left], done[left] = result.state, result.done
             on, left = ~result.done, left[~result.done]
             if not left.size:
@@ -181,7 +195,9 @@ class Motion:
             hopeless = time + looks_left * (time - before[on]) < np.minimum(given[:, -3], given[:, -2])
             turned = self._half_turn(parts["q"][left], *self._inputs(given)[:2])
             seen[left] = np.where(turned, np.where(hopeless, seen[left], 0) + 1, 0)
-            left = left[seen[left] <= LOOKS]
+            caught = seen[left] > LOOKS
+            over(int(np.count_nonzero(caught)))
+            left = left[~caught]
         return states, done
 
     @property

@@ -12,6 +12,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.loop import Loop
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import damped_least_norm
+from holdfast.notice import each
 from holdfast.simulation.system import System
 
 Array = NDArray[np.float64]
@@ -64,7 +65,7 @@ class Nearest:
         position, rotation, mask = parameters[:, :3], parameters[:, 3:12].reshape(rows, 3, 3), parameters[:, 12:]
         least = self._error.rows(q, position, rotation)[:, 0]
         low, high = finite_limits(self._arm)
-        for k in range(restarts + 1):
+        for k in each("starts of each run", range(restarts + 1)):
             start = q if k == 0 else np.where(mask > 0, generator.uniform(low, high, (rows, n)), q)
             found = self._loop.run(np.column_stack([start, np.full(rows, _FIRST)]), parameters, _FLAT, _STEPS)
             error = self._error.rows(found.state[:, :n], position, rotation)[:, 0]

@@ -30,12 +30,17 @@ class Outcome(IntEnum):
     MOVING = 2
     UNDECIDED = 3
 
+    @property
+    def sentence(self) -> str:
+        """What it means, said of the end effector."""
+        return _ENDS[self]
 
-ENDS = {  # an outcome in a sentence about the hand
-    "converged": "arrives",
-    "stuck": "comes to rest elsewhere",
-    "moving": "never comes to rest",
-    "undecided": "is undecided",
+
+_ENDS = {
+    Outcome.CONVERGED: "reaches the target",
+    Outcome.STUCK: "stops elsewhere",
+    Outcome.MOVING: "never stops",
+    Outcome.UNDECIDED: "is undecided",
 }
 
 

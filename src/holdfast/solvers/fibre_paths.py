@@ -35,7 +35,7 @@ class FibrePath:
         gaps: (G,) every index t at which no continuous motion leads on from ``q[t]`` to pose t + 1: the best path for the
             poses up to t ends there, and another begins behind it.
         reach: (T - 1,) largest distance in joint space allowed from one pose to the next, rad (and m).
-        status: (T,) ``OK``, ``NOT_FOUND`` (no configuration of the pose was found), ``INFEASIBLE`` (the objective is NaN or
+        status: (T,) ``OK``, ``NOT_FOUND`` (no configuration of the pose was found), ``UNDEFINED`` (the objective is NaN or
             infinite at all of them) or ``BAD_INPUT``.
     """
 
@@ -131,7 +131,7 @@ def best_path_over(
     global_q = np.array([p[k] if k >= 0 else none for p, k in zip(points, best, strict=True)])
     value = np.array([v[k] if k >= 0 else np.nan for v, k in zip(values, chosen, strict=True)])
     status = np.array([f.status for f in found], dtype=np.uint8)
-    status[(np.array(best) < 0) & (status == Status.OK)] = Status.INFEASIBLE
+    status[(np.array(best) < 0) & (status == Status.OK)] = Status.UNDEFINED
     return FibrePath(
         _continued(arm, q),
         value,

@@ -24,7 +24,7 @@ from holdfast.kernels.loop import Loop
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import damped_least_norm
-from holdfast.notice import says
+from holdfast.notice import Count, says
 from holdfast.solvers import joint_space
 from holdfast.status import Status, require_ok
 
@@ -297,27 +297,29 @@ class InverseKinematics:
         q, residual = np.full((count, n), np.nan), np.full(count, np.inf)
         used = np.zeros(count, dtype=np.int64)
         left, k = rows, 0
-        while left.size and k < restarts:
-            # Doubling: most rows arrive early, and starts that run beside a successful one are wasted.
-            wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
-            number = np.repeat(np.arange(k, k + wave), left.size)
-            chosen = np.tile(left, wave)
-            start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
-            if k == 0 and first is not None:
-                start = first[left]
-            run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
-            done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
-            arrived = done.any(axis=0)
-            # The first start that arrived, else the one that came closest; NaN never wins.
-            pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
-            column = np.arange(left.size)
-            best = rest[pick, column]
-            used[left] += np.where(arrived, pick + 1, wave)
-            better = best < residual[left]
-            q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
-            residual[left[better]] = best[better]
-            left = left[~arrived]
-            k += wave
+        with Count("starts of each pose", restarts, most=True) as tell:
+            while left.size and k < restarts:
+                # Doubling: most rows arrive early, and starts that run beside a successful one are wasted.
+                wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
+                number = np.repeat(np.arange(k, k + wave), left.size)
+                chosen = np.tile(left, wave)
+                start = pool_of_starts[(chosen * _BY_ROW + number * _BY_START) % size]
+                if k == 0 and first is not None:
+                    start = first[left]
+                run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
+                done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
+                arrived = done.any(axis=0)
+                # The first start that arrived, else the one that came closest; NaN never wins.
+                pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
+                column = np.arange(left.size)
+                best = rest[pick, column]
+                used[left] += np.where(arrived, pick + 1, wave)
+                better = best < residual[left]
+                q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
+                residual[left[better]] = best[better]
+                left = left[~arrived]
+                k += wave
+                tell(wave)
         return _Found(q, used)
 
     def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:

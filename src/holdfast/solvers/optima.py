@@ -17,7 +17,7 @@ from holdfast.arm.task import Task, as_task
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.threads import in_pool, pool, thread_count
-from holdfast.notice import says
+from holdfast.notice import Count, says
 from holdfast.result import Result
 from holdfast.solvers.optimum import Optimum, default_starts, objective_ascent
 from holdfast.status import Status
@@ -106,7 +106,7 @@ class Optima(Optimum, Result):
         if self.success.any():
             return self
         first = Status(int(self.status.flat[0])) if self.status.size else Status.NOT_FOUND
-        advice = first.advice
+        advice = first.sentence
         if first == Status.INFEASIBLE and self.clearance is not None:
             from holdfast.clearance.clearance import too_close
 
@@ -193,12 +193,15 @@ def optimise(
         part = targets[blocks[number]]
         first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
         reach = ascent.engine.solve(part, first, restarts, within)
-        return ascent.solve(part, reach, others, most, within)
+        found = ascent.solve(part, reach, others, most, within)
+        tell(len(part))
+        return found
 
-    if len(blocks) == 1 or in_pool() or thread_count() == 1:
-        parts = [work(k) for k in range(len(blocks))]
-    else:
-        parts = list(pool().map(work, range(len(blocks))))
+    with Count("poses", len(targets), whole=len(blocks) > 4 * thread_count()) as tell:
+        if len(blocks) == 1 or in_pool() or thread_count() == 1:
+            parts = [work(k) for k in range(len(blocks))]
+        else:
+            parts = list(pool().map(work, range(len(blocks))))
     single = np.ndim(poses) == 2
     arrays = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Optimum)}
     return Optima(

@@ -24,6 +24,7 @@ from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import damped_least_norm, dot, householder
+from holdfast.notice import each
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solvers.maximin import maximin_step
@@ -162,7 +163,7 @@ class Ascent:
             return q, trust
         state = np.concatenate([q, trust[:, None], np.zeros_like(q)], axis=1)
         p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
-        for _ in range(steps):
+        for _ in each("steps of the ascent", range(steps)):
             before = state
             more = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
             state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], p, r, *more)

@@ -25,7 +25,7 @@ from holdfast.errors import InputError, TaskError
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import damped_least_norm, householder
-from holdfast.notice import says
+from holdfast.notice import Count, each, says
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import scaled_error, solver
 from holdfast.status import Status
@@ -86,7 +86,7 @@ class SelfMotion:
     def describe(self) -> str:
         """One sentence for people."""
         if self.status != Status.OK:
-            return self.status.advice
+            return self.status.sentence
         if self.redundancy > 1:
             return f"{len(self.q)} configurations of a manifold of dimension {self.redundancy}, {self.spacing:.3g} rad apart"
         closed = sum(c.closed for c in self.components)
@@ -188,7 +188,7 @@ def fibres(
             tracer.passed_on(targets, spacing, components)
         points = [np.concatenate([c.q for c in found]) if found else np.empty((0, arm.n)) for found in components]
     else:
-        points = [tracer.sample(t, q[owner == i], spacing) for i, t in enumerate(targets)]
+        points = [tracer.sample(t, q[owner == i], spacing) for i, t in enumerate(each("poses", targets, whole=True))]
     found_any = [Status.OK if len(p) else Status.NOT_FOUND for p in points]
     status = [s if ok else Status.BAD_INPUT for s, ok in zip(found_any, finite, strict=True)]
     return [
@@ -259,17 +259,19 @@ class Tracer:
         for i in np.unique(owner):
             for component in found[i]:
                 self._drop(left, component, i, owner, q, spacing)
-        while left.any():
-            owner, q = owner[left], q[left]
-            left = np.ones(owner.size, dtype=bool)
-            # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
-            each = max(1, _WAVE // np.unique(owner).size)
-            first = np.flatnonzero(_rank(owner) < each)
-            for k, component in zip(first, self._both_ways(q[first], poses[owner[first]], spacing), strict=True):
-                if component is not None and left[k]:
-                    found[owner[k]].append(component)
-                    self._drop(left, component, owner[k], owner, q, spacing)
-                left[k] = False
+        with Count("starts", owner.size) as tell:
+            while left.any():
+                tell(int(np.count_nonzero(~left)))
+                owner, q = owner[left], q[left]
+                left = np.ones(owner.size, dtype=bool)
+                # Of few poses several seeds run side by side, though some of them turn out to lie on the same curve.
+                each = max(1, _WAVE // np.unique(owner).size)
+                first = np.flatnonzero(_rank(owner) < each)
+                for k, component in zip(first, self._both_ways(q[first], poses[owner[first]], spacing), strict=True):
+                    if component is not None and left[k]:
+                        found[owner[k]].append(component)
+                        self._drop(left, component, owner[k], owner, q, spacing)
+                    left[k] = False
         return found
 
     def _drop(

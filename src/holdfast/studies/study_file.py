@@ -25,13 +25,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, ValidationError
 
+from holdfast.arms.spec import ArmSpec
 from holdfast.engine.folder import MOST_CHUNKS, MOST_ROWS, too_many
 from holdfast.engine.job import Cell
 from holdfast.errors import HoldfastError, InputError
 from holdfast.files import reading
 from holdfast.files.yaml import Number, Strict, content, parse, sentence
 from holdfast.registry import INDICES, LAWS
-from holdfast.written import ArmSpec
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -240,10 +240,11 @@ def _arm(given: str | _ArmFile, folder: Path) -> tuple[str, Arm, str]:
 
 
 def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str, folder: Path) -> Iterator[Cell]:
+    from holdfast.arms.spec import read_task
     from holdfast.assessment.plan import make_plan
+    from holdfast.failures import read_failures
     from holdfast.regions.region import Region, default_region
     from holdfast.studies.jobs.assessments import AssessJob
-    from holdfast.written import read_failures, read_task
 
     for name in block.thresholds:
         if name not in block.indices:
@@ -287,11 +288,12 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
 
 def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]:
     from holdfast.arms.serial import to_dict
+    from holdfast.arms.spec import read_task
     from holdfast.designs.search import region_poses
     from holdfast.designs.space import DesignSpace, parse_vary
+    from holdfast.failures import read_failures
     from holdfast.regions.region import Region, default_region
     from holdfast.studies.jobs.designs import DesignJob
-    from holdfast.written import read_failures, read_task
 
     block = model.assess
     if block is None:
@@ -346,10 +348,10 @@ def _said(task: str, region: str, failures: str) -> list[str]:
 def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: str) -> Iterator[Cell]:
     from holdfast.arm.task import as_task
     from holdfast.arms.serial import to_dict
+    from holdfast.arms.spec import read_task
     from holdfast.studies.jobs.banks import BankJob
     from holdfast.studies.jobs.convergence import ConvergenceJob
     from holdfast.studies.jobs.workspaces import WorkspaceJob
-    from holdfast.written import read_task
 
     chunk = block.chunk or model.chunk
     for task, text in itertools.product(block.tasks, block.laws):

@@ -11,11 +11,11 @@ from typing import Any
 import yaml
 
 from holdfast import arms
+from holdfast.arms.spec import ArmSpec
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.output import replaced
 from holdfast.registry import INDICES, LAWS, Registry
-from holdfast.written import ArmSpec
 
 _TEXT = """\
 # A study of holdfast: what is computed is every combination of the lists below.

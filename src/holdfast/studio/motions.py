@@ -82,7 +82,7 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
     """
     from holdfast.arm.poses import pose_of
     from holdfast.simulation.closed_loop import simulate
-    from holdfast.simulation.runs import ENDS
+    from holdfast.simulation.runs import Outcome
 
     if state.target is None:
         raise InputError("there is no target; choose one first")
@@ -98,7 +98,7 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
         off = f"error {float(runs.error):.2g}" + (" m and rad" if law.task.angular else " m")
         past = [name for name, passed in zip(state.names, runs.limits_passed, strict=True) if passed]
         limits = f", past the limits of {' and '.join(past)}" if past else ""
-        motions.append(Motion(f"{text}: {ENDS[str(runs.outcome)]}{limits} ({off})", path.time, "s", path.q))
+        motions.append(Motion(f"{text}: {Outcome(int(runs.code)).sentence}{limits} ({off})", path.time, "s", path.q))
     return motions
 
 

@@ -1,7 +1,9 @@
 from holdfast.teleop.bank.selection import Binning as Binning
 from holdfast.teleop.bank.selection import Detour as Detour
+from holdfast.teleop.bank.selection import TaskChoice as TaskChoice
 from holdfast.teleop.bank.selection import binning as binning
 from holdfast.teleop.bank.selection import can_be_steered as can_be_steered
+from holdfast.teleop.bank.selection import choose_tasks as choose_tasks
 from holdfast.teleop.bank.selection import most_disorienting as most_disorienting
 from holdfast.teleop.bank.selection import select as select
 from holdfast.teleop.bank.selection import trapped as trapped

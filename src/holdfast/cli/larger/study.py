@@ -6,7 +6,7 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -15,10 +15,6 @@ from holdfast.cli.progress import progress_bar
 from holdfast.errors import InputError, StoreError
 from holdfast.notice import working
 from holdfast.present.printing import console, print_json
-
-if TYPE_CHECKING:
-    from holdfast.engine.study import Study
-    from holdfast.studies.study_file import StudyFile
 
 command = typer.Typer(
     name="study",
@@ -102,6 +98,8 @@ def run(
     """
     from holdfast.engine.study import Study
     from holdfast.kernels.threads import set_threads
+    from holdfast.present.studies import console as said
+    from holdfast.studies.estimate import estimates
     from holdfast.studies.study_file import read
 
     share = _share(part)
@@ -109,7 +107,15 @@ def run(
         set_threads(threads)
     asked = read(file)
     if dry_run:
-        _dry_run(asked, json_)
+        found = []
+        with progress_bar(json_, "cells") as progress, working("trying rows of each cell", progress) as advance:
+            for each in estimates(asked.cells, asked.seed):
+                found.append(each)
+                advance(len(found), len(asked.cells))
+        if json_:
+            print_json(said.estimated(found))
+        else:
+            said.show_estimates(found, console())
         return
     if out is None:
         raise InputError("--out is missing; give a folder for the results, or --dry-run")
@@ -117,9 +123,9 @@ def run(
         study = Study.create(out, asked.name, asked.seed, asked.cells, asked.text)
         problems = study.run(asked.cells, runner, progress, stop, share)
     if json_:
-        print_json(_status(study))
+        print_json(said.status(study))
     else:
-        _print_status(study)
+        said.show_status(study, console())
     if problems:
         name, problem = next(iter(problems.items()))
         more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
@@ -135,13 +141,14 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
     Example: holdfast study status tools
     """
     from holdfast.engine.study import Study
+    from holdfast.present.studies import console as said
 
     studies = [Study.open(folder) for folder in folders]
     if json_:
-        print_json(_status(studies[0]) if len(studies) == 1 else [_status(s) for s in studies])
+        print_json(said.status(studies[0]) if len(studies) == 1 else [said.status(s) for s in studies])
         return
     for study in studies:
-        _print_status(study)
+        said.show_status(study, console())
 
 
 @command.command()
@@ -151,41 +158,25 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
     Example: holdfast study verify tools
     """
     from holdfast.engine.study import Study
+    from holdfast.present.studies import console as said
 
     found: list[dict[str, Any]] = []
     for folder in folders:
         study = Study.open(folder)
-        with progress_bar(json_, "chunks") as progress:
-            damage = study.verify(None if progress is None else lambda done, total, _: progress(done, total))
-        number = {d: None if d.chunk is None else d.chunk + 1 for d in damage}
-        found += [{"folder": str(folder), "cell": d.cell, "chunk": number[d], "what": d.what} for d in damage]
+        with _progress(json_) as progress:
+            damage = study.verify(progress)
+        found += said.damaged(folder, damage)
         if not json_ and not damage:
-            _print_sound(folder, study)
+            typer.echo("\n".join(said.sound(folder, study)))
     if json_:
         print_json({"damaged": found})
+    for each in found:
+        typer.echo(said.sentence(each), err=True)
     if found:
-        for d in found:
-            which = (
-                f"cell '{d['cell']}' is lost" if d["chunk"] is None else f"chunk {d['chunk']} of cell '{d['cell']}' is damaged"
-            )
-            typer.echo(f"{d['folder']}: {which}: {d['what']}", err=True)
         raise StoreError(
             f"{len(found)} damaged chunk{'' if len(found) == 1 else 's'}, missing from now on; 'holdfast study run' computes "
             "them again"
         )
-
-
-def _print_sound(folder: Path, study: Study) -> None:
-    """What verify found, and what was not there to be looked at."""
-    cells = study.status()
-    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
-    typer.echo(
-        f"{folder}: {done} chunks, all sound" + ("" if done == total else f"; {total - done} of {total} are not computed")
-    )
-    empty = [s.name for s in cells if not s.chunks_done]
-    if empty:
-        more = f" and {len(empty) - 3} more" if len(empty) > 3 else ""
-        typer.echo(f"nothing is there of {len(empty)} cell{'s' * (len(empty) > 1)}: {', '.join(empty[:3])}{more}")
 
 
 @command.command()
@@ -204,37 +195,18 @@ def merge(
     """
     from holdfast.engine.study import Study
     from holdfast.engine.union import merge as join
+    from holdfast.present.studies import console as said
 
     target, others = (folders[0], folders[1:]) if out is None else (out, folders)
     if not others:
         raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
-    with progress_bar(json_, "chunks") as progress:
-        found = join(target, others, None if progress is None else lambda done, total, _: progress(done, total))
+    with _progress(json_) as progress:
+        found = join(target, others, progress)
     study = Study.open(target)
-    makers = study.makers
     if json_:
-        apart = [{"cell": c, "chunk": k + 1} for c, k in found.apart]
-        print_json(
-            {"added": found.added, "same": found.both, "within_1e-12": found.close, "different": apart, "made_by": makers}
-        )
-        return
-    typer.echo(f"{study.path}: {found.added} chunks added, {found.both} were there with the same bits")
-    if found.close:
-        typer.echo(f"{found.close} chunks were there already, alike to 1e-12")
-    if found.apart:
-        cell, k = found.apart[0]
-        typer.echo(
-            f"{len(found.apart)} chunks were there already with other values (first: chunk {k + 1} of '{cell}'); those of "
-            f"'{study.path}' stay",
-            err=True,
-        )
-    for maker in makers:
-        typer.echo(f"computed on {maker['processor']}: {_versions(maker)}")
-    if len(makers) > 1:
-        typer.echo(
-            "versions or processors differ: the same study computed on one of them alone agrees to 1e-12, not in every bit"
-        )
-    _print_status(study)
+        print_json(said.merged(found, study.makers))
+    else:
+        said.show_merged(study, found, console(), console(stderr=True))
 
 
 @command.command()
@@ -309,106 +281,3 @@ def _progress(quiet: bool) -> Iterator[Any]:
     """A bar while a person looks; it says how much time is left, as does the line on stderr where there is none."""
     with progress_bar(quiet, "chunks") as bar:
         yield None if bar is None else lambda done, total, _: bar(done, total)
-
-
-# ---- saying ----------------------------------------------------------------------------------------------------------
-
-
-def _dry_run(asked: StudyFile, json_: bool) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    from holdfast.kernels.threads import thread_count
-    from holdfast.studies.estimate import estimates
-
-    found = []
-    with progress_bar(json_, "cells") as progress, working("trying rows of each cell", progress) as advance:
-        for e in estimates(asked.cells, asked.seed):
-            found.append(e)
-            advance(len(found), len(asked.cells))
-    seconds, size = sum(e.seconds for e in found), sum(e.size for e in found)
-    chunks = sum(e.cell.count for e in found)
-    if json_:
-        cells = [
-            {"name": e.cell.name, "rows": e.cell.rows, "chunks": e.cell.count, "thread_seconds": e.seconds, "bytes": e.size}
-            for e in found
-        ]
-        print_json({"cells": cells, "chunks": chunks, "thread_seconds": seconds, "bytes": size, "threads": thread_count()})
-        return
-    show = console()
-    table = Table("cell", "rows", "chunks", "of one thread", "a chunk", "size, at most", box=None, pad_edge=False)
-    for e in found:
-        told = [f"{e.cell.rows:,}", f"{e.cell.count:,}", _duration(e.seconds), _duration(e.seconds / e.cell.count)]
-        table.add_row(escape(e.cell.name), *told, _bytes(e.size))
-    show.print(table)
-    threads = thread_count()
-    show.print(
-        f"{len(found)} cells, {chunks:,} chunks: about {_duration(seconds)} of one thread, {_duration(seconds / threads)} with "
-        f"the {threads} of this machine; at most {_bytes(size)} on the disk (estimated from up to "
-        f"{max(e.tried for e in found)} rows of each cell)",
-        soft_wrap=True,
-    )
-
-
-def _status(study: Study) -> dict[str, Any]:
-    cells = study.status()
-    return {
-        "folder": str(study.path),
-        "name": study.name,
-        "seed": study.seed,
-        "digest": study.digest,
-        "complete": all(s.complete for s in cells),
-        "chunks": sum(s.chunks for s in cells),
-        "chunks_done": sum(s.chunks_done for s in cells),
-        "thread_seconds": sum(s.seconds for s in cells),
-        "cells": [
-            {"name": s.name, "chunks": s.chunks, "chunks_done": s.chunks_done, "rows": s.rows, "rows_done": s.rows_done}
-            for s in cells
-        ],
-        "made_by": study.makers,
-    }
-
-
-def _print_status(study: Study) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    cells = study.status()
-    show = console()
-    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
-    spent = sum(s.seconds for s in cells)
-    word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
-    show.print(
-        escape(f"{study.name} ({study.path}): {done:,} of {total:,} chunks, {word}, {_duration(spent)} of one thread"),
-        soft_wrap=True,
-    )
-    table = Table("cell", "rows", "chunks", "thread time", box=None, pad_edge=False)
-    shown = [s for s in cells if not s.complete] if len(cells) > 40 else cells
-    for s in shown[:40]:
-        counts = f"{s.rows_done:,} of {s.rows:,}", f"{s.chunks_done:,} of {s.chunks:,}"
-        table.add_row(escape(s.name), *counts, _duration(s.seconds))
-    if shown:
-        show.print(table)
-    if len(shown) > 40:
-        show.print(f"and {len(shown) - 40} more cells that are not complete")
-
-
-def _versions(maker: dict[str, Any]) -> str:
-    packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
-    return f"Python {maker['python']}, {packages}"
-
-
-def _duration(seconds: float) -> str:
-    if seconds < 60:
-        return f"{seconds:.2g} s" if seconds < 10 else f"{seconds:.0f} s"
-    if seconds < 5400:
-        return f"{seconds / 60:.0f} min"
-    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
-
-
-def _bytes(count: float) -> str:
-    for unit in ("B", "kB", "MB", "GB"):
-        if count < 1000:
-            return f"{count:.3g} {unit}"
-        count /= 1000
-    return f"{count:.3g} TB"

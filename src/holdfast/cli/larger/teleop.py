@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
 from holdfast.cli.larger import teleop_serve, teleop_tasks
-from holdfast.cli.larger.stages import working
-from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.cli.progress import working
+from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
 from holdfast.present.printing import console
-
-if TYPE_CHECKING:
-    from holdfast.teleop.protocol.protocol import Protocol
-    from holdfast.teleop.records.entries import Subject
-    from holdfast.teleop.records.records import Records
+from holdfast.present.results import printed
+from holdfast.present.teleop.console import show_allocation, show_experiment, show_protocol, show_subjects
 
 DIFFERS = 3  # exit code: it worked, and not every trial came out as it was recorded
 
@@ -48,16 +43,15 @@ def run(
         raise InputError(
             "people take part in a browser: use 'holdfast teleop serve --data DIR'; add --simulated for simulated ones"
         )
-    from holdfast.teleop.protocol.protocol import read_protocol
-    from holdfast.teleop.rehearsal import simulate_experiment
+    from holdfast.teleop import read_protocol, simulate_experiment
 
     if reading.exists(out) and (not out.is_dir() or any(out.iterdir())):
         raise StoreError(f"--out: '{out}' exists and is not an empty folder; give a new one")
     with (
         working(f"compiling the laws of {protocol}") as say,
-        simulate_experiment(out, read_protocol(protocol), operators, seed, say) as r,
+        simulate_experiment(out, read_protocol(protocol), operators, seed, say) as records,
     ):
-        _print_experiment(r)
+        show_experiment(records, console())
 
 
 @command.command()
@@ -82,11 +76,12 @@ def analyse(
     """
     from holdfast.teleop.analysis.eligibility import analyse_records
     from holdfast.teleop.records.tables import hand_paths
+    from holdfast.teleop.records.verification import readable
 
-    with _opened(folder) as records, working("computing") as say:
+    with readable(folder) as records, working("computing") as say:
         result = analyse_records(records, missing, groups, difficulty)  # type: ignore[arg-type]
         say("drawing")
-        report = result.write(folder, records.protocol, hand_paths(records))
+        report = result.save(folder, records.protocol, hand_paths(records))[0]
     for line in result.describe():
         typer.echo(line)
     typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} tables as CSV beside it")
@@ -100,17 +95,12 @@ def replay(folder: FolderArgument) -> None:
 
     Example: holdfast teleop replay experiment
     """
-    from holdfast.teleop.records.check import SAME
     from holdfast.teleop.records.check import replay as again
+    from holdfast.teleop.records.verification import readable
 
-    with _opened(folder) as records, working("replaying"):
+    with readable(folder) as records, working("replaying"):
         result = again(records)
-    most = float(result.difference.max(initial=0.0))
-    typer.echo(f"{len(result.entries)} trials, {len(result.differs)} differ; largest difference of a joint {most:.2g} rad or m")
-    for e in result.differs:
-        typer.echo(
-            f"  trial {e.id}: subject {e.subject}, {e.kind.value} {e.position + 1}, task {e.task + 1}, by more than {SAME:g}"
-        )
+    printed(result, False)
     if result.differs:
         raise typer.Exit(DIFFERS)
 
@@ -127,18 +117,10 @@ def verify(folder: FolderArgument) -> None:
 
     with working("comparing"):
         found = checked(folder)
-    if found.without:
-        typer.echo(
-            f"{len(found.without)} trials have no digest, as they were recorded before there were any: "
-            f"{', '.join(map(str, found.without))}"
-        )
-    for sentence in found.damaged[:20]:
-        typer.echo(f"damaged: {sentence}")
-    if len(found.damaged) > 20:
-        typer.echo(f"damaged: {len(found.damaged) - 20} more")
+    for line in found.describe():
+        typer.echo(line)
     if found.damaged:
         raise typer.Exit(DIFFERS)
-    typer.echo(f"sound: {found.trials} trials, {found.links} digests; all together {found.whole or 'none'}")
 
 
 @command.command()
@@ -168,8 +150,9 @@ def export(
     Example: holdfast teleop export experiment
     """
     from holdfast.teleop.records.tables import export as write
+    from holdfast.teleop.records.verification import readable
 
-    with _opened(folder) as records, working("writing"):
+    with readable(folder) as records, working("writing"):
         files = write(records, folder / "export" if out is None else out, parquet)
     for file in files:
         typer.echo(f"written: {file}")
@@ -195,12 +178,7 @@ def allocation(
 
         typer.echo(f"written: {write_allocation(chosen, out, subjects)}")
         return
-    order = chosen.order()
-    typer.echo("subject  row  tasks in order, each with its scenarios in order")
-    for k in range(chosen.subjects if subjects is None else subjects):
-        session = chosen.session(k % len(order), k).reshape(len(chosen.tasks), -1, 2) + 1
-        words = " ".join(f"{of[0, 0]}:{'/'.join(map(str, of[:, 1]))}" for of in session)
-        typer.echo(f"{k + 1:7d}  {k % len(order) + 1:3d}  {words}")
+    show_allocation(chosen, subjects, console())
 
 
 @command.command()
@@ -218,9 +196,11 @@ def subjects(
 
     Example: holdfast teleop subjects experiment
     """
+    from holdfast.teleop.records.verification import readable
+
     if drop is not None and delete is not None:
         raise InputError("give --drop or --delete, not both")
-    with _opened(folder) as records:
+    with readable(folder) as records:
         if delete is not None:
             count = len(records.entries(delete))
             records.delete_subject(delete)
@@ -232,7 +212,7 @@ def subjects(
 
             records.set_state(drop, State.DROPPED)
             typer.echo(f"dropped: subject {drop}; what was recorded stays")
-        _print_subjects(records)
+        show_subjects(records, console())
 
 
 @command.command("protocol")
@@ -251,7 +231,7 @@ def protocol_(
     chosen = read_protocol(protocol)
     if write is not None and reading.exists(write):
         raise StoreError(f"--write: '{write}' exists already; choose another name")
-    _print_protocol(chosen)
+    show_protocol(chosen, console())
     if write is not None:
         typer.echo(f"written: {chosen.write(write)}")
 
@@ -259,97 +239,3 @@ def protocol_(
 command.command()(teleop_serve.serve)
 command.command()(teleop_serve.texts)
 command.command()(teleop_tasks.tasks)
-
-
-# ---- out -----------------------------------------------------------------------------------------------------------------
-
-
-@contextmanager
-def _opened(folder: Path) -> Iterator[Records]:
-    """The records; where damage makes them impossible to read, a sentence says what is damaged."""
-    import sqlite3
-
-    from holdfast.teleop.records.records import Records
-    from holdfast.teleop.records.verification import verify
-
-    try:
-        with Records.open(folder) as records:
-            yield records
-    except HoldfastError:
-        raise
-    except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError) as error:
-        damaged = verify(folder).damaged
-        if not damaged:
-            raise
-        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup") from error
-
-
-def _table(*head: str) -> Any:
-    from rich.table import Table
-
-    return Table(*head, box=None, pad_edge=False)
-
-
-def _print_experiment(records: Records) -> None:
-    from holdfast.teleop.records.entries import Kind
-    from holdfast.teleop.trials.recordings import End
-
-    out, protocol = console(), records.protocol
-    people = records.subjects()
-    done = [s for s in people if s.state == "completed"]
-    training = len(records.entries(kind=Kind.TRAINING))
-    out.print(f"{len(people)} simulated operators, {len(done)} trained and done; {training} training tasks", soft_wrap=True)
-    table = _table("scenario", "", "arrived", "aborted", "time over")
-    entries = records.entries(kind=Kind.TRIAL)
-    for k, s in enumerate(protocol.scenarios):
-        ends = [e.end for e in entries if e.scenario == k]
-        table.add_row(str(s.number), s.label, *(str(ends.count(e)) for e in (End.ARRIVED, End.ABORTED, End.TIME)))
-    out.print(table)
-    typer.echo(f"written: {records.folder}; next: holdfast teleop analyse {records.folder}")
-
-
-def _print_subjects(records: Records) -> None:
-    from rich.markup import escape
-
-    from holdfast.teleop.records.session import Session
-
-    table = _table("subject", "kind", "row", "session", "done", "since")
-    people: list[Subject] = records.subjects()
-    for s in people:
-        progress = Session(records, s.code).progress()
-        table.add_row(escape(s.code), s.kind.value, str(s.row + 1), s.state.value, progress, s.since[:10])
-    if people:
-        console().print(table)
-    else:
-        typer.echo("no subjects yet")
-
-
-def _print_protocol(p: Protocol) -> None:
-    from rich.markup import escape
-
-    out = console()
-    training = p.training
-    limit = "no limit" if p.cycle_limit is None else f"at most {p.cycle_limit} cycles"
-    for line in (
-        f"{p.name}",
-        f"arm {p.arm.name}, task {p.rows.name}, {p.rate:g} cycles/s, {p.substeps} sub-steps in each",
-        f"stick: up to {p.stick.limit:g} m/cycle ({p.stick.limit * p.rate:g} m/s), dead zone {p.stick.dead_zone:g} m/cycle",
-        f"a trial ends at rest within {p.radius:g} m of the target; {limit}",
-        f"training: {training.at_least} tasks or more of {training.distance:g} m, the last {training.in_a_row} in a row within "
-        f"{training.limit:g} cycles ({training.limit / p.rate:.3g} s), at most {training.most}",
-        f"{p.subjects} subjects, {len(p.order())} rows of the balanced square, {len(p.tasks) * len(p.scenarios)} trials each",
-        f"rating: {', '.join(p.rating)}",
-    ):
-        out.print(escape(line), soft_wrap=True)
-    table = _table("scenario", "")
-    for s in p.scenarios:
-        options = ", ".join(f"{k} {v:g}" if isinstance(v, float) else f"{k} {v}" for k, v in s.options.items())
-        table.add_row(str(s.number), escape(s.label + (f" ({options})" if options else "")))
-    out.print(table)
-    tasks = _table("task", "joint that fails", "from start to target, m", "note")
-    start = p.arm.forward_kinematics(p.tasks.q0)[:, :3, 3] @ p.rows.rows[:, :3].T
-    for k, note in enumerate(p.notes):
-        joint = p.arm.joint_names[p.tasks.joint[k]] if p.tasks.joint[k] >= 0 else "none"
-        away = float(((p.tasks.target[k] - start[k]) ** 2).sum() ** 0.5)
-        tasks.add_row(str(k + 1), escape(joint), f"{away:.3f}", escape(note))
-    out.print(tasks)

@@ -15,7 +15,7 @@ from holdfast.errors import InputError
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-    from holdfast.written import ArmSpec
+    from holdfast.arms.spec import ArmSpec
 
 TOOL_HELP = (
     "Tool attachment NAME=x,y,z,roll,pitch,yaw in the last link's own frame: m, then degrees as in URDF, "

@@ -1,6 +1,5 @@
 from holdfast.indices.susceptibility.formulas import Formula as Formula
 from holdfast.indices.susceptibility.measure import Evaluation as Evaluation
-from holdfast.indices.susceptibility.measure import JointStatus as JointStatus
 from holdfast.indices.susceptibility.measure import Susceptibility as Susceptibility
 from holdfast.indices.susceptibility.measure import Together as Together
 from holdfast.indices.susceptibility.measure import acceleration as acceleration

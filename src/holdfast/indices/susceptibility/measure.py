@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Annotated, Any
 
 import casadi as ca
@@ -30,32 +29,6 @@ from holdfast.status import Status, require_ok
 Array = NDArray[np.float64]
 
 
-class JointStatus(IntEnum):
-    """What the measure of one joint at one configuration stands for; ``JointStatus(code).advice`` says it in a sentence."""
-
-    OK = 0
-    DEGENERATE = 1
-    NOT_DEFINED = 2
-    NO_INERTIA = 3
-    BAD_INPUT = 4
-
-    @property
-    def advice(self) -> str:
-        """One sentence: what this status means and what to do about it."""
-        return _ADVICE[self]
-
-
-_ADVICE = {
-    JointStatus.OK: "the measure of this joint is what its formula says",
-    JointStatus.DEGENERATE: "what the joint carries is balanced about its axis, or gravity runs along the axis: it would not "
-    "swing, so the angle and its gradient are 0 by convention, and near here both change abruptly",
-    JointStatus.NOT_DEFINED: "a prismatic joint does not swing, it slides to its stop: its swing angle is 0 by convention",
-    JointStatus.NO_INERTIA: "all the mass this joint carries lies on its axis, so its acceleration is 0/0: give the links "
-    "their inertia or the joint its armature",
-    JointStatus.BAD_INPUT: "the configuration held NaN or infinity: look at where it came from",
-}
-
-
 @dataclass(frozen=True)
 class Evaluation:
     """A susceptibility at N configurations, or at one (then without the leading N).
@@ -64,7 +37,7 @@ class Evaluation:
         value: (N,) the joints combined by the weights, ``f' W f``.
         by_joint: (N, n) the measure f of each joint, signed, in ``measure.joint_unit``.
         status: (N,) ``Status.OK``, ``BAD_INPUT``, or ``NO_INERTIA`` where a joint has no acceleration.
-        joint_status: (N, n) :class:`JointStatus` of each joint.
+        joint_status: (N, n) :class:`holdfast.Status` of each joint.
     """
 
     value: Array
@@ -201,12 +174,12 @@ class Susceptibility(Labelled, Objective):
         n = self.arm.n
         out = self._values.rows(rows)
         value, by_joint = out[:, 0].copy(), out[:, 1 : n + 1].copy()
-        joint_status = np.where(out[:, n + 1 :] > 0, JointStatus.DEGENERATE, JointStatus.OK).astype(np.uint8)
+        joint_status = np.where(out[:, n + 1 :] > 0, Status.DEGENERATE, Status.OK).astype(np.uint8)
         if not self.formula.slides:
-            joint_status[:, self.arm.prismatic] = JointStatus.NOT_DEFINED
-        joint_status[np.isnan(by_joint)] = JointStatus.NO_INERTIA
+            joint_status[:, self.arm.prismatic] = Status.NOT_DEFINED
+        joint_status[np.isnan(by_joint)] = Status.NO_INERTIA
         bad = ~np.isfinite(rows).all(axis=1)
-        joint_status[bad] = JointStatus.BAD_INPUT
+        joint_status[bad] = Status.BAD_INPUT
         status = np.where(np.isnan(value), Status.NO_INERTIA, Status.OK).astype(np.uint8)
         status[bad] = Status.BAD_INPUT
         if single:

@@ -11,7 +11,7 @@ from holdfast.arm import statics
 from holdfast.arm.model import Arm
 from holdfast.arm.soundness import require_masses
 from holdfast.errors import InputError
-from holdfast.sobol_sequence import sobol
+from holdfast.probability.sobol_sequence import sobol
 
 Array = NDArray[np.float64]
 WeightSpec = ArrayLike | Literal["effort", "worst-case"] | None

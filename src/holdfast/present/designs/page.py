@@ -16,9 +16,8 @@ from holdfast.arms.dh_file import text as table_text
 from holdfast.assessment.rows import provenance
 from holdfast.designs.designs import Checked, Designs, chosen, interval_text
 from holdfast.designs.space import DesignSpace
-from holdfast.errors import StoreError
 from holdfast.failures import failure_sets
-from holdfast.files.output import replaced
+from holdfast.files.output import made, replaced
 from holdfast.notice import says
 from holdfast.present.commands import failures_option, region_file, region_files, task_option
 from holdfast.present.designs.console import at_bound
@@ -72,12 +71,9 @@ def written(folder: Path, texts: dict[str, str]) -> list[Path]:
     Raises:
         StoreError: The folder cannot be made, or a file not written.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in texts.items():
-            replaced(folder / name, text)
-    except OSError as error:
-        raise StoreError(f"cannot write to '{folder}': {error.strerror or error}; choose another folder") from error
+    made(folder)
+    for name, text in texts.items():
+        replaced(folder / name, text)
     return [folder / name for name in texts]
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
-from holdfast.indices.susceptibility.measure import JointStatus, Susceptibility
+from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.present.arm.console import print_outside
 from holdfast.present.printing import number
 from holdfast.status import Status
@@ -59,7 +59,7 @@ def susceptibility_values(measure: Susceptibility, q: Array) -> dict[str, Any]:
         "value": result.value,
         "by_joint": dict(zip(names, result.by_joint.tolist(), strict=True)),
         "joint_unit": dict(zip(names, measure.joint_unit, strict=True)),
-        "joint_status": {name: JointStatus(int(s)).name.lower() for name, s in zip(names, result.joint_status, strict=True)},
+        "joint_status": {name: Status(int(s)).name.lower() for name, s in zip(names, result.joint_status, strict=True)},
         "gradient": dict(zip(names, measure.gradient(q).tolist(), strict=True)),
     }
 
@@ -91,7 +91,7 @@ def show_susceptibility(measure: Susceptibility, q: Array, out: Console) -> None
     _show(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
     for state in dict.fromkeys(r["joint_status"].values()):
         if state != "ok":
-            out.print(f"[yellow]{state.replace('_', ' ')}: {JointStatus[state.upper()].advice}[/]", soft_wrap=True)
+            out.print(f"[yellow]{state.replace('_', ' ')}: {Status[state.upper()].sentence}[/]", soft_wrap=True)
     _show_gradient("value", r, out)
 
 

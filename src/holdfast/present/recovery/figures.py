@@ -44,7 +44,7 @@ def scene_figure(recovery: Recovery) -> Figure:
     way = _on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
     points = arm.forward_kinematics(way)[:, :3, 3] if moving else np.zeros((0, 3))
     between = _on_the_way(recovery.q, _BETWEEN + 2)[1:-1] if moving else np.zeros((0, arm.n))
-    start, *ghosts, final = arm.frames(np.vstack([recovery.at, between, recovery.q[-1]]))[..., :3, 3]
+    start, *ghosts, final = arm.frames(np.vstack([recovery.at, between, recovery.q[-1] if moving else recovery.at]))[..., :3, 3]
     # What only widens the view: the places of everything that is drawn by hand below.
     reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     box = np.array([reach.min(axis=0), reach.max(axis=0)])

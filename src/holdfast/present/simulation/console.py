@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.present.printing import number, plain
-from holdfast.simulation.runs import ENDS, Reason, Runs
+from holdfast.simulation.runs import Outcome, Reason, Runs
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -59,7 +59,7 @@ def show(runs: Runs, out: Console) -> None:
     locked = f"locked: {', '.join(locks)}" if locks else "no joint locked"
     out.print(f"Arm {escape(arm.title)}, {escape(runs.law.describe())}; {escape(locked)}", soft_wrap=True)
     reason = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
-    out.print(f"The hand [bold]{ENDS[str(runs.outcome)]}[/]{escape(reason)}.", soft_wrap=True)
+    out.print(f"The end effector [bold]{Outcome(int(runs.code)).sentence}[/]{escape(reason)}.", soft_wrap=True)
     if limits := escape(runs.limits_sentence()):
         out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"

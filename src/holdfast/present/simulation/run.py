@@ -21,7 +21,7 @@ from holdfast.report.figures import save_png, svg
 from holdfast.report.motions import Panel, drawn_motion, motion_figure
 from holdfast.report.page import Block, Code, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
-from holdfast.simulation.runs import ENDS, Path, Reason, Runs
+from holdfast.simulation.runs import Outcome, Path, Reason, Runs
 from holdfast.words import number
 
 Array = NDArray[np.float64]
@@ -116,7 +116,7 @@ class _RunReport:
         reason = int(self._of("reason"))
         why = f": {Reason(reason).sentence}" if reason else ""
         error = f"{number(float(self._of('error')))} {self.size}"
-        ended = f"The hand {ENDS[str(self._of('outcome'))]}{why}; its error at the end is {error}."
+        ended = f"The end effector {Outcome(int(self._of('code'))).sentence}{why}; its error at the end is {error}."
         return f"{ended} {self.runs.limits_sentence(self.k)}".rstrip()
 
     @cached_property

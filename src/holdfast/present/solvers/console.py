@@ -102,7 +102,7 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
         out.print(f"before: the {first}; configurations go to --csv FILE or --json", soft_wrap=True)
     _show_clearance(found, out)
     for status in sorted({int(s) for s in found.status if s != Status.OK}):
-        out.print(f"[yellow]{_name(status).replace('_', ' ')}: {Status(status).advice}[/]", soft_wrap=True)
+        out.print(f"[yellow]{_name(status).replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
     if optima.initial is not None and found.worse.any():
         which = "" if len(found.poses) == 1 else f" of {int(found.worse.sum())} poses"
         out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.teleop.bank.selection import Binning
+from holdfast import arms
+from holdfast.files.output import made, replaced
+from holdfast.files.spreadsheet import csv_text
+from holdfast.teleop.bank.selection import Binning, TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
+from holdfast.teleop.protocol.protocol import Protocol, read_protocol
+from holdfast.teleop.records.tables import bank_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,6 +23,49 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+
+def figures(choice: TaskChoice) -> dict[str, Figure]:
+    """The bank, with the tasks that were chosen."""
+    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, choice.apart)}
+
+
+def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
+    """bank.csv, protocol.yaml with these tasks, and bank.png.
+
+    Args:
+        choice: What was chosen.
+        folder: Made if it is not there.
+        spec: What the protocol names the arm by: a built-in name or a file.
+    """
+    from holdfast.report.figures import save_png
+
+    file = made(folder) / "bank.csv"
+    replaced(file, csv_text(bank_table(choice.bank, choice.arm, choice.cells)))
+    protocol = _protocol(choice, spec).write(folder / "protocol.yaml")
+    return [file, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+
+
+def _protocol(choice: TaskChoice, spec: str) -> Protocol:
+    """The paper's protocol with this arm and these tasks."""
+    bank, every = choice.bank, np.append(choice.chosen, choice.apart)
+    file = None if spec in arms.names() else Path(spec)
+    base = replace(
+        read_protocol(),
+        name=f"{choice.arm.name}, {len(every)} tasks of a bank of {len(bank)}, seed {choice.seed}",
+        arm=choice.arm,
+        arm_spec=spec if file is None else file.name,
+        arm_file=file,
+        rows=choice.task,
+    )
+    with np.errstate(invalid="ignore"):
+        notes = [
+            f"bank task {k + 1}, CPM3 {bank.difficulty[k]:.3f}, CPM4/CPM3 {bank.ratio[k]:.3f}"
+            if np.isfinite(bank.ratio[k])
+            else f"bank task {k + 1}, not completed by the computer in every scenario"
+            for k in every
+        ]
+    return base.with_tasks(bank.tasks.take(every), notes)
 
 
 def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, special: Indices | None = None) -> Figure:

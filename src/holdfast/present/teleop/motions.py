@@ -48,9 +48,8 @@ def ring(arm: Arm, q: Array, locked: int | None = None) -> Ring | None:
     flat = np.allclose(np.abs(turn), 1.0, atol=1e-9) and np.allclose(jacobian[2:5], 0.0, atol=1e-9)
     if arm.prismatic.any() or not flat or not (arm.upper - arm.lower >= 2 * np.pi - 1e-9).all():
         return None
-    tip = arm.forward_kinematics(q)[:2, 3]
-    axes = np.stack([tip[0] - turn * jacobian[1], tip[1] + turn * jacobian[0]], axis=1)
-    corners = np.vstack([axes if locked is None else np.delete(axes, locked, axis=0), tip])
+    joints = arm.frames(q)[1:, :2, 3]  # and the tool
+    corners = joints if locked is None else np.delete(joints, locked, axis=0)
     links = np.linalg.norm(np.diff(corners, axis=0), axis=1)
     outer = float(links.sum())
     return Ring((float(corners[0, 0]), float(corners[0, 1])), max(0.0, 2 * float(links.max(initial=0.0)) - outer), outer)

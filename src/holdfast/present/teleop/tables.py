@@ -114,15 +114,22 @@ _COLUMNS = (
 )
 
 
-def write_tables(analysis: Analysis, folder: Path) -> None:
+def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
     """Write every table, and the dictionary; a missing number is NA, a decimal point is a point.
 
     Raises:
         StoreError: The folder or a file cannot be written.
     """
+<<<<<<< HEAD
     made(folder)
-    for name, table in {**analysis.tables, "data_dictionary": dictionary(analysis)}.items():
-        replaced(folder / f"{name}.csv", csv_text(table, "NA"))
+    tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
+=======
+    tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
+    made(folder)
+>>>>>>> 007534c
+    for file, table in tables.items():
+        replaced(file, csv_text(table, "NA"))
+    return list(tables)
 
 
 def dictionary(analysis: Analysis) -> DataFrame:

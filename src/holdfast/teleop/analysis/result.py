@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.notice import says
 from holdfast.result import Result
 from holdfast.teleop.analysis.correlations import Correlation
 from holdfast.teleop.analysis.groups import Cells, Groups
@@ -21,8 +19,6 @@ from holdfast.teleop.analysis.variance import Anova
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-    from holdfast.teleop.protocol.protocol import Protocol
 
 Array = NDArray[np.float64]
 Paths = Callable[[str | None, int, int], Array | None]
@@ -44,7 +40,7 @@ class Analysis(Result):
         mixed: The mixed model; None if not asked for.
         correlations: Of anticipated (the computer's CPM), actual (the median operator CPM) and perceived (the median rating)
             difficulty, as far as there are any.
-        tables: Everything as data frames, by name; see :meth:`write`.
+        tables: Everything as data frames, by name; see :meth:`save`.
         missing: "refuse", "complete" or "mixed": what was asked for in case of empty cells.
         left_out: Subjects that were left out because of empty cells.
         limit: p below which an effect is called significant.
@@ -135,29 +131,3 @@ class Analysis(Result):
             )
         lines += [str(c) for c in self.correlations]
         return lines + [f"note: {n}" for n in self.notes]
-
-    @says("drawing the report")
-    def write(
-        self,
-        folder: str | Path,
-        protocol: Protocol | None = None,
-        paths: Paths | None = None,
-        show: Sequence[int] | None = None,
-    ) -> Path:
-        """Write ``report.html`` and every table as CSV, with a data dictionary, into a folder.
-
-        Args:
-            folder: Made if it is not there. Files of the same names are replaced, others stay.
-            protocol: Of the experiment: the workspace, the targets and what a failure takes away are drawn from it.
-            paths: Gives the tool points of recorded trials; without it no motions are drawn.
-            show: Tasks, by number, whose motions and distributions are drawn; the middle one of each group if not given.
-
-        Returns:
-            The report.
-
-        Raises:
-            StoreError: The folder or a file cannot be written.
-            InputError: A task to show that there is not.
-        """
-        report: Path = self._presented("write", Path(folder), protocol, paths, show)
-        return report

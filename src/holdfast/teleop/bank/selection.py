@@ -5,14 +5,16 @@ Source: Goel et al. 2003, section 5 and Fig. 2; the deterministic rule is ours.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
+from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
+from holdfast.result import Result
 from holdfast.teleop.bank.tasks import TaskBank
 from holdfast.teleop.trials.driving import Operator, Rules, drive
 from holdfast.teleop.trials.plant import Plant
@@ -158,8 +160,12 @@ def most_disorienting(bank: TaskBank, besides: Indices) -> int:
     return int(np.argmax(score))
 
 
-def trapped(bank: TaskBank, arm: Arm, task: str | Task = "planar", seed: int = 0) -> int | None:
+def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", seed: int = 0) -> int | None:
+<<<<<<< HEAD
     """A task in which the failed arm under the pseudoinverse is drawn to where it is still, but which can be done.
+=======
+    """A task in which the failed arm under the pseudoinverse is drawn to a stationary point, but which can be done.
+>>>>>>> 007534c
 
     The computer, steering straight, must come to a standstill in scenario 3; and some other way of steering, by one of 64
     random points on the way, must bring the end effector into the circle.
@@ -200,6 +206,92 @@ def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, tries: int = 6
         Rules(cycle_limit=2000, patience=2000),
     )
     return bool(trials.arrived.any())
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TaskChoice(Result):
+    """Tasks of a bank for an experiment: :func:`choose_tasks` makes it.
+
+    Attributes:
+        bank, arm, task: The tasks, of which arm, and the rows that the stick moves.
+        cells: The plane of difficulty and ratio.
+        chosen: (k,) indices into the bank, by difficulty.
+        disorienting: Index of the most disorienting of the others; None if it was not asked for.
+        trapped: Index of a task in which the failed arm is drawn to a stationary point; None if there is none, or it was not
+            asked for.
+        seed: Of the tasks and of the search for ways round.
+    """
+
+    bank: TaskBank
+    arm: Arm
+    task: Task
+    cells: Binning
+    chosen: Indices
+    disorienting: int | None
+    trapped: int | None
+    seed: int
+
+    @property
+    def apart(self) -> Indices:
+        """The special tasks."""
+        return np.array([k for k in (self.disorienting, self.trapped) if k is not None], dtype=np.int64)
+
+    def describe(self) -> list[str]:
+        """A few sentences for people; tasks are numbered from 1."""
+        bank, good = self.bank, self.bank.completed()
+        cells = (len(self.cells.difficulty) - 1) * (len(self.cells.ratio) - 1)
+        lines = [
+            f"Arm {self.arm.title}: {len(bank)} tasks in {len(bank.scenarios)} scenarios, the computer steers",
+            "failure-tolerant inverse better with the failed arm (CPM4/CPM3 below 1): "
+            f"{100 * float((bank.ratio[good] < 1).mean()):.0f} % of the tasks",
+            f"{len(self.cells.occupied)} of {cells} cells of CPM3 and CPM4/CPM3 hold a task; chosen, by CPM3: "
+            f"{' '.join(str(k + 1) for k in self.chosen)}",
+        ]
+        if self.disorienting is not None:
+            lines += [
+                f"most disorienting of the others: {self.disorienting + 1}",
+                "no task of the bank draws the failed arm under the pseudoinverse to a stationary point and can yet be "
+                "steered; another seed may have one, and the protocol goel2003 has one by construction"
+                if self.trapped is None
+                else f"drawn to a stationary point, and yet can be steered: {self.trapped + 1}",
+            ]
+        return lines
+
+
+def choose_tasks(
+    bank: TaskBank,
+    arm: Arm,
+    task: str | Task | Sequence[str] = "planar",
+    *,
+    count: int = 22,
+    special: bool = True,
+    seed: int = 0,
+) -> TaskChoice:
+    """Tasks of a bank for an experiment: those of :func:`select`, and two special ones.
+
+    Args:
+        bank: The tasks as the computer did them.
+        arm: Whose they are.
+        task: Rows that the stick moves.
+        count: How many, without the special ones.
+        special: Also :func:`most_disorienting` and :func:`trapped`.
+        seed: As of the bank.
+
+    Raises:
+        InputError: Too few tasks were completed in every scenario.
+    """
+    cells = binning(bank)
+    chosen = select(bank, cells, count)
+    return TaskChoice(
+        bank=bank,
+        arm=arm,
+        task=as_task(arm, task),
+        cells=cells,
+        chosen=chosen,
+        disorienting=most_disorienting(bank, chosen) if special else None,
+        trapped=trapped(bank, arm, task, seed) if special else None,
+        seed=seed,
+    )
 
 
 class Detour(Operator):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.notice import says
+from holdfast.result import Result
 from holdfast.teleop.records.entries import Entry
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.trials.recordings import Trials
@@ -18,7 +20,7 @@ SAME = 1e-6  # rad and m; a browser, or a computer of another kind, rounds diffe
 
 
 @dataclass(frozen=True, eq=False)
-class Replay:
+class Replay(Result):
     """What replaying showed.
 
     Attributes:
@@ -36,6 +38,26 @@ class Replay:
     def differs(self) -> list[Entry]:
         """The trials that do not come out as recorded."""
         return [e for e, d in zip(self.entries, self.difference, strict=True) if not d <= SAME]
+
+    @property
+    def largest(self) -> float:
+        """Largest difference of all, rad or m; 0 if there are no trials."""
+        return float(self.difference.max(initial=0.0))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Which trials differ, and by how much at most; None if that is infinite."""
+        largest = self.largest if np.isfinite(self.largest) else None
+        return {"trials": len(self.entries), "differ": [e.id for e in self.differs], "largest_difference": largest}
+
+    def describe(self) -> list[str]:
+        """How many trials differ, and a line for each of them."""
+        first = (
+            f"{len(self.entries)} trials, {len(self.differs)} differ; largest difference of a joint {self.largest:.2g} rad or m"
+        )
+        return [first] + [
+            f"  trial {e.id}: subject {e.subject}, {e.kind.value} {e.position + 1}, task {e.task + 1}, by more than {SAME:g}"
+            for e in self.differs
+        ]
 
 
 @says("replaying the trials")

@@ -5,14 +5,16 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from holdfast.errors import StoreError
+from holdfast.errors import HoldfastError, StoreError
 from holdfast.notice import says
 from holdfast.teleop.records import digests
 from holdfast.teleop.records.file import FILE, opened
+from holdfast.teleop.records.records import Records
 
 _STATES = ("experiment", "subject", "rating")  # change: only the last digest of each is of what is there now
 _ITEMS = {  # what must have a digest: number, subject, and what a person calls it
@@ -40,6 +42,21 @@ class Verified:
     damaged: list[str] = field(default_factory=list)
     without: list[int] = field(default_factory=list)
     whole: str = ""
+
+    def describe(self) -> list[str]:
+        """A line for what has no digest, a line for each of the first 20 that are damaged, or that all is sound."""
+        lines = []
+        if self.without:
+            lines.append(
+                f"{len(self.without)} trials have no digest, as they were recorded before there were any: "
+                f"{', '.join(map(str, self.without))}"
+            )
+        lines += [f"damaged: {sentence}" for sentence in self.damaged[:20]]
+        if len(self.damaged) > 20:
+            lines.append(f"damaged: {len(self.damaged) - 20} more")
+        if not self.damaged:
+            lines.append(f"sound: {self.trials} trials, {self.links} digests; all together {self.whole or 'none'}")
+        return lines
 
 
 @says("comparing the records with their digests")
@@ -70,6 +87,25 @@ def verify(folder: str | Path) -> Verified:
     # A damaged name may hold what no terminal takes.
     found.damaged = ["".join(c if c.isprintable() else "?" for c in sentence) for sentence in found.damaged]
     return found
+
+
+@contextmanager
+def readable(folder: Path) -> Iterator[Records]:
+    """The records, open; where damage makes them impossible to read, a sentence says what is damaged.
+
+    Raises:
+        StoreError: There is no experiment, or it is damaged.
+    """
+    try:
+        with Records.open(folder) as records:
+            yield records
+    except HoldfastError:
+        raise
+    except (sqlite3.Error, ValueError, TypeError, LookupError, OverflowError) as error:
+        damaged = verify(folder).damaged
+        if not damaged:
+            raise
+        raise StoreError(f"'{folder}' is damaged: {damaged[0]}; restore it from a backup") from error
 
 
 class _Check:

@@ -57,7 +57,7 @@ def _report(folder: Path, out: Path, missing: str) -> None:
 
     with Records.open(folder) as records, records.reading():
         result = analyse_records(records, missing)  # type: ignore[arg-type]
-        result.write(out, records.protocol, hand_paths(records))
+        result.save(out, records.protocol, hand_paths(records))
 
 
 _JOBS: dict[str, Callable[..., None]] = {"export": _export, "report": _report}

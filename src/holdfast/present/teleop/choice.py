@@ -1,0 +1,68 @@
+"""Tasks chosen from a bank, in numbers and words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.present.printing import number, plain
+from holdfast.teleop.bank.selection import TaskChoice
+from holdfast.teleop.bank.tasks import TaskBank
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def to_dict(choice: TaskChoice) -> dict[str, Any]:
+    """What was chosen, tasks from 1, and medians over the tasks for each scenario."""
+    data = {
+        **choice.arm.entry(),
+        "tasks": len(choice.bank),
+        "cells_occupied": len(choice.cells.occupied),
+        "chosen": choice.chosen + 1,
+        "most_disorienting": None if choice.disorienting is None else choice.disorienting + 1,
+        "trapped": None if choice.trapped is None else choice.trapped + 1,
+        "scenarios": _summary(choice.bank),
+    }
+    made: dict[str, Any] = plain(data)
+    return made
+
+
+def _summary(bank: TaskBank) -> list[dict[str, Any]]:
+    lines: list[dict[str, Any]] = []
+    for k, s in enumerate(bank.scenarios):
+        arrived = ~np.isnan(bank.cpm[k])
+        middle = np.nanmedian(bank.measures[k], axis=0) if arrived.any() else np.full(bank.measures.shape[2], np.nan)
+        lines.append(
+            {
+                "scenario": s.number,
+                "label": s.label,
+                "not_arrived": int((~arrived).sum()),
+                "time_cycles": middle[0],
+                "path_m": middle[1],
+                "velocity_error": middle[6],
+                "peak_direction_error_rad": middle[9],
+                "cpm": np.median(bank.cpm[k][arrived]) if arrived.any() else np.nan,
+            }
+        )
+    return lines
+
+
+def show(choice: TaskChoice, out: Console) -> None:
+    """A row for each scenario, and what was chosen."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    first, *rest = choice.describe()
+    out.print(escape(first), soft_wrap=True)
+    columns = ("time, cycles", "path, m", "velocity error", "peak direction error, deg", "CPM")
+    table = Table("scenario", "", "not completed", *columns, box=None, pad_edge=False)
+    for r in _summary(choice.bank):
+        cells = [number(r[k], 3) for k in ("time_cycles", "path_m", "velocity_error")]
+        turn = f"{np.degrees(r['peak_direction_error_rad']):.1f}"
+        table.add_row(str(r["scenario"]), r["label"], str(r["not_arrived"]), *cells, turn, number(r["cpm"], 3))
+    out.print(table)
+    caption = "medians over the tasks that are completed; the level of CPM is set by the most extreme trial, compare ratios"
+    for line in (caption, *rest):
+        out.print(line, soft_wrap=True)

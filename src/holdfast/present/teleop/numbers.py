@@ -1,0 +1,21 @@
+"""An analysis of an experiment in numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from holdfast.present.printing import plain
+from holdfast.teleop.analysis.result import Analysis
+
+
+def to_dict(a: Analysis) -> dict[str, Any]:
+    """Whose trials they are, and every table, row by row."""
+    data = {
+        "subjects": list(a.observed.subjects),
+        "simulated": a.simulated,
+        "left_out": a.left_out,
+        "notes": a.notes,
+        "tables": {name: table.to_dict("records") for name, table in a.tables.items()},
+    }
+    made: dict[str, Any] = plain(data)
+    return made
