@@ -120,13 +120,8 @@ def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
     Raises:
         StoreError: The folder or a file cannot be written.
     """
-<<<<<<< HEAD
-    made(folder)
-    tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
-=======
     tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
     made(folder)
->>>>>>> 007534c
     for file, table in tables.items():
         replaced(file, csv_text(table, "NA"))
     return list(tables)
