@@ -70,7 +70,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"time_limit": 5.0, "confidence": 0.95},
         ),
         "best_law": (hf.best_law, {"laws": [law, hf.control.damped(arm, 0.1, "planar")], "targets": 2, "starts": 3}),
-        "compare": (hf.compare, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
+        "compare_assessments": (hf.compare_assessments, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
         "compare_laws": (
             hf.compare_laws,
             {"laws": [law], "q0": q, "target": target, "locked": [1], "cycles": False, "time_limit": 5.0}

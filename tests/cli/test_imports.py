@@ -40,7 +40,7 @@ LEAN = [
     (["describe", "planar-3r"], FILES),
     (["index", "planar-3r", "--task", "planar", *Q], FILES),
     (["susceptibility", "planar-3r", *Q], FILES),
-    (["configure", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], FILES),
+    (["optimise", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], FILES),
     (["simulate", *PLANAR, "--start", "0.3 0.5 0.7", "--lock", "2"], FILES),
     (["stationary-points", *PLANAR, "--lock", "2", "--at", "1"], FILES),
     (["self-motion", *PLANAR, "--bounds"], FILES),

@@ -45,7 +45,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "assessment": lambda: hf.assess(
         PANDA, hf.Region.load(INPUTS / "cell.yaml"), poses=40, restarts=10, task="position", optimise=True, after_lock=True
     ),
-    "comparison": lambda: hf.compare(
+    "comparison": lambda: hf.compare_assessments(
         [hf.assess(FLAT, BENCH, poses=64, seed=seed, task="planar", index="manipulability") for seed in (1, 2)], ["a", "b"]
     ),
     "structures": lambda: structures(PANDA),

@@ -334,8 +334,3 @@ def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
         raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
     check_unit_of_places(arm, values @ task.rows[:, :3], "--target")
     return values
-
-
-def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:
-    """Names of the joints of which q (n,) is beyond a limit."""
-    return [j.name for j, x in zip(arm.joints, q, strict=True) if not j.lower <= x <= j.upper]

@@ -29,7 +29,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
     "report": "start.assess:report",
     "index": "before.index",
     "susceptibility": "before.susceptibility",
-    "configure": "before.optimise:configure",
+    "optimise": "before.optimise",
     "follow": "before.follow",
     "trade-off": "before.trade_off",
     "design": "before.design",

@@ -10,15 +10,16 @@ from typing import Any
 # nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
     "Analysis": ("teleop.numbers", "teleop.page"),
-    "Assessment": ("", "assessment.page"),
+    "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
-    "Comparison": ("", "assessment.comparison"),
+    "Comparison": ("assessment.comparison_console", "assessment.comparison"),
     "ConvergenceDesigns": ("designs.console", "designs.convergence"),
     "ConvergenceMap": ("convergence.maps", "convergence.maps"),
     "Curves": ("equilibria.curves", "equilibria.curves"),
     "Designs": ("designs.console", "designs.page"),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
     "LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
+    "Optima": ("solvers.console", "solvers.console"),
     "Orbit": ("equilibria.orbit", ""),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("", "recovery.figures"),
