@@ -24,20 +24,15 @@ METHODS = ("report", "save", "figures", "to_dict", "to_xarray", "describe", "_re
 # Results that do not derive from Result yet, and those whose numbers or sentences nothing gives yet: both only get shorter.
 APART = {
     "ConvergenceMap",
-    "FreeSwing",
     "LawChoice",
     "Optimum",
-    "TolerantWorkspace",
     "Workspace",
     "equilibria.Basins",
     "equilibria.Curves",
     "equilibria.Orbit",
-    "recovery.Replay",
     "equilibria.RestPoints",
-    "recovery.WhatIsLeft",
-    "solvers.SelfMotion",
 }
-NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures"}
+NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "TargetMeasures"}
 NO_SENTENCES = {"Assessment", "Comparison"}
 
 
@@ -52,7 +47,7 @@ RESULTS = named(
         "PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "TradeOff",
         "equilibria": "Basins Curves Orbit RestPoints",
-        "recovery": "Replay WhatIsLeft",
+        "recovery": "WaypointCheck WhatIsLeft",
         "solvers": "SelfMotion",
         "teleop": "Replay TaskChoice",
         "teleop.analysis": "Analysis",

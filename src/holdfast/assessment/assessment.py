@@ -149,7 +149,7 @@ class Assessment(Result):
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
         """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
 
-        The joint stands at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
+        The joint stands at the angle that ``locked`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
         lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
 
@@ -168,7 +168,7 @@ class Assessment(Result):
         for k in chosen:
             if k not in self.plan.locks:
                 raise InputError(
-                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with its lock_at"
+                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with it in locked"
                 )
         d = self.distribution
         if d.weighted:
@@ -351,7 +351,7 @@ def assess(
     task: str | Task = "pose",
     optimise: bool = False,
     after_lock: bool = False,
-    lock_at: Mapping[str | int, float] | None = None,
+    locked: Mapping[str | int, float] | None = None,
     clearance: Clearance | bool | None = None,
     margin: float = 0.0,
 ) -> Assessment:
@@ -375,7 +375,7 @@ def assess(
         task: Of the index, if that is given by name.
         optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
         after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
-        lock_at: Angles, rad or m, by joint name or index from 0, at which these joints lock. The others lock where they were
+        locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
             at another pose if ``after_lock``, and are left out if not.
         clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
             of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may run through itself.
@@ -392,7 +392,7 @@ def assess(
     """
     if isinstance(index, str):
         index = by_name(index, arm, task)
-    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, lock_at, clearance, margin)
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin)
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else _open_store(Path(store), plan)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
 from collections.abc import Sequence
@@ -58,9 +59,12 @@ def write(result: Result, path: Path, command: str = "") -> Path:
 
     first, *others = result.describe()
     blocks: list[page.Block] = [page.Text(line) for line in others]
-    return page.write(
-        page.Page(type(result).__name__, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path
-    )
+    return page.write(page.Page(_title(result), first, [page.Section("Result", [*blocks, *shown(result, command)])]), path)
+
+
+def _title(result: Result) -> str:
+    """Its class in words: ``Free swing``."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
 
 
 def shown(result: Result, command: str = "") -> list[Any]:

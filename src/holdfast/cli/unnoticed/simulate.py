@@ -80,14 +80,16 @@ def command(
     model = read_arm(arm, base, tip, hold)
     options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
     made = read_law(law, model, read_task(task, arm, model), **options)
-    goal, locks = read_target(made.arm, made.task, target), [_lock(model, text) for text in lock or []]
-    runs = hf.simulate(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
+    goal = read_target(made.arm, made.task, target)
+    joints, times = zip(*[_lock(model, text) for text in lock or []], strict=True) if lock else ((), ())
+    q0 = read_configuration(model, start, degrees, "--start")
+    runs = hf.simulate(made, q0, goal, joints, cycles, time_limit=time_limit, time=times or 0.0)
     result: Result = runs
     if physics:
         if cycles:
             raise InputError("--physics has a control rate of its own; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
-        result = hf.simulate_physics(made, runs.q0, goal, locks, servos, time_limit)
+        result = hf.simulate_physics(made, q0, goal, joints, servos, time_limit, time=times or 0.0)
     files = [] if out is None else result.save(out, command=said())
     if csv is not None:
         files.append(runs.to_csv(csv))

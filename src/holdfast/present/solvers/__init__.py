@@ -1,0 +1,1 @@
+"""Configurations of a pose: words and pictures."""
