@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.present.recovery.console import checks
 from holdfast.present.results import shown
 from holdfast.report import page
@@ -54,9 +54,7 @@ def write(recovery: Recovery, path: Path, command: str = "") -> Path:
 
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
     """recovery.json, motion.png, waypoints.csv if there is a motion, left.png if that was asked for, and report.html."""
-    folder = made(folder)
-    file = folder / "recovery.json"
-    replaced(file, json.dumps(recovery.to_dict(), indent=2) + "\n")
+    (file,) = put(folder, {"recovery.json": json.dumps(recovery.to_dict(), indent=2) + "\n"})
     motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in figures(recovery).items()]
     waypoints = [recovery.to_csv(folder / "waypoints.csv")] if len(recovery.q) else []
     return [file, motion, *waypoints, *left, write(recovery, folder / "report.html", command)]
