@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.present.reach.figures import self_motion_picture
 from holdfast.report.figures import save_png
 from holdfast.solvers.self_motions import SelfMotion
 from papers.claims import Claim, Verdict
@@ -88,7 +88,9 @@ def boxes() -> Claim:
     # Joint 2 on the arc of the one manifold, joint 3 on that of the other.
     columns = [rng.uniform(float(a), float(b), BETWEEN) for a, b in ((-np.pi, np.pi), (low, high), (lower, upper))]
     q = np.stack(columns, axis=1)
-    found = [hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), k, q[:, k], task="planar").success for k in range(3)]
+    found = [
+        hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), k, at=q[:, k], task="planar").success for k in range(3)
+    ]
     return Claim(
         "5, pseudocode: B_xd, the union of the bounding boxes of all self-motion manifolds of x_d",
         "the part of a trajectory inside it is that from which the target stays in reach",
@@ -111,7 +113,9 @@ def result(folder: Path) -> Part:
     pose[:2, 3] = TARGET
     motion = hf.self_motion(law().arm, pose, "planar", spacing=0.01)
     save_png(
-        self_motion_picture(law().arm, motion, [[(np.radians(a), np.radians(b)) for a, b in joint] for joint in found]),
+        replace(motion, bounds=[[(np.radians(a), np.radians(b)) for a, b in joint] for joint in found]).figures()[
+            "self-motion"
+        ],
         folder / "self-motion.png",
         dpi=110,
     )

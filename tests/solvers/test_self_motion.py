@@ -10,7 +10,7 @@ import oracles
 from holdfast import InputError, TaskError, arms
 from holdfast.paths import line
 from holdfast.solvers import fibres, self_motion, solve_ik
-from holdfast.solvers.self_motions import distance_to_curve
+from holdfast.solvers.curve_tracing import distance_to_curve
 from holdfast.status import Status
 
 SPACING = 0.05
@@ -59,7 +59,7 @@ def check_points(arm, motion, rows=slice(0, 6)) -> None:
 
 @pytest.mark.parametrize("radius", [1.1, 1.5, 2.1213203435596424, 2.9])
 def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the_closed_form(unit3, radius):
-    motion = self_motion(unit3, at(radius), "planar", SPACING)
+    motion = self_motion(unit3, at(radius), "planar", spacing=SPACING)
     (curve,) = motion.components
     assert curve.closed
     assert curve.bounded_by == (None, None)
@@ -69,12 +69,12 @@ def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the
     seen = np.abs(wrapped(curve.q - [0.7, 0, 0])).max(axis=0)
     assert (seen <= np.array([first, other, other]) + 1e-9).all()
     np.testing.assert_allclose(seen, [first, other, other], atol=SPACING**2)
-    assert "1 curve of configurations, 1 closed" in motion.describe()
+    assert "1 curve of configurations, 1 closed" in motion.describe()[0]
 
 
 @pytest.mark.parametrize("radius", [0.2, 0.5, 0.9])
 def test_unit_links_within_one_metre_have_two_mirrored_curves(unit3, radius):
-    motion = self_motion(unit3, at(radius), "planar", SPACING)
+    motion = self_motion(unit3, at(radius), "planar", spacing=SPACING)
     assert [c.closed for c in motion.components] == [True, True]
     signs = set()
     low, high = 2 * np.arccos((1 + radius) / 2), 2 * np.arccos((1 - radius) / 2)
@@ -99,7 +99,7 @@ def test_number_of_curves_and_coverage_follow_the_rule_of_grashof(rng):
         if abs(slack) < 0.05 or sides[3] > sides[:3].sum() - 0.05:
             continue  # near a singular linkage, or out of reach
         arm = three_links(*lengths)
-        motion = self_motion(arm, at(radius), "planar", SPACING)
+        motion = self_motion(arm, at(radius), "planar", spacing=SPACING)
         assert len(motion.components) == (2 if slack < 0 else 1)
         assert all(c.closed for c in motion.components)
         check_points(arm, motion, rows=slice(0, 2))
@@ -112,7 +112,7 @@ def test_number_of_curves_and_coverage_follow_the_rule_of_grashof(rng):
 
 def test_limits_cut_a_closed_curve():
     arm = arms.load("planar-3r")  # all joints within +-pi
-    motion = self_motion(arm, at(0.5), "planar", SPACING)
+    motion = self_motion(arm, at(0.5), "planar", spacing=SPACING)
     assert len(motion.components) == 2
     for curve in motion.components:
         assert not curve.closed
@@ -164,7 +164,7 @@ def test_two_degrees_of_redundancy_are_sampled_evenly(flat4, rng):
     known = solve_ik(flat4, np.stack([motion.pose] * 200), task="planar", seed=3).require_ok().q
     away = np.linalg.norm(wrapped(known[:, None] - motion.q[None]), axis=2).min(axis=1)
     assert away.max() < 1.2 * 0.3
-    assert "a manifold of dimension 2" in motion.describe()
+    assert "a manifold of dimension 2" in motion.describe()[0]
 
 
 def test_curves_that_no_start_found_are_found_from_the_neighbours_on_a_path():
@@ -199,7 +199,7 @@ def test_poses_out_of_reach_and_nan(unit3):
     status = [m.status for m in fibres(unit3, poses, "planar")]
     assert status == [Status.NOT_FOUND, Status.OK, Status.BAD_INPUT]
     assert fibres(unit3, poses, "planar")[0].q.shape == (0, 3)
-    assert "no solution was found" in fibres(unit3, poses, "planar")[0].describe()
+    assert "no solution was found" in fibres(unit3, poses, "planar")[0].describe()[0]
     assert fibres(unit3, np.zeros((0, 4, 4)), "planar") == []
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.assessment.block import evaluate
 from holdfast.assessment.plan import Plan, Rows
 from holdfast.engine.store import Store
 from holdfast.errors import StoreError
@@ -28,7 +29,7 @@ Progress = Callable[[int, int], None]
 def blocks(plan: Plan, first: int, stop: int) -> Generator[tuple[int, Rows], None, None]:
     """Blocks in order from number ``first`` up to row ``stop``; a few ahead of the consumer are at work in the pool."""
     size = plan.region.block
-    source = plan.region.blocks(first, plan.seed, plan.sampling, plan.poses)
+    source = plan.region.blocks(first, plan.seed, plan.sampling, count=plan.poses)
     numbers = iter(range(first, -(-stop // size)))
     waiting: deque[tuple[int, Future[Rows]]] = deque()
 
@@ -36,7 +37,7 @@ def blocks(plan: Plan, first: int, stop: int) -> Generator[tuple[int, Rows], Non
         number = next(numbers, None)
         if number is not None:
             samples = next(source)[: stop - number * size]
-            waiting.append((number * size, pool().submit(plan.evaluate, samples, number)))
+            waiting.append((number * size, pool().submit(evaluate, plan, samples, number)))
 
     try:
         for _ in range(2 * thread_count()):

@@ -14,8 +14,9 @@ from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
 from holdfast.solvers import joint_space
+from holdfast.solvers.curve_tracing import TOLERANCE, Component
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.self_motions import TOLERANCE, Component, fibres
+from holdfast.solvers.self_motions import fibres
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -151,7 +152,7 @@ def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int
     """
     arm = arm.without_idle_limits
     if arm.n - task.m == 1:
-        owner, guess = on_curves(arm, fibres(arm, places, task, _SPACING, seed, _SEEDS), count)
+        owner, guess = on_curves(arm, fibres(arm, places, task, spacing=_SPACING, seed=seed, starts=_SEEDS), count)
         q, ok = solver(arm, task).attempt(guess, places[owner], TOLERANCE)
         return owner[ok], q[ok]
     engine = solver(arm, task)

@@ -20,5 +20,5 @@ from holdfast.report.page import render as render
 from holdfast.report.page import write as write
 from holdfast.report.scenes import Scale as Scale
 from holdfast.report.scenes import Scene as Scene
-from holdfast.report.scenes import View as View
 from holdfast.report.scenes import view_figure as view_figure
+from holdfast.report.views import View as View

@@ -22,6 +22,7 @@ def map_figure(
     points: Array,
     samples: Mapping[str, Array],
     views: Sequence[View],
+    *,
     log: bool,
     smaller_is_better: bool,
     label: str,
@@ -74,6 +75,7 @@ def share_figure(
     points: Array,
     panels: Sequence[tuple[str, NDArray[np.bool_]]],
     view: View,
+    *,
     label: str,
     bins: int = 6,
     weights: Array | None = None,
@@ -106,13 +108,12 @@ def share_figure(
 def _grid(
     points: Array, values: Array, view: View, low: Array, high: Array, bins: int, median: bool, weights: Array | None = None
 ) -> tuple[Array, Array, Array, Array, Array]:
-    pick = [view.right, view.up]
-    size = (high - low)[pick]
+    low, size = view.of(low), view.of(high - low)
     count = np.maximum(np.round(bins * size / size.max()), 1).astype(int)
-    x, y = (np.linspace(low[a], high[a], n + 1) for a, n in zip(pick, count, strict=True))
+    x, y = (np.linspace(a, a + s, n + 1) for a, s, n in zip(low, size, count, strict=True))
 
     def place(p: Array) -> NDArray[np.int64]:
-        at = np.minimum(((p[:, pick] - low[pick]) / size * count).astype(np.int64), count - 1)
+        at = np.minimum(((view.of(p) - low) / size * count).astype(np.int64), count - 1)
         return np.asarray(at[:, 1] * count[0] + at[:, 0])
 
     there = ~np.isnan(values)

@@ -1,4 +1,4 @@
-"""From where things in space are drawn: the one projection of every figure."""
+"""How things in space are seen: the one projection of every figure."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ class View:
         return f"{axis_name(self.right)}, m", f"{axis_name(self.up)}, m"
 
 
-def along_axes(points: Array, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
-    """Side and top view of points (..., 3), the side from where they are widest, without those that show only a line."""
+def sides(points: Array, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
+    """Side and top view of points (..., 3), the side being the wider one, without those that show only a line."""
     x, y, z = np.eye(3)
     size = np.ptp(points.reshape(-1, 3), axis=0)
     flat = size < 1e-6 * max(float(size.max()), 1e-6)
@@ -45,7 +45,7 @@ def along_axes(points: Array, titles: tuple[str, str] = ("Side view", "Top view"
     return [view for view in found if not any(flat @ np.abs([view.right, view.up]).T)]
 
 
-SIDE = View(*np.eye(3)[[0, 2]], "Side view")
+SIDE = View(np.eye(3)[0], np.eye(3)[2], "Side view")
 
 
 def onto_plane(normal: Array, up: Array) -> View:

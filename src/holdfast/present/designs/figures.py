@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.present.stick_figure import views_of
 from holdfast.regions.region import Region
 from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
-from holdfast.present.stick_figure import views_of
 from holdfast.report.scenes import Scale, Scene, draw_view, view_spans
 from holdfast.solvers.inverse_kinematics import solver
 
@@ -86,7 +86,7 @@ def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) ->
     none = np.zeros((0, 3))
     for arm in (given, best):
         posture = arm.frames(_posture(arm, task, region, seed))[:, :3, 3]
-        scenes.append(Scene(none, np.zeros(0), none, posture, posture[1:-1], arm.prismatic, box))
+        scenes.append(Scene(none, np.zeros(0), none, chain=posture, nodes=posture[1:-1], square=arm.prismatic, box=box))
     view = views_of(given, np.concatenate([scene.chain for scene in scenes]))[0]
     # Both panels show the same part of the world.
     both = np.concatenate([s.extent for s in scenes])

@@ -7,20 +7,20 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import zyx_angles
 from holdfast.present.assessment.facts import Facts, Rows
-from holdfast.present.assessment.worst_section import failure_labels
 from holdfast.probability.distribution import Distribution
 from holdfast.regions.region import Region
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.report.views import along_axes
+from holdfast.report.views import sides
 from holdfast.words import counted, fixed, number
 
+TITLE = "The worst {noun}s, and where tolerance is low"
 Array = NDArray[np.float64]
 
 _LEAST_FOR_MAP = 200
 
 
-def places(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """The worst poses, and where in the region tolerance is low."""
     rows = f.rows
     if rows is None and not f.d.reached:
@@ -32,7 +32,7 @@ def places(f: Facts) -> list[Block]:
     if f.nothing:
         return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
     blocks: list[Block] = [_worst_table(f, d, r, name) for name, d, r in f.samples if r is not None and r.reached.any()]
-    views = along_axes(rows.position, ("Seen from the side", "Seen from above"))
+    views = sides(rows.position, ("Seen from the side", "Seen from above"))
     if int(rows.reached.sum()) < _LEAST_FOR_MAP or not views:
         return blocks
     average = "Mean" if f.larger else "Median"
@@ -41,9 +41,9 @@ def places(f: Facts) -> list[Block]:
         rows.position,
         shown,
         views,
-        f.log,
-        not f.larger,
-        figures.plain(f"{average.lower()} {f.index.name}"),
+        log=f.log,
+        smaller_is_better=not f.larger,
+        label=figures.plain(f"{average.lower()} {f.index.name}"),
         weights=rows.weight,
     )
     text = (
@@ -62,7 +62,7 @@ def places(f: Facts) -> list[Block]:
 def _worst_table(f: Facts, d: Distribution, rows: Rows, name: str) -> Table:
     some = np.flatnonzero(rows.reached)
     order = np.argsort(rows.value[some] if f.larger else -rows.value[some], kind="stable")
-    labels = failure_labels(f)
+    labels = f.failure_labels
     chosen = some[order[:10]]
     angles = np.rad2deg(_angles(rows.rotation[chosen], f.a.region))
     cells = []

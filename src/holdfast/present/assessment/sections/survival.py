@@ -10,15 +10,16 @@ from holdfast.assessment.plan import LOCK_RESTARTS
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.report.views import View, along_axes
+from holdfast.report.views import View, sides
 from holdfast.words import as_given, fixed, interval, percent
 
+TITLE = "What survives a locked joint"
 Array = NDArray[np.float64]
 
 _LEAST_FOR_MAP = 200
 
 
-def survival(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """Share of the region that each lock leaves, if the run asked for it."""
     survivors = f.a.survivors
     if survivors is None or not f.d.samples:
@@ -30,7 +31,7 @@ def survival(f: Facts) -> list[Block]:
         f"{k + 1} {f.a.arm.joint_names[k]}{'' if angle is None else f' {_angle(f, k, angle)}'}" for k, angle in locks.items()
     ]
     what = f"{'weight of ' if f.d.weighted else ''}poses still reached once the joint has locked"
-    figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, _whole(f), "least")
+    figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, total=_whole(f), stress="least")
     given = [angle is not None for angle in locks.values()]
     where = "where it stood at another pose of the region, drawn at random"
     if all(given):
@@ -81,7 +82,7 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
     rows = f.rows
     if rows is None or len(rows.reached) < _LEAST_FOR_MAP:
         return []
-    views = along_axes(rows.position, ("seen from the side", "seen from above"))
+    views = sides(rows.position, ("seen from the side", "seen from above"))
     if not views:
         return []
     view = views[0]
@@ -109,4 +110,4 @@ def before_and_after_figure(
 ) -> Figure:
     """Maps of the share of poses (N, 3), m, that are reached (N,) before and after a lock, by weight (N,) if there is one."""
     panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
-    return maps.share_figure(position, panels, view, "share of the poses reached", weights=weights)
+    return maps.share_figure(position, panels, view, label="share of the poses reached", weights=weights)

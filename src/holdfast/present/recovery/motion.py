@@ -1,0 +1,122 @@
+"""Pictures of a recovery: the arm on its way, and what is left of the workspace; its page and its folder."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from holdfast.files.output import put
+from holdfast.present.recovery.console import checks
+from holdfast.present.results import shown
+from holdfast.report import page
+from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, save_png, style
+from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view, view_spans
+from holdfast.report.views import SIDE, sides
+from holdfast.words import capitalised
+
+if TYPE_CHECKING:
+    from holdfast.recovery.recovery import Recovery
+
+Array = NDArray[np.float64]
+
+_DOTS = 160  # of the tool's path
+_BETWEEN = 4  # ghosts of the arm on its way
+
+
+def _on_the_way(q: Array, count: int) -> Array:
+    """Configurations (count, n) at equal shares of the way (K, n)."""
+    steps = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
+    at = np.linspace(0, steps[-1], count)
+    return np.stack([np.interp(at, steps, column) for column in q.T], axis=1)
+
+
+def figures(recovery: Recovery) -> dict[str, Figure]:
+    """The arm on its way, from the side and from above, and maps of what is left of the workspace, if that was asked for."""
+    return {"motion": _motion(recovery), **({} if recovery.left is None else recovery.left.figures())}
+
+
+def write(recovery: Recovery, path: Path, command: str = "") -> Path:
+    """The page: what came of it first, then why, the pictures, and what a replay of the motion found."""
+    asked, verdict, *rest = recovery.describe()
+    found = [page.Text(capitalised(line)) for line in rest]
+    checked = (
+        [page.Section("What a replay by other code says", [page.Text(capitalised(x)) for x in checks(recovery)])]
+        if len(recovery.q)
+        else []
+    )
+    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, command))]
+    return page.write(page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked), path)
+
+
+def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
+    """recovery.json, motion.png, waypoints.csv if there is a motion, left.png if that was asked for, and report.html."""
+    (file,) = put(folder, {"recovery.json": json.dumps(recovery.to_dict(), indent=2) + "\n"})
+    motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in figures(recovery).items()]
+    waypoints = [recovery.to_csv(folder / "waypoints.csv")] if len(recovery.q) else []
+    return [file, motion, *waypoints, *left, write(recovery, folder / "report.html", command)]
+
+
+def _motion(recovery: Recovery) -> Figure:
+    """The arm where it is, on its way and where it ends, with the path of the tool coloured from its start to its end."""
+    arm = recovery.arm
+    moving = len(recovery.q) > 1
+    way = _on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
+    points = arm.forward_kinematics(way)[:, :3, 3] if moving else np.zeros((0, 3))
+    between = _on_the_way(recovery.q, _BETWEEN + 2)[1:-1] if moving else np.zeros((0, arm.n))
+    start, *ghosts, final = arm.frames(np.vstack([recovery.at, between, recovery.q[-1] if moving else recovery.at]))[..., :3, 3]
+    # What only widens the view: the places of everything that is drawn by hand below.
+    reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
+    box = np.array([reach.min(axis=0), reach.max(axis=0)])
+    scene = Scene(
+        points,
+        np.linspace(0, 100, len(points)),
+        np.zeros((0, 3)),
+        chain=final,
+        nodes=final[1:-1],
+        square=arm.prismatic,
+        box=box,
+    )
+    views = sides(scene.extent) or [SIDE]
+    scene = Scene(scene.points, scene.values, scene.missing, chain=scene.chain, nodes=scene.nodes, square=scene.square)
+    wide = Scene(reach, np.zeros(len(reach)), points, chain=final)
+    scale = Scale(0.0, 100.0)
+    with style():
+        panel = 4.1 if len(views) > 1 else 5.0
+        spans, height = view_spans(wide, views, panel, 2.4, 4.8)
+        figure = Figure(figsize=(WIDTH if len(views) > 1 else panel + 2.6, height + 1.7))
+        panels = figure.subplots(1, len(views), squeeze=False)[0]
+        middle = wide.extent.mean(axis=0)
+        for axes, view in zip(panels, views, strict=True):
+            for k, ghost in enumerate(ghosts):
+                axes.plot(*view.of(ghost).T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if k == 0 else None)
+            if moving:
+                axes.plot(
+                    *view.of(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
+                )
+            draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
+            locked = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
+            last = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
+            axes.plot(*view.of(locked).T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
+            axes.plot(*view.of(last).T, "X", color=ORANGE, markersize=8, zorder=3.6)
+            axes.plot([], [], color="#1b1f24", linewidth=2.8, label="where it ends" if moving else "where it is and stays")
+            if recovery.goal_pose is not None:
+                place = view.of(recovery.goal_pose[:3, 3])
+                axes.plot(*place, "*", color=SKY, markeredgecolor=SOFT, markersize=13, zorder=3.4, label="goal of the tool")
+            x, y = view.of(middle)
+            axes.set(xlim=(x - spans[0] / 2, x + spans[0] / 2), ylim=(y - spans[1] / 2, y + spans[1] / 2))
+        if moving:
+            color_bar(figure, scene, scale, list(panels), "fraction of the tool's path, %")
+        legend_below(figure, panels[0], 5)
+        figure.suptitle(plain(_title(recovery), 110), fontsize=10, x=0.01, ha="left")
+        return finished(figure)
+
+
+def _title(recovery: Recovery) -> str:
+    if len(recovery.q) < 2:
+        return f"{recovery.arm.name}: {recovery.ending.name}, no motion"
+    return f"{recovery.arm.name}: {recovery.ending.name}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"
