@@ -34,7 +34,8 @@ VARIES = tuple(
         (r"(>Computed on</th><td class=\"\">)[^;<]*", r"\1<machine>"),
         (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
         (r"\bkey=[\w-]+", "key=<key>"),
-        (r"^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
+        # What holdfast.notice says, of a record that was made with it.
+        (r"^holdfast: (?!nothing|missing)[a-z]+ing\b(.*, (about \d+ (s|min)|so far \d).*|[^,;:]*)\n", ""),
         (r"^\d+ of \d+ chunks, about .*\n", ""),  # only of what takes half a minute
         (r" at 0x[0-9a-f]+", ""),
         (r"^exit code 0\n", ""),
