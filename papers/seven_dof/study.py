@@ -11,7 +11,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.control import Law
-from holdfast.present.convergence import law_comparison as report
+from holdfast.present.convergence import law_rows as report
 
 ARMS = ("panda", "xarm7", "iiwa14")
 TASKS = ("position", "pose")

@@ -10,7 +10,7 @@ from holdfast.arm.task import Task as Task
 from holdfast.assessment import Assessment as Assessment
 from holdfast.assessment import Comparison as Comparison
 from holdfast.assessment import assess as assess
-from holdfast.assessment import compare as compare
+from holdfast.assessment import compare_assessments as compare_assessments
 from holdfast.assessment import load as load
 from holdfast.clearance import Capsules as Capsules
 from holdfast.clearance import Clearance as Clearance
@@ -32,7 +32,7 @@ from holdfast.designs import DesignSpace as DesignSpace
 from holdfast.designs import design as design
 from holdfast.designs import design_for_convergence as design_for_convergence
 from holdfast.equilibria import basins as basins
-from holdfast.equilibria import stationary as stationary
+from holdfast.equilibria import stationary_points as stationary_points
 from holdfast.errors import ArmError as ArmError
 from holdfast.errors import HoldfastError as HoldfastError
 from holdfast.errors import InputError as InputError
@@ -58,7 +58,7 @@ from holdfast.recovery import recover as recover
 from holdfast.regions import Region as Region
 from holdfast.simulation import Runs as Runs
 from holdfast.simulation import simulate as simulate
-from holdfast.solvers import Optimum as Optimum
+from holdfast.solvers import Optima as Optima
 from holdfast.solvers import Reach as Reach
 from holdfast.solvers import optimise as optimise
 from holdfast.solvers import self_motion as self_motion

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.errors import InputError
-from holdfast.present.assessment.survival_section import before_and_after_figure
+from holdfast.present.assessment.sections.survival import before_and_after_figure
 from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, style
 from holdfast.report.scenes import Scale, Scene, View, color_bar, dot_size, draw_view, view_spans
 
