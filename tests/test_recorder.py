@@ -36,6 +36,11 @@ def compared(tmp_path, capsys):
     ("old", "new"),
     [
         ("made 2026-11-22T20:31:42Z", "made 2027-01-01 00:00 UTC"),
+        ("12 of 12 trials  2026-11-22\n", "12 of 12 trials  2026-11-23\n"),
+        (
+            "of one thread  a chunk  size\n40    3       0.89 s         0.3 s   6 kB\n",
+            "of one thread  a chunk   size\n40    3       0.021 s        0.0069 s  6 kB\n",
+        ),
         ("seconds=1.25, kept", "seconds=3e-05, kept"),
         ('"seconds": 1.25', '"seconds": 0'),
         ('"numpy": "2.3.1"', '"numpy": "2.4.0.dev1"'),

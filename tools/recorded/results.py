@@ -138,7 +138,7 @@ def plain(x: Any, deep: int) -> Any:
         return [plain(item, deep - 1) for item in (sorted(x, key=repr) if isinstance(x, set | frozenset) else x)]
     if isinstance(x, hf.Arm):
         return f"arm {x.fingerprint}"
-    if hasattr(x, "to_csv"):
+    if type(x).__module__.startswith("pandas"):
         return x.to_csv(index=False)
     if not type(x).__module__.startswith("holdfast") or deep <= 0:
         return type(x).__name__
