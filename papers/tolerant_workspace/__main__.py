@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.present.reach.figures import region_picture
 from holdfast.reach import TolerantWorkspace
 from holdfast.reach import closed_form as tolerant_planar
 from holdfast.reach.closed_form import ThreeLinks
@@ -117,7 +116,7 @@ def main() -> None:
     """Run the grid and write RESULTS.md."""
     found = [search(half) for half in HALVES]
     region = hf.tolerant_workspace(hf.arms.load("planar-3r"), task="planar", optimise=True)
-    save_png(region_picture(region), HERE / "region.png", dpi=100)
+    save_png(region.figures()["region"], HERE / "region.png", dpi=100)
     lines = results(found, region)
     (HERE / "RESULTS.md").write_text("\n".join(lines), encoding="utf-8")
     print("\n".join(lines))

@@ -65,7 +65,7 @@ CASES: dict[str, Callable[[], hf.Assessment]] = {
         NINE, PAPER, hf.indices.manipulability(NINE, "position", ["joint2"], length=0.5), poses=50
     ),
     "weighted": lambda: hf.assess(
-        NINE, replace(PAPER, weight=HEAVY), poses=210, optimise=True, after_lock=True, lock_at={1: 0.5}
+        NINE, replace(PAPER, weight=HEAVY), poses=210, optimise=True, after_lock=True, locked={1: 0.5}
     ),
     "weighted, condition number": lambda: hf.assess(SEVEN, LIST, "condition-number"),
     "list, no rows": lambda: hf.assess(NINE, LIST, poses=100, keep=False),

@@ -43,7 +43,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "design": "--designs 4 --climbs 1 --poses 8 --fresh 32",
     "follow": "--samples 11",
     "recover": "--samples 0",
-    "swing": "--duration 0.2",
+    "free-swing": "--duration 0.2",
     "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",
     "teleop run": "--operators 2",
     "teleop tasks": "--per-joint 20 --select 4 --no-special",

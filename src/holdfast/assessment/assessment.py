@@ -142,7 +142,7 @@ class Assessment(Result):
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
         """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
 
-        The joint is locked at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
+        The joint is locked at the angle that ``locked`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
         lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
 
@@ -161,7 +161,7 @@ class Assessment(Result):
         for k in chosen:
             if k not in self.plan.locks:
                 raise InputError(
-                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with its lock_at"
+                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with it in locked"
                 )
         d = self.distribution
         if d.weighted:

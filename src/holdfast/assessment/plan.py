@@ -19,6 +19,7 @@ from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
+from holdfast.failures import locks_at
 from holdfast.indices.index import Index, by_name
 from holdfast.regions.region import Region, Sampling
 from holdfast.registry import INDICES
@@ -178,7 +179,7 @@ class Plan:
             data["restarts"],
             "optimise" in data,
             "after_lock" in data,
-            read_locks(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
+            _lock_angles(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
             None if apart is None else Clearance(arm, Capsules.from_dict(apart["capsules"], arm)),
             0.0 if apart is None else apart["margin"],
         )
@@ -265,7 +266,7 @@ def make_plan(
     restarts: int,
     optimise: bool,
     after_lock: bool,
-    lock_at: Mapping[str | int, float] | None = None,
+    locked: Mapping[str | int, float] | None = None,
     clearance: Clearance | bool | None = None,
     margin: float = 0.0,
 ) -> Plan:
@@ -283,7 +284,7 @@ def make_plan(
         restarts,
         optimise,
         after_lock,
-        read_locks(arm, lock_at or {}),
+        _lock_angles(arm, locked or {}),
         _apart(arm, clearance, optimise),
         margin,
     )
@@ -295,32 +296,18 @@ def _apart(arm: Arm, clearance: Clearance | bool | None, optimise: bool) -> Clea
     return Clearance(arm) if clearance is True else clearance or None
 
 
-def read_locks(arm: Arm, given: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:
-    """Angles of locks by joint, as a plan holds them: in the order of the joints.
+def _lock_angles(arm: Arm, locked: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:
+    """Where joints lock, as a plan holds it: in the order of the joints.
 
     Raises:
-        InputError: No such joint, one given twice, or an angle that is not finite or beyond the joint's limits.
+        InputError: No such joint, one given twice, or a value that is not finite or beyond the joint's limits.
     """
-    if not isinstance(given, Mapping):
-        raise InputError(f"lock_at is {given!r}; it must be angles by joint, for example {{'{arm.joint_names[0]}': 0.3}}")
-    found: dict[int, float] = {}
-    for joint, angle in given.items():
-        k = arm.joint_index(joint)
-        name, unit = arm.joint_names[k], "m" if arm.prismatic[k] else "rad"
-        if k in found:
-            raise InputError(f"lock_at gives joint '{name}' twice; give each joint once")
-        try:
-            value = float(angle)
-        except (TypeError, ValueError):
-            value = np.nan
-        if not np.isfinite(value):
-            raise InputError(f"lock_at of joint '{name}' is {angle!r}; it must be a finite number, {unit}")
-        if not arm.lower[k] <= value <= arm.upper[k]:
-            raise InputError(
-                f"joint '{name}' cannot lock at {value:g} {unit}: its limits are {arm.lower[k]:g} to {arm.upper[k]:g} {unit}"
-            )
-        found[k] = value
-    return tuple(sorted(found.items()))
+    found = locks_at(arm, locked, np.full(arm.n, np.nan))
+    for k, value in found.items():
+        name, unit, low, high = arm.joint_names[k], arm.joints[k].unit, arm.lower[k], arm.upper[k]
+        if not low <= value <= high:
+            raise InputError(f"joint '{name}' cannot lock at {value:g} {unit}: its limits are {low:g} to {high:g} {unit}")
+    return tuple(found.items())
 
 
 def _whole(what: str, value: Any, least: int) -> int:

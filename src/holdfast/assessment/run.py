@@ -41,7 +41,7 @@ def assess(
     task: str | Task | Sequence[str] | None = None,
     optimise: bool = False,
     after_lock: bool = False,
-    lock_at: Mapping[str | int, float] | None = None,
+    locked: Mapping[str | int, float] | None = None,
     clearance: Clearance | bool | None = None,
     margin: float = 0.0,
 ) -> Assessment:
@@ -65,7 +65,7 @@ def assess(
         task: Of the index, ``pose`` if not given. An index that is given has its own, and this must be the same.
         optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
         after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
-        lock_at: Angles, rad or m, by joint name or index from 0, at which these joints lock. The others lock where they were
+        locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
             at another pose if ``after_lock``, and are left out if not.
         clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
             of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may run through itself.
@@ -89,7 +89,7 @@ def assess(
                 f"the index is for task {own.describe()}, asked for is {other.describe()}; make it with the task to assess, or "
                 "leave task out"
             )
-    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, lock_at, clearance, margin)
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin)
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
     folder = None if store is None else plan.create(Path(store))

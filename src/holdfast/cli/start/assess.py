@@ -142,7 +142,7 @@ def command(
             "restarts": restarts,
             "optimise": optimise,
             "after_lock": after_lock,
-            "lock_at": read_by_joint(c.arm, lock_at, "--lock-at"),
+            "locked": read_by_joint(c.arm, lock_at, "--lock-at"),
             "clearance": read_clearance(c.arm, clearance, capsules, radius, margin, optimise) or False,
             "margin": margin or 0.0,
         }

@@ -16,7 +16,7 @@ from holdfast.caching import cached_property
 from holdfast.probability.distribution import Distribution
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
-from holdfast.report.scenes import Scale, Scene, View
+from holdfast.report.scenes import Scale, Scene, View, sides
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.words import as_given, number
 
@@ -150,12 +150,7 @@ class Facts(Answer):
     @cached_property
     def views(self) -> list[View]:
         """Side and top view; only one of them if everything lies in its plane."""
-        size = np.diff(self.scene[0].extent, axis=0)[0]
-        flat = size < 1e-6 * size.max()
-        found = [View(0, 2, "Side view"), View(0, 1, "Top view")]
-        if size[1] > 1.5 * size[0]:
-            found[0] = View(1, 2, "Side view")
-        return [v for v in found if not (flat[v.right] or flat[v.up])] or found
+        return sides(self.scene[0].extent)
 
     @property
     def side(self) -> View:
