@@ -52,7 +52,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 SERVERS = {"studio", "teleop serve"}  # until they are stopped: tested apart
-QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "swing"}
+QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "free-swing"}
 QUICK |= {"study new", "study run", "teleop allocation", "teleop protocol", "teleop texts"}
 
 
