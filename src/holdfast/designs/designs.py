@@ -48,7 +48,7 @@ class Check:
     optimism: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Designs(Result):
     """What :func:`holdfast.design` found: D designs, the given arm first.
 

@@ -48,9 +48,9 @@ def design(
     arm: Arm,
     vary: Vary,
     objective: str = "relative-manipulability",
+    *,
     region: Region | None = None,
     task: str | Task | Sequence[str] = "pose",
-    *,
     level: float = 0.95,
     failures: FailureSpec = "single",
     length: float | None = None,
@@ -163,23 +163,23 @@ def design(
         _checked(checks["value"][i], checks["reached"][i], checks["weights"], level, region.heaviest) for i in (0, 1)
     )
     return Designs(
-        space,
-        every,
-        merged["guaranteed"],
-        merged["reach"],
-        merged["reached"],
-        pareto(merged["reach"], merged["guaranteed"]),
-        best,
-        Check(given, chosen, float(merged["guaranteed"][best] - chosen.guaranteed.value)),
-        family.numeric_index,
-        region,
-        level,
-        poses,
-        designs,
-        len(ends),
-        seed,
-        time.monotonic() - begin,
-        search.method(designs, len(ends), fresh),
+        space=space,
+        values=every,
+        guaranteed=merged["guaranteed"],
+        reach=merged["reach"],
+        reached=merged["reached"],
+        front=pareto(merged["reach"], merged["guaranteed"]),
+        best=best,
+        checked=Check(given, chosen, float(merged["guaranteed"][best] - chosen.guaranteed.value)),
+        index=family.numeric_index,
+        region=region,
+        level=level,
+        poses=poses,
+        screened=designs,
+        climbs=len(ends),
+        seed=seed,
+        seconds=time.monotonic() - begin,
+        method=search.method(designs, len(ends), fresh),
     )
 
 
@@ -210,7 +210,7 @@ def _drawn(region: Region, count: int, seed: int, sampling: Any) -> tuple[Array,
     if region.kind == "joints":
         raise InputError("a region of joints fixes the configurations, so designs have no poses to reach; give a box of poses")
     samples: list[Array] = []
-    blocks = region.blocks(0, seed, sampling, count)
+    blocks = region.blocks(0, seed, sampling, count=count)
     while sum(len(s) for s in samples) < count:
         samples.append(next(blocks))
     s = np.concatenate(samples)[:count]
@@ -256,7 +256,15 @@ def _checked(value: Array, reached: NDArray[Any], weights: Array, level: float, 
 
     there = reached.astype(bool)
     if weights.size:
-        d = Distribution.of(value[there], "larger", int((~there).sum()), 0, weights[there], weights[~there], heaviest)
+        d = Distribution.of(
+            value[there],
+            "larger",
+            int((~there).sum()),
+            singular=0,
+            weights=weights[there],
+            unreached_weights=weights[~there],
+            heaviest=heaviest,
+        )
     else:
         d = Distribution.of(value[there], "larger", int((~there).sum()))
     size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
