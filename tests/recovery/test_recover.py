@@ -303,7 +303,7 @@ def test_what_is_polished_of_a_goal_out_of_reach_is_not_the_same_again(monkeypat
 
     monkeypatch.setattr(goals, "_polished", kept)
     arm, at = hf.arms.load("planar-3r"), np.deg2rad([20, 40, 60])
-    result = hf.recover(arm, {"joint2": at[1]}, at, oracles.pose(None, [0.3, 0.2, 0]), task="planar", samples=0)
+    result = hf.recover(arm, {"joint2": at[1]}, at, goal=oracles.pose(None, [0.3, 0.2, 0]), task="planar", samples=0)
     assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
     assert set(polished) == {0, 1}
     for some in polished.values():
