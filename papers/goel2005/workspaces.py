@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.present.convergence import origins as workspace_output
-from holdfast.report.figures import save_png
+from holdfast.report import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import START_5, START_6, TARGET, law
 from papers.part import Part
@@ -134,7 +134,7 @@ def analysis(method: str, lattice: int = 52) -> tuple[hf.Workspace, float]:
 
 def figure_10(w: hf.Workspace, path: Path) -> None:
     """The four maps of the paper, and the two that it does not show; an arbitrary joint."""
-    from holdfast.report.places import Plane, place_maps
+    from holdfast.report import Plane, place_maps
 
     plane = Plane(
         w.places.points[:, :2], ("x, m", "y, m"), w.places.cells, w.places.axes, (float(TARGET[0]), float(TARGET[1])), "target"

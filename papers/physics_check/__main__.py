@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.probability.intervals import Interval
-from holdfast.report.figures import Curve, Mark, compare_cdf_figure, save_png
+from holdfast.probability import Interval
+from holdfast.report import Curve, Mark, compare_cdf_figure, save_png
 from papers.physics_check.motions import ARRIVED, LIMIT, MOTIONS, RATE, SEED, SPREAD, Row, Setting, runs
 
 HERE = Path(__file__).parent

@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.report.figures import save_png
-from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
-from holdfast.words import percent
+from holdfast.report import Gains, Spread, Stack, gain_figure, save_png, spread_figure, stack_figure
 from papers.seven_dof.study import ARMS, COSTS, DAMPING, PRE_FAILURE, SEED, TASKS, TIME_LIMIT, part
 
 HERE = Path(__file__).parent
@@ -227,6 +225,12 @@ def _verdict(parts: Sequence[Part], name: str) -> str:
         astray = f"median error of those that do not reach the target {errors}"
         words.append(f"{p['arm']}: {arrive}, {error}, {astray}")
     return f"{'; '.join(words)}."
+
+
+def percent(share: float) -> str:
+    """A share with one decimal, and 0 % or 100 % only if it is."""
+    value = 100 * share
+    return f"{value:.0f} %" if value in (0, 100) else f"{value:.1f} %"
 
 
 def _span(values: Sequence[float]) -> str:

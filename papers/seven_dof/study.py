@@ -53,7 +53,6 @@ def part(name: str, task: str, motions: int, folder: Path, seed: int = SEED) -> 
         "cost": {n: {of: c.cost(n, of).tolist() for of in COSTS} for n in c.names},
         "comparable": int(c.comparable.sum()),
         "reasons": {n: c.reasons(n) for n in c.names},
-        "headline": report.headline(c),
     }
     found["seconds"] = time.perf_counter() - begun
     folder.mkdir(parents=True, exist_ok=True)

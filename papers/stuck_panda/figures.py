@@ -12,10 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report.curves import KINDS
-from holdfast.report.figures import INK, WIDTH, finished, save_png, style
-from holdfast.report.outcomes import Stack, stack_figure
-from holdfast.report.places import binned, place_maps
+from holdfast.report import INK, KINDS, WIDTH, Stack, binned, finished, place_maps, save_png, stack_figure, style
 from papers.stuck_panda.study import ELBOW, SHOWN, Elbow, arm
 
 Array = NDArray[np.float64]
