@@ -16,7 +16,7 @@ import pytest
 import chromium
 import holdfast as hf
 import oracles
-from holdfast import arms
+from holdfast import arms, control
 from holdfast.kernels import set_threads
 
 # No test asks how long something takes: on a busy machine hypothesis would call it a failure.
@@ -103,6 +103,12 @@ def pa10() -> hf.Arm:
 @pytest.fixture(scope="session")
 def pa10_7() -> hf.Arm:
     return arms.load("pa10-7dof")
+
+
+@pytest.fixture(scope="session")
+def three() -> control.Pseudoinverse:
+    """The pseudoinverse of the arm of the published examples."""
+    return control.Pseudoinverse(arms.load("planar-3r"), "planar")
 
 
 @pytest.fixture(scope="session")

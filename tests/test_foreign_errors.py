@@ -122,7 +122,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"time_limit": 5.0, "tolerance": 1e-8, "step": None, "radius": 0.1},
         ),
         "solve_ik": (hf.solve_ik, {**at_planar, "poses": pose, "seed": 0, "restarts": 2, "tolerance": 1e-6, "start": q}),
-        "stationary": (hf.stationary, {"law": law, "target": target, "locked": [1], "at": [0.5], "seed": 0}),
+        "stationary_points": (hf.stationary_points, {"law": law, "target": target, "locked": [1], "at": [0.5], "seed": 0}),
         "target_measures": (hf.target_measures, {"law": law, "targets": [target], "starts": 3, "configurations": 1, "seed": 0}),
         "tolerant_workspace": (
             hf.tolerant_workspace,

@@ -288,7 +288,7 @@ CALLS = {
     "simulating motions": lambda arm, law, x: hf.simulate(law, x, [1.5, 1.5]),
     "comparing control laws": lambda arm, law, x: hf.compare_laws([law], x, [1.5, 1.5], restarts=2),
     "computing the trade-off": lambda arm, law, x: hf.control.trade_off(arm, "planar", samples=10, allowed=[0, 0.5]),
-    "looking for stationary points": lambda arm, law, x: hf.stationary(law, [1.5, 1.5], 1, at=1.0),
+    "looking for stationary points": lambda arm, law, x: hf.stationary_points(law, [1.5, 1.5], 1, at=1.0),
     "simulating the basins": lambda arm, law, x: hf.basins(law, [1.5, 1.5], 1, at=1.0, starts=4),
     "simulating failures": lambda arm, law, x: hf.convergence_map(law, 1, 2, configurations=1),
     "looking for the ranges of the joints": lambda arm, law, x: hf.joint_bounds(arm, [1.5, 1.5], "planar", starts=4),

@@ -57,7 +57,7 @@ def test_rest_points_are_those_of_the_specification(monkeypatch):
 def test_rest_points_are_on_the_closed_form_families(rng):
     x = np.array([1.1, 0.2])
     angle = float(rng.uniform(130, 170))
-    found = hf.stationary(three_links.law(), x, locked=1, at=np.deg2rad(angle))
+    found = hf.stationary_points(three_links.law(), x, locked=1, at=np.deg2rad(angle))
     erroneous = found.q[found.kind != Kind.SOLUTION]
     expected = [family(angle, folded, sign, x) for folded in (False, True) for sign in (1, -1)]
     expected = [q for q in expected if q is not None]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -10,8 +12,9 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.arm import kinematics
-from holdfast.arm.task import NAMES, ROWS, Task, as_task, plane_normal, rows_task
+from holdfast.arm.task import Task, as_task, plane_normal, rows_task
 from holdfast.errors import TaskError
+from holdfast.grammar import FAILURES, ROWS, TASKS
 
 
 def jacobian(task, arm, q):
@@ -111,7 +114,7 @@ def test_rows_of_your_own(mixed8, rng):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda arm: as_task(arm, "posse"), "task 'posse' is not known; use one of " + ", ".join(NAMES)),
+        (lambda arm: as_task(arm, "posse"), "task 'posse' is not known; use one of " + ", ".join(TASKS)),
         (lambda arm: as_task(arm, ["vx", "vq"]), "task row 'vq' is not known; rows are " + ", ".join(ROWS)),
         (lambda arm: as_task(arm, ["vx", "vx"]), "each row once"),
         (lambda arm: as_task(arm, []), "at least one row"),
@@ -136,3 +139,17 @@ def test_descriptions_name_the_length_only_where_it_matters(mixed8):
     assert as_task(mixed8, "position", 0.5).describe() == "position (3 rows)"
     assert as_task(mixed8, ["wx", "wy"], 0.5).describe() == "wx+wy (2 rows)"
     assert "length=0.5" in repr(as_task(mixed8, "pose", 0.5))
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_name_is_a_task_with_the_rows_that_it_is_said_to_have(name):
+    arm = hf.arms.load("planar-3r" if name.startswith("planar") else "panda")
+    task = as_task(arm, name)
+    assert (task.name, task.m) == (name, TASKS[name])
+
+
+def test_names_of_tasks_and_failures_are_typed_in_one_place():
+    lists = [", ".join(TASKS), '"pose", "pointing"', ", ".join(FAILURES), '"single", "pairs"']
+    source = Path(hf.__file__).parent
+    typed = {file.name for file in source.rglob("*.py") for text in lists if text in file.read_text(encoding="utf-8")}
+    assert typed == set()

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.equilibria import Basins, Curves, Kind
-from holdfast.present.equilibria.figures import basins_figure
 from holdfast.report import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import TARGET, away, law, wrapped
@@ -83,7 +82,7 @@ def point_table() -> tuple[list[str], float, float, int]:
     worst = [0.0, 0.0]
     other = 0
     for (joint, angle), rows in TABLE.items():
-        points = hf.stationary(law(), TARGET, locked=joint, at=np.deg2rad(angle))
+        points = hf.stationary_points(law(), TARGET, locked=joint, at=np.deg2rad(angle))
         other += len(points) - len(rows)
         for q, kind, eigenvalues in rows:
             k = int(np.argmin([away(p, q) for p in points.q]))
@@ -106,7 +105,7 @@ def point_table() -> tuple[list[str], float, float, int]:
 @cache
 def curves() -> tuple[Curves, ...]:
     """The rest curves of the three joints, for the paper's target."""
-    return tuple(hf.stationary(law(), TARGET, locked=joint) for joint in range(3))
+    return tuple(hf.stationary_points(law(), TARGET, locked=joint) for joint in range(3))
 
 
 def range_table(found: Sequence[Curves]) -> list[str]:
@@ -191,7 +190,7 @@ SHARES = (0.51, 0.49)  # of 4000 samples, the specification's
 def figure_8(path: Path) -> tuple[Basins, float]:
     """Basins, and for how much of the boundary starts on either side end at different solutions."""
     found = hf.basins(law(), TARGET, 1, np.deg2rad(LOCKED_8), grid=GRID)
-    save_png(basins_figure(found), path, dpi=110)
+    save_png(found.figures()["basins"], path, dpi=110)
     return found, split_by(found)
 
 

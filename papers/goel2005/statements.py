@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.equilibria import Kind, RestPoints, orbit
+from holdfast.equilibria import Kind, StationaryPoints, orbit
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import law
 from papers.numbers import beside
@@ -133,8 +133,8 @@ class Window:
 
 @cache
 def window() -> Window:
-    """From the curves that :func:`holdfast.stationary` traces."""
-    curve = next(c for c in hf.stationary(law(), NEAR, locked=JOINT).curves if len(c.hopf_points))
+    """From the curves that :func:`holdfast.stationary_points` traces."""
+    curve = next(c for c in hf.stationary_points(law(), NEAR, locked=JOINT).curves if len(c.hopf_points))
     angle = np.degrees(curve.locked) % 360
     fold = next(float(angle[k]) for k in curve.folds if 160 < angle[k] < 180)
     k = next(k for k in curve.hopf_points if angle[k] < 180)
@@ -145,17 +145,17 @@ def window() -> Window:
     return Window(fold, float(angle[k]), complex(pair[np.argmax(pair.imag)]), least)
 
 
-def at(degrees: float) -> RestPoints:
+def at(degrees: float) -> StationaryPoints:
     """All stationary points of the near target with joint 2 at an angle."""
-    return hf.stationary(law(), NEAR, locked=JOINT, at=np.deg2rad(degrees))
+    return hf.stationary_points(law(), NEAR, locked=JOINT, at=np.deg2rad(degrees))
 
 
-def kinds(points: RestPoints) -> tuple[int, list[str]]:
+def kinds(points: StationaryPoints) -> tuple[int, list[str]]:
     """How many solutions, and the kinds of the others."""
     return points.kinds.count("solution"), [k for k in points.kinds if k != "solution"]
 
 
-def beside_source(points: RestPoints, offset: float, **options: float) -> hf.Runs:
+def beside_source(points: StationaryPoints, offset: float, **options: float) -> hf.Runs:
     """A run from some degrees of joint 1 beside the source near the target."""
     sources = points.of_kind(Kind.SOURCE)
     q = sources.q[int(np.argmin(sources.error))] + np.deg2rad([offset, 0, 0])

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.present.convergence import origins as workspace_output
 from holdfast.report import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import START_5, START_6, TARGET, law
@@ -302,7 +301,7 @@ def result(folder: Path) -> Part:
     table, gaps, w = starts_table()
     grid, seconds = analysis("procedure")
     figure_10(grid, folder / "figure-10.png")
-    save_png(workspace_output.figures(grid)["reach"], folder / "figure-10-joints.png", dpi=80)
+    save_png(grid.figures()["reach"], folder / "figure-10-joints.png", dpi=80)
     sections = [
         "## Workspace analysis",
         "",

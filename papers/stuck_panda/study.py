@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.control import Law
-from holdfast.equilibria import Kind, RestPoints, idle_joints
+from holdfast.equilibria import Kind, StationaryPoints, idle_joints
 from holdfast.simulation import Outcome, Reason
 
 Array = NDArray[np.float64]
@@ -106,7 +106,7 @@ class Elbow:
     task: str
     law: str
     angle: float
-    points: RestPoints
+    points: StationaryPoints
     outcomes: Counter[str]
     reasons: Counter[str]
     isolated: int
@@ -133,7 +133,7 @@ class Elbow:
 def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
     """With the elbow at an angle, deg, under a law."""
     law = laws(task)[name]
-    points = hf.stationary(law, target(), ELBOW, np.deg2rad(angle), seed=SEED)
+    points = hf.stationary_points(law, target(), ELBOW, np.deg2rad(angle), seed=SEED)
     rng = np.random.default_rng(SEED)
     q0 = rng.uniform(arm().lower, arm().upper, (starts, arm().n))
     q0[:, ELBOW] = np.deg2rad(angle)
@@ -155,7 +155,7 @@ def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
     )
 
 
-def explained(points: RestPoints, q: Array, error: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def explained(points: StationaryPoints, q: Array, error: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Of ends (S, n) with errors (S,): at an isolated point; else, with the error of a continuum that attracts."""
     q = q.copy()
     q[:, list(idle_joints(points.law))] = 0.0  # as stationary points have them

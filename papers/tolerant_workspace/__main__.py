@@ -104,7 +104,7 @@ def results(found: Sequence[Best], region: TolerantWorkspace) -> list[str]:
         "",
         "Both use the same closed form of the area; that one is checked against sampled inverse kinematics and a scan of "
         "angles in "
-        "`tests/convergence/test_tolerant_workspace.py`.",
+        "`tests/reach/test_tolerant_workspace.py`.",
         "",
         "![The region](region.png)",
         "",

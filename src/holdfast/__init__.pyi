@@ -33,7 +33,7 @@ from holdfast.designs import DesignSpace as DesignSpace
 from holdfast.designs import design as design
 from holdfast.designs import design_for_convergence as design_for_convergence
 from holdfast.equilibria import basins as basins
-from holdfast.equilibria import stationary as stationary
+from holdfast.equilibria import stationary_points as stationary_points
 from holdfast.errors import ArmError as ArmError
 from holdfast.errors import HoldfastError as HoldfastError
 from holdfast.errors import InputError as InputError

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from holdfast.errors import InputError, TaskError
+from holdfast.grammar import FAILURES, TASKS
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -36,9 +37,11 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
         InputError: There is no such joint.
     """
     if isinstance(failures, str):
-        failures = {"single": 1, "pairs": 2}.get(failures, failures)
+        failures = FAILURES.get(failures, failures)
     if isinstance(failures, str):
-        raise TaskError(f"failures '{failures}' is not known; use 'single', 'pairs', a number of joints, or a list of sets")
+        raise TaskError(
+            f"failures '{failures}' is not known; use {', '.join(map(repr, FAILURES))}, a number of joints, or a list of sets"
+        )
     if isinstance(failures, (int, np.integer)):
         if not 1 <= failures < arm.n:
             raise TaskError(f"{failures} of the {arm.n} joints of '{arm.name}' cannot fail together; use 1 to {arm.n - 1}")
@@ -60,7 +63,7 @@ def failure_sets(arm: Arm, failures: FailureSpec = "single") -> FailureSets:
 def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None:
     """Raise :class:`TaskError` unless every failed arm still has at least as many joints as the task has rows."""
     if arm.n <= rows:
-        fewer = [f"{name} ({m})" for name, m in (("pointing", 5), ("position", 3), ("planar", 2)) if m < min(rows, arm.n)]
+        fewer = [f"{name} ({m})" for name, m in TASKS.items() if m < min(rows, arm.n)]
         advice = f"choose a task with fewer rows, for example {fewer[0]}" if fewer else "no task of this arm is redundant"
         raise TaskError(
             f"'{arm.name}' is not redundant for task '{task}': {arm.n} joints for {rows} rows, "
@@ -94,7 +97,7 @@ def read_joint(arm: Arm, text: str) -> int:
 def read_failures(arm: Arm, text: str) -> FailureSpec:
     """Failures as people write them, as the library takes them: ``single``, ``2``, ``joint2; joint1+joint4``."""
     text = text.strip()
-    if text in ("single", "pairs"):
+    if text in FAILURES:
         return text
     # A lone number could be a joint or how many: it is how many, as --help says.
     if text.isdecimal():

@@ -15,6 +15,12 @@ import numpy as np
 
 from holdfast.errors import InputError
 
+# The tasks that have a name, with their number of rows; see :class:`holdfast.Task`.
+TASKS = {"pose": 6, "pointing": 5, "position": 3, "planar": 2, "planar-pose": 3}
+ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
+FAILURES = {"single": 1, "pairs": 2}  # what has a name among failures, and how many joints fail together
+FAILURES_HELP = f"{', '.join(FAILURES)}, a number of joints, or sets such as 'joint2; joint1+joint4'"
+
 _WORD = re.compile(r"[A-Za-z_][\w.-]*")
 
 

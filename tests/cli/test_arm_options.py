@@ -161,7 +161,7 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
         ),
         (("self-motion", "planar-3r", "--target", "nan,0.2"), "--target holds NaN or infinity;"),
         (
-            ("stationary", "planar-3r", "--target", "inf,1", "--lock", "2"),
+            ("stationary-points", "planar-3r", "--target", "inf,1", "--lock", "2"),
             "--target holds NaN or infinity; give finite numbers",
         ),
     ],

@@ -36,12 +36,15 @@ FIRST = {  # commands before
 CHEAPER = {  # options at the end, the last of which counts
     "assess": "--poses 16",
     "basins": "--grid 4",
-    "compare": "--motions 2",
+    "best-law": "--starts 2 --configurations 2 --time-limit 60",
+    "compare-laws": "--motions 2",
     "configure": "--starts 2",
+    "convergence-map": "--starts 2 --configurations 2 --time-limit 60",
     "design": "--designs 4 --climbs 1 --poses 8 --fresh 32",
     "follow": "--samples 11",
     "recover": "--samples 0",
     "swing": "--duration 0.2",
+    "target-measures": "--target grid:3 --starts 2 --configurations 2 --points 1",
     "teleop run": "--operators 2",
     "teleop tasks": "--per-joint 20 --select 4 --no-special",
     "tolerant-workspace": "--points 50",
@@ -49,7 +52,7 @@ CHEAPER = {  # options at the end, the last of which counts
     "workspace": "--starts 2 --configurations 2 --points 1",
 }
 SERVERS = {"studio", "teleop serve"}  # until they are stopped: tested apart
-QUICK = {"arms", "describe", "index", "susceptibility", "stationary", "swing"}
+QUICK = {"arms", "describe", "index", "susceptibility", "stationary-points", "swing"}
 QUICK |= {"study new", "study run", "teleop allocation", "teleop protocol", "teleop texts"}
 
 

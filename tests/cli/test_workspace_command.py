@@ -1,4 +1,4 @@
-"""``holdfast workspace``: what it prints and writes."""
+"""``holdfast workspace``, ``target-measures``, ``convergence-map`` and ``best-law``: what they print and write."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ def test_measures_of_a_planar_arm(cli, tmp_path):
     assert "-24.30 to 114.30 deg" in out
     assert "Rsens" in out
     assert "undecided at the time limit" in out
-    assert {"workspace.csv", "workspace.json", "reach.png", "finish.png", "run"} == {p.name for p in tmp_path.iterdir()}
+    assert {"workspace.csv", "workspace.json", "reach.png", "finish.png", "report.html", "run"} == {
+        p.name for p in tmp_path.iterdir()
+    }
     data = json.loads((tmp_path / "workspace.json").read_text())
     assert data["method"] == "brute"
     assert data["starts"] == 13
@@ -25,19 +27,19 @@ def test_measures_of_a_planar_arm(cli, tmp_path):
 
 def test_maps_and_several_laws(cli, ask, tmp_path):
     few = ["--starts", "4", "--configurations", "2", "--time-limit", "60"]
-    both = ask("workspace", "planar-3r", "--target", "1,1", *few, "--laws", "pseudoinverse; damped:0.1")
+    both = ask("best-law", "planar-3r", "--target", "1,1", *few, "--law", "pseudoinverse", "--law", "damped:0.1")
     assert len(both["maps"]) == 2
     assert both["best"] in both["laws"]
     assert both["maps"][0]["places"] == 4
-    flat = ["workspace", "planar-3r", "--map", "--over", "targets", "--target", "grid:5", *few]
+    flat = ["convergence-map", "planar-3r", "--over", "targets", "--target", "grid:5", *few]
     code, out, _ = cli(*flat, "--out", tmp_path)
     assert code == 0
     assert "13 targets" in out
-    assert {"map.csv", "map.json", "outcomes.png", "map.png"} == {p.name for p in tmp_path.iterdir()}
+    assert {"map.csv", "map.json", "outcomes.png", "map.png", "report.html"} == {p.name for p in tmp_path.iterdir()}
 
 
 def test_measures_by_sampling_come_with_intervals(cli, tmp_path):
-    few = ["--sampled", "--starts", "5", "--configurations", "2", "--points", "1"]
+    few = ["--method", "sampled", "--starts", "5", "--configurations", "2", "--points", "1"]
     code, out, err = cli("workspace", "planar-3r", "--target", "1.5,1.5", *few, "--out", tmp_path)
     assert (code, err) == (0, "")
     assert "95 % interval" in out
@@ -49,7 +51,7 @@ def test_measures_by_sampling_come_with_intervals(cli, tmp_path):
 
 
 def test_points_over_targets_are_those_asked_for(ask):
-    few = ["workspace", "planar-3r", "--target", "grid:3", "--starts", "3", "--configurations", "2"]
+    few = ["target-measures", "planar-3r", "--target", "grid:3", "--starts", "3", "--configurations", "2"]
     counts = [np.sum(ask(*few, *more)["ends"]) for more in ((), ("--points", "2"), ("--points", "5"))]
     assert counts[0] == counts[1] < counts[2]
 
@@ -57,15 +59,16 @@ def test_points_over_targets_are_those_asked_for(ask):
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (["--target", "1,2,3"], "needs 2, in m"),
-        (["--target", "1.5,1.5", "--map", "--procedure"], "--procedure"),
-        (["--target", "1.5,1.5", "--sampled", "--procedure"], "exclude each other"),
-        (["--target", "1.5,1.5", "--laws", "damped:x"], "not a number"),
-        (["--target", "1.5,1.5", "--laws", "pseudoinverse:2"], "takes no setting"),
-        (["--target", "9,9"], "within its reach"),
+        (["workspace", "--target", "1,2,3"], "needs 2, in m"),
+        (["workspace", "--target", "1.5,1.5", "--method", "nothing"], "--method"),
+        (["workspace", "--target", "9,9"], "within its reach"),
+        (["convergence-map", "--target", "1.5,1.5", "--over", "nothing"], "--over"),
+        (["best-law", "--target", "1.5,1.5", "--law", "damped:x"], "not a number"),
+        (["best-law", "--target", "1.5,1.5", "--law", "pseudoinverse:2"], "takes no setting"),
+        (["best-law", "--target", "1.5,1.5", "--law", "pseudoinverse"], "give two or more"),
     ],
 )
 def test_bad_input(cli, more, message):
-    code, _, err = cli("workspace", "planar-3r", *more)
+    code, _, err = cli(more[0], "planar-3r", *more[1:])
     assert code == 2
     assert message in err

@@ -11,7 +11,6 @@ import holdfast as hf
 import oracles
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.maps import shared
-from holdfast.present.convergence.maps import save
 from holdfast.probability.intervals import Interval
 
 
@@ -137,8 +136,8 @@ def test_places_out_of_reach_are_left_out(spatial, goal):
 
 
 def test_files(sampled, tmp_path):
-    names = {file.name for file in save(sampled, tmp_path / "a")}
-    assert names == {"map.csv", "map.json", "outcomes.png", "map-top.png", "map-side.png"}
+    names = {file.name for file in sampled.save(tmp_path / "a")}
+    assert names == {"map.csv", "map.json", "outcomes.png", "map-top.png", "map-side.png", "report.html"}
     data = json.loads((tmp_path / "a" / "map.json").read_text())
     assert data["motions"] == 48
     assert data["shares"]["converged"][sampled.columns[3]]["share"] == pytest.approx(sampled.values()[:, 3].mean())
@@ -210,3 +209,12 @@ def test_words_that_are_none_are_told(sampled, spatial):
         hf.best_law([law, law], 1, 1)
     with pytest.raises(hf.InputError, match="one arm and task"):
         hf.best_law({"a": law, "b": pseudoinverse(hf.arms.load("planar-3r"), "planar")}, 1, 1)
+
+
+def test_motions_as_a_data_set(sampled):
+    data = sampled.to_xarray()
+    for k, name in enumerate(sampled.columns):
+        share = float((data.code.sel(locked=name) == 0).mean())
+        assert share == pytest.approx(sampled.shares()[name].value)
+        assert np.array_equal(data.in_reach[..., k], sampled.in_reach[..., k])
+    assert np.array_equal(data.q0.sel(joint=sampled.law.arm.joint_names[0]), sampled.q0[..., 0])

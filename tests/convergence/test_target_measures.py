@@ -30,6 +30,9 @@ def test_each_target_is_a_workspace_of_its_own(three, tmp_path):
     rows = list(csv.DictReader(files[0].read_text(encoding="utf-8").splitlines()))
     assert float(rows[1]["Ravg_any_percent"]) == pytest.approx(found.measures["Ravg"][1, -1])
     assert rows[2]["Ravg_any_percent"] == ""
+    data = found.to_xarray()
+    assert float(data.Ravg.sel(joint="any")[1].mean()) == pytest.approx(found.measures["Ravg"][1, -1])
+    assert data.x.values.tolist() == goals[:, 0].tolist()
 
 
 def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
@@ -58,7 +61,7 @@ def test_reach_is_the_share_of_a_way_inside_the_ring_of_a_two_link_arm(three):
 
 
 def test_on_the_command_line(tmp_path, monkeypatch, capsys):
-    command = ["holdfast", "workspace", "planar-3r", "--target", "grid:3", "--starts", "4", "--configurations", "3"]
+    command = ["holdfast", "target-measures", "planar-3r", "--target", "grid:3", "--starts", "4", "--configurations", "3"]
     monkeypatch.setattr("sys.argv", [*command, "--points", "1", "--out", str(tmp_path / "out")])
     with pytest.raises(SystemExit) as done:
         main()
@@ -69,4 +72,5 @@ def test_on_the_command_line(tmp_path, monkeypatch, capsys):
         "targets.json",
         "targets-reach.png",
         "targets-finish.png",
+        "report.html",
     }

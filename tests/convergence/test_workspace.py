@@ -16,7 +16,6 @@ from holdfast.convergence.healthy_motion import HealthyPaths
 from holdfast.convergence.places import configurations_at, lattice, read_places
 from holdfast.convergence.slow_endings import arriving
 from holdfast.present.convergence import origins as workspace_output
-from holdfast.present.convergence.origins import save, summary
 
 # Starts, then R100 and Ravg of joints 1 to 3 and an arbitrary one: shared mathematics, section 11.
 PUBLISHED = {
@@ -219,13 +218,13 @@ def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
 def test_files(small, tmp_path, monkeypatch):
     w = small["procedure"]
     monkeypatch.setattr(workspace_output, "figures", lambda w: {})  # those of the command are looked at in its test
-    assert [file.name for file in save(w, tmp_path)] == ["workspace.csv", "workspace.json"]
+    assert [file.name for file in w.save(tmp_path)] == ["workspace.csv", "workspace.json", "report.html"]
     lines = (tmp_path / "workspace.csv").read_text().splitlines()
     assert len(lines) == len(w.places) + 1
     assert "R100_joint1_percent" in lines[0]
     assert "Fsens_any_percent" in lines[0]
     data = json.loads((tmp_path / "workspace.json").read_text())
-    assert data == summary(w)
+    assert data == w.to_dict()
     assert data["mean_percent"]["R100"]["any"] == pytest.approx(np.nanmean(w.reach.full[:, 3]))
     assert any("no sink" in line for line in w.describe())
 
@@ -259,3 +258,13 @@ def test_an_arm_without_redundancy_is_refused():
     panda = pseudoinverse(hf.arms.load("panda"), "position")
     with pytest.raises(hf.TaskError, match="lattice"):
         hf.workspace(panda, [0.5, 0, 0.5], "grid:5")
+
+
+def test_measures_as_a_data_set(small):
+    w = small["procedure"]
+    data = w.to_xarray()
+    mean = data.Ravg.sel(joint="any").mean("place", skipna=True)
+    assert float(mean) == pytest.approx(w.means()["Ravg"][-1])
+    assert int(data.ends.sel(ending="converged").sum()) == w.ends[:, 0].sum()
+    at = int(np.argmax(w.configurations))
+    assert [float(data[axis][at]) for axis in "xyz"] == w.places.points[at].tolist()

@@ -23,21 +23,14 @@ from holdfast.result import Result
 METHODS = ("report", "save", "figures", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
 # Results that do not derive from Result yet, and those whose numbers or sentences nothing gives yet: both only get shorter.
 APART = {
-    "ConvergenceMap",
     "FreeSwing",
-    "LawChoice",
     "Optimum",
     "TolerantWorkspace",
-    "Workspace",
-    "equilibria.Basins",
-    "equilibria.Curves",
-    "equilibria.Orbit",
     "recovery.Replay",
-    "equilibria.RestPoints",
     "recovery.WhatIsLeft",
     "solvers.SelfMotion",
 }
-NO_NUMBERS = {"Assessment", "Comparison", "LawComparison", "Recovery", "TargetMeasures"}
+NO_NUMBERS = {"Assessment", "Comparison", "Recovery"}
 NO_SENTENCES = {"Assessment", "Comparison"}
 
 
@@ -51,7 +44,7 @@ RESULTS = named(
         "": "Assessment Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison Optimum "
         "PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
         "control": "TradeOff",
-        "equilibria": "Basins Curves Orbit RestPoints",
+        "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "Replay WhatIsLeft",
         "solvers": "SelfMotion",
         "teleop": "Replay TaskChoice",

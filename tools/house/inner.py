@@ -74,7 +74,7 @@ def _beyond(module: str, chain: list[str], files: dict[str, File]) -> Iterator[s
             module = inner if inner in files else ".".join(file.offers.get(name, ("", "")))
         elif inner in files and files[inner].package:
             module = inner
-        elif inner in files or name.startswith("_") != name.startswith("__") or file.package and not name.startswith("__"):
+        elif not name.startswith("__") and (inner in files or file.package or name.startswith("_")):
             yield inner
             return
         if module not in files:

@@ -64,8 +64,8 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "recovery": lambda: hf.recover(
         PANDA, {"panda_joint4": -2.0}, [2, 0.6, 0, -2, 0, 2.5, 0.8], task="position", samples=40, starts=32
     ),
-    "rest_points": lambda: hf.stationary(LAW, [1.5, 1.5], 1, np.deg2rad([140])),
-    "rest_curves": lambda: hf.stationary(LAW, [1.5, 1.5], 1),
+    "rest_points": lambda: hf.stationary_points(LAW, [1.5, 1.5], 1, np.deg2rad([140])),
+    "rest_curves": lambda: hf.stationary_points(LAW, [1.5, 1.5], 1),
     "basins": lambda: hf.basins(LAW, [1.5, 1.5], 1, np.deg2rad([45]), grid=8),
     "runs": lambda: hf.simulate(LAW, np.array([AT, -AT]), [1.5, 1.5], [(1, 0.5)]),
     "runs_in_cycles": lambda: hf.simulate(

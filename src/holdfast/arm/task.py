@@ -15,11 +15,10 @@ from holdfast.arm import kinematics
 from holdfast.arm.machine import Machine
 from holdfast.arm.poses import check_poses
 from holdfast.errors import InputError, TaskError
+from holdfast.grammar import ROWS, TASKS
 from holdfast.kernels.program import SX
 
 Array = NDArray[np.float64]
-ROWS = ("vx", "vy", "vz", "wx", "wy", "wz")
-NAMES = ("pose", "pointing", "position", "planar", "planar-pose")
 
 
 @checked_class
@@ -175,7 +174,7 @@ def as_task(arm: Machine, task: str | Task | Sequence[str], length: float | None
         if task == "planar-pose":
             rows.append(np.r_[0, 0, 0, normal])
         return Task(task, np.array(rows), "base", size)
-    raise TaskError(f"task '{task}' is not known; use one of {', '.join(NAMES)} or a list of rows such as vx, vy, wz")
+    raise TaskError(f"task '{task}' is not known; use one of {', '.join(TASKS)} or a list of rows such as vx, vy, wz")
 
 
 # ---- targets -----------------------------------------------------------------------------------------------------

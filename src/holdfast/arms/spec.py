@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from holdfast.errors import InputError
-from holdfast.grammar import is_number
+from holdfast.grammar import ROWS, is_number
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -95,7 +95,7 @@ def read_task(text: str | None, spec: str, arm: Arm, option: str = "--task") -> 
     """A task as the library takes it; ``option`` is what an error calls it."""
     if text is None:
         return default_task(spec, arm)
-    from holdfast.arm.task import ROWS, rows_task
+    from holdfast.arm.task import rows_task
 
     frame, _, rest = text.rpartition(":")
     if frame not in ("", "base", "tool"):

@@ -10,6 +10,7 @@ import numpy as np
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.errors import TaskError
+from holdfast.grammar import TASKS
 from holdfast.indices.determinants import RelativeManipulability
 
 _DRAWS = 256
@@ -59,9 +60,9 @@ def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
 
 def structures(arm: Arm) -> list[Structure]:
     """The structure of every task that the arm's kind of motion has, the most demanding first."""
-    names = ["planar-pose", "planar"] if plane_normal(arm) is not None else ["pose", "pointing", "position"]
+    flat = plane_normal(arm) is not None
     found = []
-    for name in names:
+    for name in sorted((name for name in TASKS if name.startswith("planar") == flat), key=TASKS.__getitem__, reverse=True):
         try:
             found.append(structure(arm, name))
         except TaskError:

@@ -1,12 +1,14 @@
-"""Options that name a control law, for several commands."""
+"""Options that name a control law, what it should do and what has locked, for several commands."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
 
-from holdfast.cli.options import TARGET_HELP
+from holdfast.cli.options import TARGET_HELP, read_arm, read_joint, read_numbers, read_target, read_task
+from holdfast.errors import InputError
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
@@ -14,11 +16,12 @@ if TYPE_CHECKING:
     from holdfast.arm.task import Task
     from holdfast.control.law import Law
 
-TargetOption = Annotated[
+TargetOption = Annotated[str, typer.Option("--target", help=TARGET_HELP, show_default=False)]
+TargetsOption = Annotated[
     str,
     typer.Option(
         "--target",
-        help=TARGET_HELP,
+        help=f"{TARGET_HELP} Many targets: a lattice (grid:12) or a number of random ones (random:200).",
         show_default=False,
     ),
 ]
@@ -28,13 +31,64 @@ LawsOption = Annotated[
     list[str] | None,
     typer.Option(
         "--law",
-        help=f"A law to compare: {LAW_HELP} May be given again; the others are compared with the first.",
+        help=f"A law to compare: {LAW_HELP} May be given again.",
         show_default="pseudoinverse and failure-tolerant",
     ),
 ]
+GainOption = Annotated[float, typer.Option("--gain", help="Ke, per s or per cycle.")]
+SpeedLimitOption = Annotated[
+    float | None,
+    typer.Option("--speed-limit", help="Of the end effector, m/s or m per cycle. Default: none.", show_default=False),
+]
+CyclesOption = Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")]
+TimeLimitOption = Annotated[
+    float | None, typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles")
+]
+LockOption = Annotated[
+    list[str],
+    typer.Option("--lock", help="A joint that is locked. May be given again, with --at.", show_default=False),
+]
+AtDegreesOption = Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")]
 
 
 def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
     """The law that --law names; ``option`` is what an error calls it."""
     law: Law = LAWS.make(label, arm, option=option, task=task, **more)
     return law
+
+
+def read_laws(labels: list[str] | None, arm: Arm, task: str | None, spec: str, **more: Any) -> list[Law]:
+    """The laws to compare, for the arm that ``spec`` names."""
+    chosen = read_task(task, spec, arm)
+    return [read_law(label, arm, chosen, **more) for label in labels or ["pseudoinverse", "failure-tolerant"]]
+
+
+def law_of(
+    label: str, arm: str, task: str | None, base: str | None, tip: str | None, hold: list[str] | None, **more: Any
+) -> Law:
+    """The law that --law, ARM, --task, --base, --tip and --hold name."""
+    model = read_arm(arm, base, tip, hold)
+    return read_law(label, model, read_task(task, arm, model), **more)
+
+
+def read_locked(arm: Arm, lock: list[str], at: str | None, degrees: bool) -> tuple[list[int], Any]:
+    """The joints of --lock, and their values of --at, rad or m."""
+    joints = [read_joint(arm, text) for text in lock]
+    if at is None:
+        return joints, None
+    values = read_numbers("--at", at, "one number for each locked joint")
+    if values.size != len(joints):
+        raise InputError(f"--at has {values.size} numbers; give one for each of the {len(joints)} locked joints")
+    return joints, np.where(arm.prismatic[joints], values, np.deg2rad(values)) if degrees else values
+
+
+def read_places(text: str) -> str | int:
+    """A lattice as it is written, or a number of random places."""
+    text = text.removeprefix("random:")
+    return int(text) if text.isdecimal() else text
+
+
+def read_targets(law: Law, text: str) -> Any:
+    """--target as the library takes it where it may be one or many."""
+    many = text.startswith(("grid", "random:"))
+    return read_places(text) if many else read_target(law.arm, law.task, text)

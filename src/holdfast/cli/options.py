@@ -19,7 +19,7 @@ from holdfast.errors import InputError
 from holdfast.failures import read_failures as read_failures
 from holdfast.failures import read_joint as read_joint
 from holdfast.files import reading
-from holdfast.grammar import is_number
+from holdfast.grammar import FAILURES_HELP, TASKS, is_number
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -48,7 +48,7 @@ HoldOption = Annotated[
     ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for machines.")]
-TASK_HELP = "pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
+TASK_HELP = f"{', '.join(TASKS)}, or rows such as vx,vy,wz or tool:vz. Default: the arm's own."
 TaskOption = Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)]
 TARGET_HELP = "Where the tool should go, m: as many numbers as the task has rows; with turns x,y,z and quaternion x,y,z,w."
 LengthOption = Annotated[float, typer.Option("--length", help="Characteristic length, m, that divides linear rows.")]
@@ -82,7 +82,7 @@ PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this 
 SeedOption = Annotated[int, typer.Option("--seed", help="Of all random draws.")]
 FailuresOption = Annotated[
     str,
-    typer.Option("--failures", help="single, pairs, a number of joints, or sets such as 'joint2; joint1+joint4' or '2; 1+4'."),
+    typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'."),
 ]
 
 MOUNTS = {

@@ -15,7 +15,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.errors import InputError
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled_data
 from holdfast.notice import says
@@ -273,11 +273,7 @@ def write(law: _Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, P
     Raises:
         StoreError: They cannot be written.
     """
-    texts = c_files(law, name)
-    target = made(folder)
-    source, header, example, test = (target / file for file in texts)
-    for file, text in texts.items():
-        replaced(target / file, text)
+    source, header, example, test = put(folder, c_files(law, name))
     return source, header, example, test
 
 

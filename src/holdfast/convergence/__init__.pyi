@@ -3,7 +3,6 @@ from holdfast.convergence.law_choice import LawChoice as LawChoice
 from holdfast.convergence.law_choice import best_law as best_law
 from holdfast.convergence.law_comparison import Case as Case
 from holdfast.convergence.law_comparison import LawComparison as LawComparison
-from holdfast.convergence.law_comparison import compare_laws as compare_laws
 from holdfast.convergence.maps import ConvergenceMap as ConvergenceMap
 from holdfast.convergence.maps import convergence_map as convergence_map
 from holdfast.convergence.measures import Measures as Measures
@@ -13,5 +12,6 @@ from holdfast.convergence.places import Places as Places
 from holdfast.convergence.places import configurations_at as configurations_at
 from holdfast.convergence.random_motions import PointToPoint as PointToPoint
 from holdfast.convergence.random_motions import point_to_point as point_to_point
+from holdfast.convergence.same_motions import compare_laws as compare_laws
 from holdfast.convergence.targets import TargetMeasures as TargetMeasures
 from holdfast.convergence.targets import target_measures as target_measures

@@ -15,7 +15,7 @@ from holdfast.convergence.measures import NAMES, Arcs, Flags, Index, Measures, a
 from holdfast.convergence.places import Places, configurations_at, in_a_plane, picked_at, read_places
 from holdfast.convergence.slow_endings import arriving
 from holdfast.engine.store import Column
-from holdfast.equilibria.search import stationary
+from holdfast.equilibria.search import stationary_points
 from holdfast.errors import InputError, TaskError
 from holdfast.reach.bounds import joint_bounds
 from holdfast.simulation.closed_loop import simulate
@@ -235,7 +235,7 @@ def _sinks(law: Law, pose: Array) -> dict[int, Arcs]:
     """Of each joint, the locked values with a sink, and those beside which motions may circle or creep."""
     found: dict[int, Arcs] = {}
     for j in range(law.arm.n):
-        curves = stationary(law, pose, locked=j)
+        curves = stationary_points(law, pose, locked=j)
         if len(curves.loose):
             raise InputError(
                 f"with {law.arm.joint_names[j]} locked the points of rest form surfaces, which were only sampled, so that the "

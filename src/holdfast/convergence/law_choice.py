@@ -16,12 +16,13 @@ from holdfast.convergence.places import Places
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.probability.intervals import Difference, Interval, check_confidence
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class LawChoice:
+class LawChoice(Result):
     """Laws on the same failures: the same starts, targets and locked joints.
 
     Attributes:

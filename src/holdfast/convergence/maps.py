@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +16,13 @@ from holdfast.convergence.places import Places, picked_at, read_places
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.probability.intervals import Interval, check_confidence
+from holdfast.result import Result
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Outcome, Reason
 from holdfast.solvers.inverse_kinematics import solver
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -30,11 +34,12 @@ TOLERANCE = 1e-8
 NONE = 255  # no configuration was found there
 RESTARTS, REACHED = 20, 1e-4  # starts that look for the target with the joint standing; m and rad
 _SLICE = 1 << 16  # runs side by side; no result depends on it
+_BY_LOCK = ("code", "reason", "in_reach", "limits_passed")
 _OUTCOMES = {o.name.lower(): o for o in Outcome}
 
 
 @dataclass(frozen=True, eq=False)
-class ConvergenceMap:
+class ConvergenceMap(Result):
     """How P x C motions ended with each joint locked from the start, and with none: the last column.
 
     Attributes:
@@ -106,6 +111,13 @@ class ConvergenceMap:
         check_confidence(confidence)
         values, each = self.values(outcome), int(self.known.sum(axis=1).max(initial=0))
         return {name: shared(values[:, k], each, confidence) for k, name in enumerate(self.columns)}
+
+    def to_xarray(self) -> xr.Dataset:
+        """Of each motion from or to each place: where it starts and should go, and how it ended with each joint locked."""
+        each = ("place", "motion")
+        values: dict[str, Any] = {name: ((*each, "locked"), getattr(self, name)) for name in _BY_LOCK}
+        values |= {"q0": ((*each, "joint"), self.q0), "target": ((*each, "row", "column"), self.target)}
+        return self.places.dataset(values, locked=self.columns, joint=self.law.arm.joint_names)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,7 +32,11 @@ from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.registry import LAWS
+from holdfast.result import Result
 from holdfast.simulation.runs import Outcome
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
@@ -43,7 +47,7 @@ _CHUNK = 128  # starts analysed together and stored as one; no result depends on
 
 
 @dataclass(frozen=True, eq=False)
-class Workspace:
+class Workspace(Result):
     """Measures of the paper for P starts; the last column of each (P, n + 1) array is for an arbitrary joint.
 
     Attributes:
@@ -131,6 +135,13 @@ class Workspace:
         none = Interval(np.nan, np.nan, np.nan, confidence)
         return tuple(Interval.of(h, k, confidence) if k else none for h, k in zip(hits, known, strict=True))
 
+    def to_xarray(self) -> xr.Dataset:
+        """The measures, percent, by start and joint (the last is ``any``), and of each start its place and its counts."""
+        values: dict[str, Any] = {name: (("place", "joint"), v, {"units": "percent"}) for name, v in self.measures.items()}
+        values |= {"configurations": ("place", self.configurations), "lost": ("place", self.lost)}
+        values["ends"] = (("place", "ending"), self.ends)
+        return self.places.dataset(values, joint=self.columns, ending=ENDS)
+
     def describe(self) -> list[str]:
         """A few sentences for people."""
         reached = int((self.configurations > 0).sum())
@@ -214,8 +225,8 @@ def workspace(
         relative_to: ``inside``: F of the part inside, as in the paper; configurations without any are left out. ``whole``:
             of the whole way.
         sinks: For the procedure, of joints (from 0), the arcs of locked values at which failures are simulated, rad. If not
-            given: where :func:`holdfast.stationary` finds sinks and whole curves of rest points, and 0.02 rad on either side of
-            Hopf points, beside which limit cycles live.
+            given: where :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02 rad on
+            either side of Hopf points, beside which limit cycles live.
         seed: Of the search for configurations, and of random starts.
         store: A folder to keep the results in; a stopped analysis goes on there.
         progress: Called with (starts done, starts in all).

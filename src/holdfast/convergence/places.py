@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,8 @@ from holdfast.solvers.inverse_kinematics import solver
 from holdfast.solvers.self_motions import TOLERANCE, Component, fibres
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from holdfast.solvers.self_motions import SelfMotion
 
 Array = NDArray[np.float64]
@@ -48,6 +51,13 @@ class Places:
     def points(self) -> Array:
         """(P, 3) tool points in the world, m."""
         return self.poses[:, :3, 3]
+
+    def dataset(self, values: Mapping[str, Any], **names: Sequence[str]) -> xr.Dataset:
+        """Values over the dimension ``place``, with the tool points as its coordinates x, y and z, m, and names of others."""
+        import xarray as xr
+
+        points = {axis: ("place", v, {"units": "m"}) for axis, v in zip("xyz", self.points.T, strict=True)}
+        return xr.Dataset(values, {**points, **{name: list(labels) for name, labels in names.items()}})
 
 
 def in_a_plane(task: Task) -> bool:

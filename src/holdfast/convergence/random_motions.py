@@ -93,7 +93,7 @@ def point_to_point(
     nearest, farthest = (0.0, np.inf) if distance is None else distance
     if not 0 <= nearest < farthest:
         raise InputError(f"distance is {nearest:g} to {farthest:g} m; the first must be 0 or more and below the second")
-    joints = _joints(arm, reachable_after)
+    joints = read_joints(arm, reachable_after, "reachable_after")
     chosen = as_task(arm, task)
     wishes = [] if distance is None else [f"{nearest:g} to {farthest:g} m long"]
     if joints:
@@ -123,12 +123,13 @@ def point_to_point(
     return PointToPoint(arm, q0, target, q_target, drawn, wish)
 
 
-def _joints(arm: Arm, given: Literal["each"] | Sequence[str | int] | None) -> list[int]:
+def read_joints(arm: Arm, given: Literal["each"] | Sequence[str | int] | None, name: str) -> list[int]:
+    """Indices of the joints of an argument ``name`` that is a list of them, ``each``, or None for none."""
     if given is None:
         return []
     if isinstance(given, str):
         if given != "each":
-            raise InputError(f"reachable_after is '{given}'; give 'each' or a list of joints")
+            raise InputError(f"{name} is '{given}'; give 'each', a list of joints, or None")
         return list(range(arm.n))
     return [arm.joint_index(j) for j in given]
 

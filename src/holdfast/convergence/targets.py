@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,10 +15,12 @@ from holdfast.convergence.analysis import ENDS, Beginnings, Method, prepared, us
 from holdfast.convergence.measures import NAMES
 from holdfast.convergence.origins import analysed, mean_intervals, mean_over
 from holdfast.convergence.places import Places, read_places
-from holdfast.convergence.table import save_places
 from holdfast.notice import says
 from holdfast.probability.intervals import check_confidence
 from holdfast.result import Result
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -84,30 +85,12 @@ class TargetMeasures(Result):
             f"failures: {told}",
         ]
 
-    @says("writing the results")
-    def save(self, folder: str | Path) -> list[Path]:
-        """Write ``targets.csv``, ``targets.json`` and maps, ``targets-reach.png`` and ``targets-finish.png``.
-
-        The table has for each target the means over the starts and their 95 % intervals.
-
-        Raises:
-            StoreError: The folder cannot be written.
-        """
-        names = (*self.law.arm.joint_names, "any")
-        columns: list[str] = list(ENDS)
-        values: list[NDArray[Any]] = [self.ends]
-        for name, sure in self.target_intervals().items():
-            values += [self.measures[name], sure[..., 0], sure[..., 1]]
-            columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
-        facts: dict[str, Any] = {"arm": self.law.arm.title, "law": self.law.describe(), "starts": len(self.starts)}
-        files = save_places(folder, "targets", self.targets, columns, values, facts)
-        maps: list[Path] = self._presented("save_maps", Path(folder))
-        return files + maps
-
-    def figures(self) -> dict[str, Any]:
-        """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
-        maps: dict[str, Any] = self._presented("figures")
-        return maps
+    def to_xarray(self) -> xr.Dataset:
+        """The measures, percent, by target, start and joint (the last is ``any``), and of each target its place."""
+        each = ("place", "start")
+        values: dict[str, Any] = {name: ((*each, "joint"), v, {"units": "percent"}) for name, v in self.values.items()}
+        values |= {"configurations": (each, self.configurations), "ends": (("place", "ending"), self.ends)}
+        return self.targets.dataset(values, joint=(*self.law.arm.joint_names, "any"), ending=ENDS)
 
 
 @checked

@@ -1,6 +1,6 @@
 """Where planar arms of three joints get stuck, for all targets and any link lengths at once.
 
-The reverse of :func:`holdfast.stationary`: not the rest points of one target, but the targets of every rest point. With
+The reverse of :func:`holdfast.stationary_points`: not the rest points of one target, but the targets of every rest point. With
 joint i locked the arm can only rest where the columns of the two healthy joints line up, ``rank(iJ) = 1``: a curve of
 shapes (two of the three angles) that no target enters. On it the error must be along one direction b, so that the targets
 of a shape lie on a line ``x + lambda b``, and the linearised motion is ``M0 + lambda M1`` there: where it is a sink is a

@@ -376,14 +376,7 @@ def described(name: str, seed: int, cells: Sequence[Cell], source: str) -> dict[
         "seed": seed,
         "source": source,
         "cells": [
-            {
-                "name": c.name,
-                "labels": dict(c.labels),
-                "rows": c.rows,
-                "chunk": c.chunk,
-                "summed": c.summed,
-                "digest": c.digest,
-            }
+            {"name": c.name, "labels": dict(c.labels)} | {k: getattr(c, k) for k in ("rows", "chunk", "summed", "digest")}
             for c in cells
         ],
     }

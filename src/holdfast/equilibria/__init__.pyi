@@ -5,8 +5,8 @@ from holdfast.equilibria.curves import Curves as Curves
 from holdfast.equilibria.curves import Segment as Segment
 from holdfast.equilibria.limit_cycles import Orbit as Orbit
 from holdfast.equilibria.limit_cycles import orbit as orbit
-from holdfast.equilibria.points import RestPoints as RestPoints
-from holdfast.equilibria.search import stationary as stationary
+from holdfast.equilibria.points import StationaryPoints as StationaryPoints
+from holdfast.equilibria.search import stationary_points as stationary_points
 from holdfast.equilibria.stability import Kind as Kind
 from holdfast.equilibria.stability import Linearisation as Linearisation
 from holdfast.equilibria.stability import linearisation as linearisation

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,18 +13,21 @@ from holdfast.arguments import LARGEST, checked, real_numbers
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
-from holdfast.equilibria.points import Joints, RestPoints, read_joints, rest_points, search
+from holdfast.equilibria.points import Joints, StationaryPoints, classified, read_joints, read_values, search
 from holdfast.equilibria.stability import Kind
 from holdfast.equilibria.system import RestSystem, distinct
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.probability.intervals import Interval, check_confidence
+from holdfast.result import Result
 from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Outcome, Runs
 from holdfast.solvers import joint_space
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    import xarray as xr
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -38,7 +41,7 @@ _SPACING = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Basins:
+class Basins(Result):
     """Where N starts ended.
 
     Attributes:
@@ -51,16 +54,17 @@ class Basins:
         boundaries: Lines of configurations (K, n) that run into saddles, for two healthy joints: starts on either side may end
             at different points. Continuous, so that joints may run beyond pi.
         shape: Starts along each of the two healthy joints, if they are a grid.
+        healthy: Joints that move and that the task notices, from 0.
     """
 
-    points: RestPoints
+    points: StationaryPoints
     starts: Array
     end: Indices
     runs: Runs
     confidence: float
     boundaries: tuple[Array, ...] = ()
     shape: tuple[int, int] | None = None
-    _moving: tuple[int, ...] = field(default=(), repr=False)
+    healthy: tuple[int, ...] = ()
 
     @property
     def shares(self) -> list[tuple[str, Interval]]:
@@ -79,15 +83,16 @@ class Basins:
         arrived = np.asarray(self.runs.code) == Outcome.CONVERGED
         return Interval.of(int(arrived.sum()), len(self.end), self.confidence)
 
-    @property
-    def healthy(self) -> tuple[int, ...]:
-        """Joints that move and that the task notices, from 0."""
-        return self._moving
-
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        lines = [f"{len(self.end)} starts, {self.converged} reach the target"]
-        return lines + [f"{name}: {share}" for name, share in self.shares]
+        return [self.points.describe()[0], f"{self.converged} of {len(self.end)} starts reach the target"]
+
+    def to_xarray(self) -> xr.Dataset:
+        """The starts with their ends: one row each, rad and m; see ``end`` for the codes."""
+        import xarray as xr
+
+        values = {"start": (("start_number", "joint"), self.starts), "end": ("start_number", self.end)}
+        return xr.Dataset(values, {"joint": list(self.points.law.arm.joint_names)})
 
 
 @checked
@@ -106,7 +111,7 @@ def basins(
     """From where a failed arm reaches its target, and from where it ends elsewhere.
 
     Starts are drawn uniformly between the limits of the healthy joints, over the whole turn where there are none, and each is
-    simulated; its end is matched with the points of rest of :func:`holdfast.stationary`.
+    simulated; its end is matched with the points of rest of :func:`holdfast.stationary_points`.
 
     Args:
         law: The control law, with its arm, task and gain.
@@ -127,9 +132,7 @@ def basins(
     check_confidence(confidence)
     joints, pose = read_joints(law.arm, locked), target_pose(law.task, target)
     generator = np.random.default_rng(seed)
-    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
-    if values.shape != (len(joints),) or not np.isfinite(values).all():
-        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    values = read_values(joints, at)
     system = RestSystem(law, pose, joints)
     moving = tuple(int(k) for k in np.flatnonzero(system.healthy))
     points = search(system, values, generator)
@@ -167,7 +170,7 @@ def _starts(
     return np.atleast_2d(arm.check_configurations(np.asarray(starts, dtype=np.float64))).copy()
 
 
-def _completed(system: RestSystem, points: RestPoints, runs: Runs) -> RestPoints:
+def _completed(system: RestSystem, points: StationaryPoints, runs: Runs) -> StationaryPoints:
     """With points added at which runs came to rest though the search did not find them."""
     stuck = _finals(system, runs)[runs.code == Outcome.STUCK]
     new = distinct(system.law.arm, stuck, points.q, NEAR)
@@ -175,7 +178,7 @@ def _completed(system: RestSystem, points: RestPoints, runs: Runs) -> RestPoints
         return points
     exact = system.settled(new)
     new = np.where(np.isfinite(exact) & (np.abs(exact - new) < NEAR), exact, new)
-    return rest_points(
+    return classified(
         system, points.at, np.concatenate([points.q, distinct(system.law.arm, new, points.q, NEAR)]), points.starts
     )
 
@@ -187,7 +190,7 @@ def _finals(system: RestSystem, runs: Runs) -> Array:
     return q
 
 
-def _ends(system: RestSystem, points: RestPoints, runs: Runs) -> Indices:
+def _ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> Indices:
     """(N,) see :class:`Basins`."""
     codes = {Outcome.CONVERGED: ARRIVED, Outcome.STUCK: STUCK, Outcome.MOVING: MOVING, Outcome.UNDECIDED: UNDECIDED}
     end = np.array([codes[Outcome(c)] for c in runs.code], dtype=np.int64)
@@ -201,7 +204,7 @@ def _ends(system: RestSystem, points: RestPoints, runs: Runs) -> Indices:
     return end
 
 
-def _boundaries(system: RestSystem, points: RestPoints) -> Iterator[Array]:
+def _boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[Array]:
     """The stable manifolds of the saddles, followed backwards in time at unit speed."""
     from scipy.integrate import solve_ivp
 

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds
+from holdfast.equilibria.system import RestSystem, wrapped
+from holdfast.result import Result
 
 if TYPE_CHECKING:
-    from holdfast.equilibria.points import RestPoints
-    from holdfast.equilibria.system import RestSystem
+    from holdfast.equilibria.points import StationaryPoints
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -92,7 +93,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class Curves(Result):
     """All curves of erroneous rest points that were found for one locked joint.
 
     Attributes:
@@ -109,7 +110,7 @@ class Curves:
     target: Array
     joint: int
     curves: tuple[Curve, ...]
-    loose: RestPoints
+    loose: StationaryPoints
     starts: int
     _system: RestSystem = field(repr=False)
 
@@ -129,8 +130,6 @@ class Curves:
     @property
     def degenerate_angles(self) -> list[float]:
         """Locked values, by size, of whole curves of rest points; rad from -pi to pi (or m)."""
-        from holdfast.equilibria.system import wrapped
-
         values = [np.median(c.q, axis=0) for c in self.curves if c.degenerate]
         if not values:
             return []
@@ -139,8 +138,6 @@ class Curves:
 
     def at(self, value: float) -> Array:
         """(P, n) rest points at one locked value, rad (or m): where curves that are not degenerate pass it."""
-        from holdfast.equilibria.system import wrapped
-
         arm = self.law.arm
         found = [np.empty((0, arm.n))]
         for curve in self.curves:

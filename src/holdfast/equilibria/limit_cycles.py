@@ -18,6 +18,7 @@ from holdfast.arm.poses import check_poses
 from holdfast.arm.task import target_poses
 from holdfast.equilibria.system import RestSystem, wrapped
 from holdfast.errors import InputError
+from holdfast.result import Result
 from holdfast.simulation.runs import Outcome
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ _ACCURACY: dict[str, Any] = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}
 
 
 @dataclass(frozen=True, eq=False)
-class Orbit:
+class Orbit(Result):
     """The motion at the end of one run.
 
     Attributes:
@@ -61,9 +62,9 @@ class Orbit:
         """Whether it attracts: a closed orbit of which every multiplier is inside the unit circle."""
         return self.multipliers.size > 0 and bool((np.abs(self.multipliers) < 1).all())
 
-    def describe(self) -> str:
-        """One phrase for people."""
-        return self.label if np.isnan(self.period) else f"{self.label} (period {self.period:.4g} s)"
+    def describe(self) -> list[str]:
+        """A phrase for people."""
+        return [self.label if np.isnan(self.period) else f"{self.label} (period {self.period:.4g} s)"]
 
 
 def orbit(runs: Runs, k: int = 0, window: float = 400.0) -> Orbit:

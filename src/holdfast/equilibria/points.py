@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
@@ -14,6 +14,7 @@ from holdfast.equilibria.stability import Kind, Kinds, attracts, kinds
 from holdfast.equilibria.system import RestSystem, distinct, idle_joints, wrapped
 from holdfast.errors import InputError
 from holdfast.notice import Progress, told
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -25,7 +26,7 @@ SAMPLE = 256  # points of a continuum that are kept
 
 
 @dataclass(frozen=True, eq=False)
-class RestPoints:
+class StationaryPoints(Result):
     """Points of rest of an arm with locked joints, solutions and erroneous ones.
 
     Attributes:
@@ -62,7 +63,7 @@ class RestPoints:
     def __len__(self) -> int:
         return len(self.q)
 
-    def of_kind(self, *chosen: Kind) -> RestPoints:
+    def of_kind(self, *chosen: Kind) -> StationaryPoints:
         """Only the points of these kinds."""
         return self._subset(np.isin(self.kind, chosen))
 
@@ -105,7 +106,7 @@ class RestPoints:
                 lines.append(f"{int(loose.sum())} x {kind.word}, sampled from points that are not isolated{attracting}")
         return lines
 
-    def _subset(self, rows: Flags | NDArray[np.intp]) -> RestPoints:
+    def _subset(self, rows: Flags | NDArray[np.intp]) -> StationaryPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
 
@@ -119,13 +120,21 @@ def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
     return joints
 
 
-def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> RestPoints:
+def read_values(joints: Sequence[int], at: ArrayLike) -> Array:
+    """(k,) where the locked joints are."""
+    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
+    if values.shape != (len(joints),) or not np.isfinite(values).all():
+        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    return values
+
+
+def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> StationaryPoints:
     """All points of rest that random starts find with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
     spare = int(system.healthy.sum()) > system.law.task.m
     reached, first = _gathered(system, at, system.solutions, generator, 1 if spare else MOST_WAVES, told)
     stuck, second = _gathered(system, at, system.stuck, generator, MOST_WAVES, advance)
-    return rest_points(system, at, np.concatenate([reached, stuck]), first + second)
+    return classified(system, at, np.concatenate([reached, stuck]), first + second)
 
 
 def _gathered(
@@ -156,13 +165,13 @@ def _gathered(
     return np.concatenate([alone, loose]), starts
 
 
-def rest_points(system: RestSystem, at: Array, q: Array, starts: int) -> RestPoints:
+def classified(system: RestSystem, at: Array, q: Array, starts: int) -> StationaryPoints:
     """Points of rest q (P, n) with what there is to know of them, by kind and error."""
     arm, healthy = system.law.arm, system.healthy
     rates, error, scaled = system.linear.rates(q, system.pose)
     eigenvalues = system.eigenvalues(q)
     kind = kinds(eigenvalues, scaled)
-    points = RestPoints(
+    points = StationaryPoints(
         law=system.law,
         target=system.pose,
         locked=system.joints,

@@ -11,7 +11,7 @@ from holdfast.arguments import checked
 from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curves
-from holdfast.equilibria.points import Joints, RestPoints, read_joints, search
+from holdfast.equilibria.points import Joints, StationaryPoints, read_joints, read_values, search
 from holdfast.equilibria.system import RestSystem
 from holdfast.equilibria.tracing import trace
 from holdfast.errors import InputError
@@ -19,11 +19,13 @@ from holdfast.notice import working
 
 
 @overload
-def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> RestPoints: ...
+def stationary_points(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> StationaryPoints: ...
 @overload
-def stationary(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
+def stationary_points(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
 @checked
-def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0) -> RestPoints | Curves:
+def stationary_points(
+    law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0
+) -> StationaryPoints | Curves:
     """Where the arm can come to rest while its controller does not know that joints have locked.
 
     With ``at``, all points of rest that were found for these values of the locked joints: solutions, where the target is
@@ -41,7 +43,7 @@ def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None
         seed: Of the starts.
 
     Returns:
-        :class:`holdfast.equilibria.RestPoints`, or :class:`holdfast.equilibria.Curves` without ``at``.
+        :class:`holdfast.equilibria.StationaryPoints`, or :class:`holdfast.equilibria.Curves` without ``at``.
 
     Raises:
         InputError: Wrong shapes, joints or values.
@@ -55,8 +57,6 @@ def stationary(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None
             raise InputError(f"locked names {len(joints)} joints; curves over the locked value are those of one, or give at")
         with working("tracing stationary points") as advance:
             return trace(law, pose, joints[0], seed, advance=advance)
-    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
-    if values.shape != (len(joints),) or not np.isfinite(values).all():
-        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
+    values = read_values(joints, at)
     with working("looking for stationary points") as advance:
         return search(RestSystem(law, pose, joints), values, np.random.default_rng(seed), advance)

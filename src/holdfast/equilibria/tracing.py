@@ -16,7 +16,7 @@ from holdfast.control.law import Law
 from holdfast.equilibria.curves import Curve, Curves
 from holdfast.equilibria.equations import TOLERANCE
 from holdfast.equilibria.events import marked
-from holdfast.equilibria.points import rest_points
+from holdfast.equilibria.points import classified
 from holdfast.equilibria.system import RestSystem, wrapped
 from holdfast.notice import Progress, told
 from holdfast.solvers.self_motions import Component, distance_to_curve
@@ -39,11 +39,11 @@ _CONSTANT = 1e-6  # rad (and m): a locked value that changes less along a whole 
 
 
 def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPACING, advance: Progress = told) -> Curves:
-    """All curves of erroneous rest that a random start arrives on; see :func:`holdfast.equilibria.stationary`."""
+    """All curves of erroneous rest that a random start arrives on; see :func:`holdfast.equilibria.stationary_points`."""
     system = RestSystem(law, pose, (joint,))
     tracer = Tracer(system, joint, spacing)
     found, loose, starts = tracer.all(np.random.default_rng(seed), advance)
-    return Curves(law, pose, joint, tuple(found), rest_points(system, np.array([np.nan]), loose, starts), starts, system)
+    return Curves(law, pose, joint, tuple(found), classified(system, np.array([np.nan]), loose, starts), starts, system)
 
 
 class Tracer:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
@@ -60,6 +60,14 @@ def replaced(
     """
     with guarded(path, what, advice), _beside(path) as temporary:
         temporary.write_bytes(content.encode(errors=errors) if isinstance(content, str) else content)
+
+
+def put(folder: str | Path, texts: Mapping[str, str]) -> list[Path]:
+    """Files of text in a folder, which is made where need be; each as :func:`replaced`."""
+    place = made(folder)
+    for name, text in texts.items():
+        replaced(place / name, text)
+    return [place / name for name in texts]
 
 
 @contextmanager

@@ -6,24 +6,31 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Any
 
-# What presents a result, by the name of its class: the module of its words and numbers (to_dict, show), which draws
+# What presents a result, by the name of its class: the module of its words and numbers (to_dict, show, tables), which draws
 # nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
     "Analysis": ("teleop.numbers", "teleop.page"),
     "Assessment": ("", "assessment.page"),
+    "Basins": ("equilibria.basins", "equilibria.basins"),
     "Comparison": ("", "assessment.comparison"),
     "ConvergenceDesigns": ("designs.console", "designs.convergence"),
+    "ConvergenceMap": ("convergence.maps", "convergence.maps"),
+    "Curves": ("equilibria.curves", "equilibria.curves"),
     "Designs": ("designs.console", "designs.page"),
-    "LawComparison": ("", "convergence.law_comparison"),
+    "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
+    "LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
+    "Orbit": ("equilibria.orbit", ""),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("", "recovery.figures"),
     "Runs": ("simulation.console", "simulation.run"),
-    "TargetMeasures": ("", "convergence.targets"),
+    "StationaryPoints": ("equilibria.points", ""),
+    "TargetMeasures": ("convergence.targets", "convergence.targets"),
     "TaskChoice": ("teleop.choice", "teleop.bank"),
     "TradeOff": ("control.console", "control.trade_offs"),
     "Trajectory": ("motion.console", "motion.trajectory"),
+    "Workspace": ("convergence.origins", "convergence.origins"),
 }
-_WORDS = {"to_dict", "show"}
+_WORDS = {"to_dict", "show", "tables"}
 
 
 def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:

@@ -11,10 +11,11 @@ from markupsafe import Markup
 
 from holdfast import arms
 from holdfast.arm.model import Arm
-from holdfast.arm.task import NAMES, ROWS, Task, as_task, plane_normal
+from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arms.tool import attachment, attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.failures import FailureSets, failure_sets
+from holdfast.grammar import ROWS, TASKS
 from holdfast.regions.region import Region
 from holdfast.regions.weights import Density
 from holdfast.registry import INDICES
@@ -93,7 +94,7 @@ def capsule_files(a: Assessment) -> list[Block]:
 
 def task_option(arm: Arm, task: Task) -> str | None:
     """What ``--task`` says for a task, if it can."""
-    if task.name in NAMES:
+    if task.name in TASKS:
         standard = as_task(arm, task.name, task.length)
         return task.name if standard.frame == task.frame and np.array_equal(standard.rows, task.rows) else None
     picked = task.rows.argmax(axis=1)

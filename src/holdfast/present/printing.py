@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import typer
@@ -15,8 +15,16 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
+class Rows(NamedTuple):
+    """A table as the console and the page show it: texts, and what is above them."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    title: str = ""
+
+
 def plain(value: Any) -> Any:
-    """JSON types of NumPy ones; infinity and NaN become null, which JSON has."""
+    """JSON types of NumPy ones; infinity and NaN become null, which JSON has, complex numbers their two parts."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
@@ -25,6 +33,8 @@ def plain(value: Any) -> Any:
         return plain(value.tolist())
     if isinstance(value, np.generic):
         return plain(value.item())
+    if isinstance(value, complex):
+        return {"real": plain(value.real), "imaginary": plain(value.imag)}
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
@@ -41,6 +51,19 @@ def number(value: float | np.floating[Any], digits: int = 4) -> str:
     if not math.isfinite(value):
         return "infinite" if math.isinf(value) else "none"
     return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
+
+
+def print_rows(out: Console, table: Rows) -> None:
+    """The rows below their title."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    if table.title:
+        out.print(escape(f"{table.title}:"), soft_wrap=True)
+    shown = Table(*map(escape, table.head), box=None, pad_edge=False)
+    for row in table.rows:
+        shown.add_row(*map(escape, row))
+    out.print(shown)
 
 
 def print_written(out: Console, files: Iterable[Path | None]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
 from collections.abc import Sequence
@@ -10,8 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.files.output import made
-from holdfast.present.printing import console, print_json, print_written
+from holdfast.notice import says
+from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
 from holdfast.result import Result
+
+_NARROW = 5  # columns
+_HARD = "\N{NO-BREAK SPACE}"
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,10 +45,24 @@ def drawn(result: Result, file: Path) -> Path:
     return save_png(next(iter(result.figures().values())), file)
 
 
+def numbers(result: Result) -> dict[str, Any]:
+    """Its numbers in types that JSON has."""
+    data: dict[str, Any] = plain(result._presented("to_dict"))
+    return data
+
+
 def show(result: Result, out: Console) -> None:
-    """The sentences."""
+    """The sentences and the tables."""
     for line in result.describe():
         out.print(line, markup=False, soft_wrap=True)
+    for table in result._presented("tables"):
+        print_rows(out, table)
+
+
+def tables(result: Result) -> list[Rows]:
+    """None."""
+    del result
+    return []
 
 
 def figures(result: Result) -> dict[str, Figure]:
@@ -52,15 +71,26 @@ def figures(result: Result) -> dict[str, Figure]:
     return {}
 
 
+@says("drawing the report")
 def write(result: Result, path: Path, command: str = "") -> Path:
-    """A page of the sentences and the figures."""
+    """A page of the sentences, the tables and the figures."""
     from holdfast.report import page
 
     first, *others = result.describe()
     blocks: list[page.Block] = [page.Text(line) for line in others]
-    return page.write(
-        page.Page(type(result).__name__, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path
-    )
+    for table in result._presented("tables"):
+        rows = [[_beside(cell) for cell in row] for row in table.rows]
+        blocks.append(
+            page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=len(rows[0]) > _NARROW)
+        )
+    title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
+    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path)
+
+
+def _beside(cell: str) -> str:
+    """With what is below a value beside it, or as a whole on the next line."""
+    value, _, below = cell.partition("\n")
+    return f"{value} ({_HARD.join(below.split())})" if below else value
 
 
 def shown(result: Result, command: str = "") -> list[Any]:
@@ -72,12 +102,12 @@ def shown(result: Result, command: str = "") -> list[Any]:
     return [*drawn, *([Code(command, "The same again:")] if command else [])]
 
 
-def save(result: Result, folder: Path, command: str = "") -> list[Path]:
+def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:
     """The figures as pictures, and the page."""
     from holdfast.report.figures import save_png
 
     folder = made(folder)
-    pictures = [save_png(figure, folder / f"{name}.png") for name, figure in result.figures().items()]
+    pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in result.figures().items()]
     return [*pictures, result.report(folder / "report.html", command=command)]
 
 

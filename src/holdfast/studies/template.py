@@ -15,6 +15,7 @@ from holdfast.arms.spec import ArmSpec
 from holdfast.errors import InputError
 from holdfast.files import reading
 from holdfast.files.output import replaced
+from holdfast.grammar import FAILURES_HELP, TASKS
 from holdfast.registry import INDICES, LAWS, Registry
 
 _TEXT = """\
@@ -44,9 +45,9 @@ arms: {arms}
 assess:
 {known_indices}
   indices: {indices}
-  tasks: [default]          # pose, pointing, position, planar, planar-pose, or rows as "tool:vx,vy"; default: the arm's
+  tasks: [default]          # {known_tasks}, or rows as "tool:vx,vy"; default: the arm's
   regions: [default]        # region files, relative to this one; default: around the arm's home
-  failures: [single]        # single, pairs, a number of joints, or sets such as "joint2; joint1+joint4"
+  failures: [single]        # {known_failures}
   optimise: {optimise}           # also the best configuration of each pose
   after_lock: false         # also which poses are left once each joint has locked
   sampling: random          # or sobol
@@ -121,6 +122,8 @@ def write(
         chunk=min(chunk, poses),
         arms=_listed(_beside(spec, path) for spec in arm),
         known_indices=_known(INDICES),
+        known_tasks=", ".join(TASKS),
+        known_failures=FAILURES_HELP,
         indices=_listed(indices),
         optimise=str(optimise).lower(),
         convergence=block,

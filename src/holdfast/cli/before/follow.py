@@ -27,6 +27,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
+from holdfast.grammar import TASKS
 from holdfast.present.results import printed, said
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def command(
         str | None,
         typer.Option(
             "--task",
-            help="pose, pointing, position, planar, planar-pose, or rows such as vx,vy,wz. Default: position for a path of "
+            help=f"{', '.join(TASKS)}, or rows such as vx,vy,wz. Default: position for a path of "
             "positions (planar if the arm moves in a plane), else pose.",
             show_default=False,
         ),

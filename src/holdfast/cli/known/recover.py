@@ -26,7 +26,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.grammar import is_number
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import console, number, plain, print_json, print_written
@@ -261,8 +261,7 @@ def _replay_data(replay: Replay) -> dict[str, Any]:
 def _folder(result: Recovery, out: Path) -> list[Path]:
     from holdfast.report.figures import save_png
 
-    file = made(out) / "recovery.json"
-    replaced(file, json.dumps(plain(_data(result)), indent=2) + "\n")
+    (file,) = put(out, {"recovery.json": json.dumps(plain(_data(result)), indent=2) + "\n"})
     files = [file, save_png(result.figure(), out / "motion.png", 150)]
     if len(result.q):
         files.append(result.save(out / "waypoints.csv"))

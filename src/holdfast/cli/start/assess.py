@@ -108,7 +108,7 @@ def command(
     """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
 
     Several arms, tools or tasks are compared: each with each, over one region, in one report. (Control laws of one arm:
-    'holdfast compare'.)
+    'holdfast compare-laws'.)
 
     Example: holdfast assess pa10-9dof --poses 2000 --seed 1 --out results
 

@@ -26,7 +26,7 @@ from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, unknown
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-    from holdfast.studio.state import State
+    from holdfast.studio.state import Condition
 
 PORT = 8123
 
@@ -91,69 +91,16 @@ def command(
 
     Example: holdfast studio panda --lock 4
     """
-    from holdfast.arm.task import as_task
-    from holdfast.studio.server import serve
-
-    model = read_arm(arm, base, tip, hold)
-    state = read_state(
-        model,
-        arm,
-        base=base,
-        tip=tip,
-        q=q,
-        degrees=degrees,
-        task=task,
-        lock=lock or [],
-        free=free or [],
-        index=index,
-        susceptibility=susceptibility,
-        objective=objective,
-        law=law,
-        target=target,
-        file=file,
-        region=region,
-        time=time,
-        show=show,
-    )
-
-    def ready(url: str) -> None:
-        typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
-
-    with serve(model, state, host, port, as_task(model, read_task(state.task, arm, model)), ready) as page:
-        page.wait()
-
-
-def read_state(
-    model: Arm,
-    arm: str,
-    *,
-    base: str | None,
-    tip: str | None,
-    q: str | None,
-    degrees: bool,
-    task: str | None,
-    lock: list[str],
-    free: list[str],
-    index: str,
-    susceptibility: str,
-    objective: str,
-    law: list[str] | None,
-    target: str | None,
-    file: str | None,
-    region: str | None,
-    time: float,
-    show: str | None,
-) -> State:
-    """The state that the options describe."""
     from pathlib import Path
 
     from holdfast import arms
     from holdfast.arm.poses import pose_numbers
     from holdfast.arm.task import as_task, target_pose
     from holdfast.cli.laws import read_law
-    from holdfast.studio.server import middle
+    from holdfast.studio.server import middle, serve
     from holdfast.studio.state import SHOWS, State
 
+    model = read_arm(arm, base, tip, hold)
     text = default_task(arm, model) if task is None else task
     rows = as_task(model, read_task(text, arm, model))
     INDICES.read(index, "--index")
@@ -168,13 +115,6 @@ def read_state(
         start = read_configuration(model, q, degrees)
     else:
         start = np.array(arms.about(arm).home) if arm in arms.names() else middle(model)
-    conditions = ["healthy"] * model.n
-    for names, condition in ((lock, "locked"), (free, "free")):
-        for name in names:
-            k = read_joint(model, name)
-            if conditions[k] != "healthy":
-                raise InputError(f"joint '{model.joint_names[k]}' is given twice among --lock and --free; give it once")
-            conditions[k] = condition
     laws = law or ["pseudoinverse", "failure-tolerant"]
     if len(laws) != 2:
         raise InputError(f"--law is given {len(laws)} times; the studio shows two laws side by side, so give it twice")
@@ -186,7 +126,7 @@ def read_state(
     goal = None
     if target is not None:
         goal = pose_numbers(target_pose(rows, read_target(model, rows, target)))
-    return State(
+    state = State(
         arm=arm,
         names=model.joint_names,
         q=tuple(float(x) for x in start),
@@ -194,7 +134,7 @@ def read_state(
         base=base,
         tip=tip,
         hold=() if model.chain is None else model.chain.held,
-        conditions=tuple(conditions),  # type: ignore[arg-type]
+        conditions=_conditions(model, lock or [], free or []),
         index=index,
         susceptibility=susceptibility,
         objective=objective,
@@ -205,3 +145,21 @@ def read_state(
         region=region,
         time=time,
     )
+
+    def ready(url: str) -> None:
+        typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
+
+    with serve(model, state, host, port, rows, ready) as page:
+        page.wait()
+
+
+def _conditions(model: Arm, lock: list[str], free: list[str]) -> tuple[Condition, ...]:
+    conditions: list[Condition] = ["healthy"] * model.n
+    wanted: tuple[tuple[list[str], Condition], ...] = ((lock, "locked"), (free, "free"))
+    for names, condition in wanted:
+        for name in names:
+            k = read_joint(model, name)
+            if conditions[k] != "healthy":
+                raise InputError(f"joint '{model.joint_names[k]}' is given twice among --lock and --free; give it once")
+            conditions[k] = condition
+    return tuple(conditions)

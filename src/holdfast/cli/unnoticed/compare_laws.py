@@ -1,15 +1,14 @@
-"""``holdfast compare``."""
+"""``holdfast compare-laws``."""
 
 from __future__ import annotations
 
-import shlex
-import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from holdfast.cli.laws import LawsOption, read_law
+import holdfast as hf
+from holdfast.cli.laws import CyclesOption, GainOption, LawsOption, SpeedLimitOption, TimeLimitOption, read_laws
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -22,20 +21,19 @@ from holdfast.cli.options import (
     read_joint,
     read_numbers,
     read_target,
-    read_task,
 )
 from holdfast.errors import InputError
-from holdfast.present.printing import console, number, print_json, print_written
+from holdfast.present.results import printed, said
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-    from holdfast.convergence.law_comparison import LawComparison
+    from holdfast.arm.task import Task
     from holdfast.convergence.random_motions import PointToPoint
 
 MOTIONS = 100
 
 
-def compare(
+def command(
     arm: ArmArgument,
     law: LawsOption = None,
     motions: Annotated[
@@ -72,16 +70,11 @@ def compare(
         ),
     ] = None,
     task: TaskOption = None,
-    gain: Annotated[float, typer.Option("--gain", help="Ke, per s or per cycle.")] = 1.0,
-    speed_limit: Annotated[
-        float | None,
-        typer.Option("--speed-limit", help="Of the hand, m/s or m per cycle. Default: none.", show_default=False),
-    ] = None,
-    cycles: Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")] = False,
-    time_limit: Annotated[
-        float | None, typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles")
-    ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
+    gain: GainOption = 1.0,
+    speed_limit: SpeedLimitOption = None,
+    cycles: CyclesOption = False,
+    time_limit: TimeLimitOption = None,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -92,37 +85,25 @@ def compare(
 ) -> None:
     """Compare control laws of one arm on the same motions while a joint has locked and the controller does not know.
 
-    Arms, tools and tasks are compared by 'holdfast assess A B C', which is something else: how much dexterity a failure leaves.
+    The first law is the one that the others are compared with. Arms, tools and tasks are compared by 'holdfast assess A B C',
+    which is something else: how much dexterity a failure leaves.
 
-    Example: holdfast compare panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
+    Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
     """
-    from holdfast.convergence.law_comparison import compare_laws
-
     model = read_arm(arm, base, tip, hold)
-    chosen = read_task(task, arm, model)
-    options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
-    laws = [read_law(text, model, chosen, **options) for text in law or ["pseudoinverse", "failure-tolerant"]]
-    locked = _locks(model, lock)
-    drawn: PointToPoint | None = None
+    laws = read_laws(law, model, task, arm, gain=gain, speed_limit=speed_limit)
     if start is None and target is None:
-        drawn = _draw(model, chosen, motions, seed, distance, reachable_after)
+        drawn = _drawn(model, laws[0].task, MOTIONS if motions is None else motions, seed, distance, reachable_after)
         q0, goal, about = drawn.q0, drawn.target, f"{drawn.describe()}; seed {seed}"
     elif start is None or target is None:
         raise InputError("--start and --target go together; give both, or neither for random motions")
     elif motions is not None or distance is not None or reachable_after:
         raise InputError("--motions, --distance and --reachable-after are about random motions; leave out --start and --target")
     else:
-        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(laws[0].arm, laws[0].task, target)
+        q0, goal = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
         about = f"one motion of '{model.name}'"
-    result = compare_laws(laws, q0, goal, locked, cycles, time_limit=time_limit, seed=seed)
-    files = []
-    if out is not None:
-        files = result.save(out)
-        files.append(result.report(out / "report.html", f"holdfast {shlex.join(sys.argv[1:])}", about))
-    if json_:
-        print_json(_data(result, about))
-    else:
-        _print(result, about, files)
+    result = hf.compare_laws(laws, q0, goal, _locks(model, lock), cycles, time_limit=time_limit, seed=seed, about=about)
+    printed(result, json_, [] if out is None else result.save(out, command=said()))
 
 
 def _locks(arm: Arm, given: list[str] | None) -> Literal["each"] | list[int] | None:
@@ -138,11 +119,9 @@ def _locks(arm: Arm, given: list[str] | None) -> Literal["each"] | list[int] | N
     return [read_joint(arm, text) for text in given]
 
 
-def _draw(
-    arm: Arm, task: Any, motions: int | None, seed: int, distance: str | None, reachable_after: list[str] | None
+def _drawn(
+    arm: Arm, task: Task, motions: int, seed: int, distance: str | None, reachable_after: list[str] | None
 ) -> PointToPoint:
-    from holdfast.convergence.random_motions import point_to_point
-
     span: tuple[float, float] | None = None
     if distance is not None:
         numbers = read_numbers("--distance", distance, "least,greatest")
@@ -152,92 +131,4 @@ def _draw(
     joints: Literal["each"] | list[int] | None = None
     if reachable_after:
         joints = "each" if reachable_after == ["each"] else [read_joint(arm, text) for text in reachable_after]
-    return point_to_point(arm, MOTIONS if motions is None else motions, seed, span, joints, task)
-
-
-def _data(c: LawComparison, about: str) -> dict[str, Any]:
-    from holdfast.present.convergence import law_comparison as rows
-
-    data: dict[str, Any] = {
-        **c.arm.entry(),
-        "task": c.laws[0].task.name,
-        "motions": len(c),
-        "about": about,
-        "laws": {name: law.describe() for name, law in zip(c.names, c.laws, strict=True)},
-        "outcomes": c.table,
-        "healthy": rows.healthy_rows(c),
-        "undecided": {name: c.reasons(name) for name in c.names},
-    }
-    if rows.pairs(c):
-        data["gains"] = rows.gain_rows(c)
-    return data
-
-
-def _print(c: LawComparison, about: str, files: list[Path]) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    from holdfast.present.convergence import law_comparison as rows
-    from holdfast.words import percent
-
-    out = console()
-    size = "m and rad" if c.laws[0].task.angular else "m"
-    out.print(f"Arm {escape(c.arm.title)}, task {escape(c.laws[0].task.describe())}; {escape(about)}", soft_wrap=True)
-    out.print(f"[bold]{escape(rows.headline(c))}[/]", soft_wrap=True)
-    table = Table(
-        "law",
-        "locked",
-        "arrives",
-        "95 % interval",
-        "stuck",
-        "moving",
-        "undecided",
-        "within reach",
-        "astray",
-        box=None,
-        pad_edge=False,
-    )
-    for r in c.table:
-        interval = f"{percent(r['converged_low'])} to {percent(r['converged_high'])}"
-        shares = [percent(r[x]) for x in ("stuck", "moving", "undecided", "reachable")]
-        astray = "" if r["astray"] is None else f"{number(r['astray'], 3)}"
-        table.add_row(escape(r["law"]), escape(r["failure"]), percent(r["converged"]), interval, *shares, astray)
-    out.print(table)
-    out.print(
-        f"astray: median end error, {size}, of the runs that do not arrive; joint limits are not enforced", soft_wrap=True
-    )
-    if rows.pairs(c):
-        gains = Table(
-            "law", "locked", f"arrive, more than with {escape(c.names[0])}", f"end error, {size}", box=None, pad_edge=False
-        )
-        for r in rows.gain_rows(c):
-            more, error = (
-                f"{factor * r[x]:+.{digits}f} ({factor * r[f'{x}_low']:+.{digits}f} to {factor * r[f'{x}_high']:+.{digits}f})"
-                for x, factor, digits in (("gain", 100.0, 1), ("error", 1.0, 4))
-            )
-            gains.add_row(escape(r["law"]), escape(r["failure"]), f"{more} points", error)
-        out.print(gains)
-    if c.comparable.any():
-        _print_costs(c, rows.healthy_rows(c))
-    print_written(out, files)
-
-
-def _print_costs(c: LawComparison, costs: list[dict[str, Any]]) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    from holdfast.words import fixed
-
-    out = console()
-    unit = "cycles" if c.runs[0].cycles else "s"
-    table = Table(
-        "while healthy", "off the straight line", "largest angle to the command", "to the target", box=None, pad_edge=False
-    )
-    for r in costs:
-        cells = [
-            f"{fixed(r[f'{of}_50{end}'], digits)} {shown}"
-            for of, end, shown, digits in (("deviation", "_m", "m", 3), ("angle", "_deg", "deg", 1), ("time", "", unit, 2))
-        ]
-        table.add_row(escape(r["law"]), *cells)
-    out.print(table)
-    out.print("medians over the motions that arrive with every law", soft_wrap=True)
+    return hf.point_to_point(arm, motions, seed, span, joints, task)

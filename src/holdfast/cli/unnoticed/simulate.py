@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 import holdfast as hf
-from holdfast.cli.laws import LawOption, TargetOption, read_law
+from holdfast.cli.laws import (
+    CyclesOption,
+    GainOption,
+    LawOption,
+    SpeedLimitOption,
+    TargetOption,
+    TimeLimitOption,
+    law_of,
+)
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -16,12 +24,10 @@ from holdfast.cli.options import (
     JsonOption,
     TaskOption,
     TipOption,
-    read_arm,
     read_configuration,
     read_joint,
     read_numbers,
     read_target,
-    read_task,
 )
 from holdfast.errors import InputError
 from holdfast.present.results import drawn, printed, said
@@ -47,21 +53,15 @@ def command(
     ] = None,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
-    gain: Annotated[float, typer.Option("--gain", help="Ke, per s or per cycle.")] = 1.0,
-    speed_limit: Annotated[
-        float | None,
-        typer.Option("--speed-limit", help="Of the hand, m/s or m per cycle. Default: none.", show_default=False),
-    ] = None,
-    cycles: Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")] = False,
-    time_limit: Annotated[
-        float | None,
-        typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles"),
-    ] = None,
+    gain: GainOption = 1.0,
+    speed_limit: SpeedLimitOption = None,
+    cycles: CyclesOption = False,
+    time_limit: TimeLimitOption = None,
     physics: Annotated[
         bool, typer.Option("--physics", help="Also in MuJoCo, with bodies and joint servos (needs the extra 'physics').")
     ] = False,
     servo_bandwidth: Annotated[float, typer.Option("--servo-bandwidth", help="physics: of the joint servos, Hz.")] = 10.0,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -77,11 +77,10 @@ def command(
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
-    model = read_arm(arm, base, tip, hold)
-    options: dict[str, Any] = {"gain": gain, "speed_limit": speed_limit}
-    made = read_law(law, model, read_task(task, arm, model), **options)
-    goal, locks = read_target(made.arm, made.task, target), [_lock(model, text) for text in lock or []]
-    runs = hf.simulate(made, read_configuration(model, start, degrees, "--start"), goal, locks, cycles, time_limit=time_limit)
+    made = law_of(law, arm, task, base, tip, hold, gain=gain, speed_limit=speed_limit)
+    goal, locks = read_target(made.arm, made.task, target), [_lock(made.arm, text) for text in lock or []]
+    q0 = read_configuration(made.arm, start, degrees, "--start")
+    runs = hf.simulate(made, q0, goal, locks, cycles, time_limit=time_limit)
     result: Result = runs
     if physics:
         if cycles:
@@ -100,11 +99,7 @@ def _lock(arm: Arm, text: str) -> tuple[int, float]:
     joint, at, time = text.rpartition("@")
     if not at:
         return read_joint(arm, text), 0.0
-    return read_joint(arm, joint), float(_one(f"--lock '{text}'", time))
-
-
-def _one(option: str, text: str) -> float:
-    values = read_numbers(option, text, "one number after @")
+    values = read_numbers(f"--lock '{text}'", time, "one number after @")
     if values.size != 1:
-        raise InputError(f"{option} has {values.size} numbers after @; give one time")
-    return float(values[0])
+        raise InputError(f"--lock '{text}' has {values.size} numbers after @; give one time")
+    return read_joint(arm, joint), float(values[0])

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.control.trade_offs import QUANTILES, TradeOff
-from holdfast.present.printing import plain
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -19,7 +18,7 @@ def to_dict(curve: TradeOff) -> dict[str, Any]:
     for name in ("gain", "healthy_error", "peak_error"):
         told[name] = {f"q{round(100 * x):02d}": row for x, row in zip(QUANTILES, curve.quantiles(name), strict=True)}
         told[name]["median_95_percent_interval"] = curve.median_interval(name).T
-    data = {
+    return {
         **curve.arm.entry(),
         "task": curve.task.name,
         "characteristic_length_m": curve.task.length,
@@ -28,8 +27,6 @@ def to_dict(curve: TradeOff) -> dict[str, Any]:
         "pre_failure_error": curve.allowed,
         **told,
     }
-    made: dict[str, Any] = plain(data)
-    return made
 
 
 def show(curve: TradeOff, out: Console) -> None:

@@ -1,25 +1,38 @@
-"""A convergence map as files: figures, a table and a summary."""
+"""A convergence map: numbers, figures and files."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from holdfast.convergence.maps import ConvergenceMap
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
+from holdfast.present import results
 from holdfast.present.convergence.places import panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from holdfast.convergence.maps import ConvergenceMap
+    from holdfast.report.outcomes import Stack
+
+Array = NDArray[np.float64]
 
 _WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
+_ENDINGS = (
+    "converges",
+    "not there, target in reach",
+    "stuck, target out of reach",
+    "keeps moving, target out of reach",
+    "undecided, target out of reach",
+)
 
 
-def summary(m: ConvergenceMap) -> dict[str, Any]:
+def to_dict(m: ConvergenceMap) -> dict[str, Any]:
     """Facts of a map as JSON types."""
     shares: dict[str, Any] = {}
     for word in _WORDS:
@@ -41,47 +54,38 @@ def summary(m: ConvergenceMap) -> dict[str, Any]:
 
 
 @says("writing the results")
-def save(m: ConvergenceMap, folder: str | Path) -> list[Path]:
-    """Write ``map.csv`` (a line for each place), ``map.json``, ``outcomes.png`` and the maps ``map-*.png``.
-
-    Raises:
-        StoreError: The folder cannot be written.
-    """
-    from holdfast.report.figures import save_png
-
+def save(m: ConvergenceMap, folder: Path, command: str = "") -> list[Path]:
+    """``map.csv`` (a line for each place), ``map.json``, the figures and the page."""
     columns = ["motions", *(f"{word}_{name}" for word in _WORDS for name in m.columns)]
     values = [m.known.sum(axis=1), *(m.values(word) for word in _WORDS)]
-    files = save_places(folder, "map", m.places, columns, values, summary(m))
-    for name, figure in figures(m).items():
-        files.append(save_png(figure, Path(folder) / f"{name}.png", 130))
-    return files
+    files = save_places(folder, "map", m.places, columns, values, m.to_dict())
+    return files + results.save(m, folder, command, dpi=130)
 
 
-def outcomes_figure(m: ConvergenceMap) -> Figure:
-    """A bar for each locked joint: how the motions ended."""
-    from holdfast.report.outcomes import Stack, stack_figure
+def outcomes_figure(maps: Sequence[ConvergenceMap], titles: Sequence[str] = ("",)) -> Figure:
+    """A bar for each locked joint and each map: how the motions ended."""
+    from holdfast.report.outcomes import stack_figure
 
-    arrived = m.shares("converged")
-    values = {word: np.array([s.value for s in m.shares(word).values()]) for word in _WORDS}
-    trapped = values["trapped"]
-    stuck_far = np.array([s.value for s in _means(m, "stuck")])
-    moving_far = np.array([s.value for s in _means(m, "moving")])
-    parts = {
-        "arrives": values["converged"],
-        "not there, target in reach": trapped,
-        "stuck, target out of reach": stuck_far,
-        "keeps moving, target out of reach": moving_far,
-        "undecided, target out of reach": 1 - values["converged"] - trapped - stuck_far - moving_far,
-    }
-    low, high = (np.array([getattr(s, end) for s in arrived.values()]) for end in ("low", "high"))
+    stacks = [_bars(title, m) for title, m in zip(titles, maps, strict=True)]
+    return stack_figure(stacks, _ENDINGS, "fraction of the motions", caption=_told(maps[0], len(maps)))
+
+
+def _bars(title: str, m: ConvergenceMap) -> Stack:
+    from holdfast.report.outcomes import Stack
+
     names = [f"{name} locked" for name in m.columns[:-1]] + ["no joint locked"]
-    bars = Stack("", names, np.column_stack(list(parts.values())), low, high)
-    return stack_figure([bars], list(parts), "share of the motions", caption=_told(m))
+    converged = m.shares("converged")
+    trapped = np.array([s.value for s in m.shares("trapped").values()])
+    there, low, high = (np.array([getattr(s, end) for s in converged.values()]) for end in ("value", "low", "high"))
+    stuck, moving = _far(m, "stuck"), _far(m, "moving")
+    return Stack(
+        title, names, np.column_stack([there, trapped, stuck, moving, 1 - there - trapped - stuck - moving]), low, high
+    )
 
 
 def figures(m: ConvergenceMap) -> dict[str, Figure]:
     """By file name: ``outcomes``, bars for each joint; ``map-top`` and ``map-side``, or ``map`` for a task in a plane."""
-    rows = {"arrives": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
+    rows = {"converges": 100 * m.values("converged"), "not there, in reach": 100 * m.values("trapped")}
     rows = {name: v[:, :-1] for name, v in rows.items()}
     target = m.target[m.known][:, :3, 3]
     alone = m.over == "starts" and len(np.unique(target, axis=0)) == 1
@@ -94,19 +98,17 @@ def figures(m: ConvergenceMap) -> dict[str, Figure]:
         f"{_told(m)}\nwhere the {m.over} are",
         target[0] if alone else None,
     )
-    return {"outcomes": outcomes_figure(m), **{f"map{view}": figure for view, figure in maps.items()}}
+    return {"outcomes": outcomes_figure([m]), **{f"map{view}": figure for view, figure in maps.items()}}
 
 
-def _told(m: ConvergenceMap) -> str:
+def _told(m: ConvergenceMap, laws: int = 1) -> str:
     motions, places = int(m.known.sum()), len(m.places)
-    return f"{m.law.arm.name}, {m.law.name}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
+    law = f"{laws} laws" if laws > 1 else m.law.name
+    return f"{m.law.arm.name}, {law}, task {m.law.task.name}: {motions} motions over {places} {m.over}, seed {m.seed}"
 
 
-def _means(m: ConvergenceMap, word: str) -> list[Any]:
-    """Shares of runs that ended so with the target out of reach."""
-    from holdfast.convergence.maps import shared
-
-    count = m.known.sum(axis=1)
-    with np.errstate(invalid="ignore"):
-        values = (m.happened(word) & ~m.in_reach).sum(axis=1) / np.where(count > 0, count, np.nan)[:, None]
-    return [shared(values[:, k], int(count.max()), 0.95) for k in range(values.shape[1])]
+def _far(m: ConvergenceMap, word: str) -> Array:
+    """(n + 1,) fraction of the runs that ended so with the target out of reach, every place alike."""
+    some = m.known.any(axis=1)
+    runs = (m.happened(word) & ~m.in_reach)[some].sum(axis=1)
+    return np.asarray((runs / m.known[some].sum(axis=1)[:, None]).mean(axis=0))

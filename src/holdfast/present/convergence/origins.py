@@ -1,4 +1,4 @@
-"""A workspace analysis as files: figures, a table and a summary."""
+"""A workspace analysis: numbers, tables, figures and files."""
 
 from __future__ import annotations
 
@@ -8,20 +8,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.convergence.analysis import ENDS
+from holdfast.convergence.origins import Workspace
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
-from holdfast.present.convergence.places import measure_maps
+from holdfast.present import results
+from holdfast.present.convergence.places import mean_rows, measure_maps, with_interval
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
-    from holdfast.convergence.origins import Workspace
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
 
-def summary(w: Workspace) -> dict[str, Any]:
-    """Facts of an analysis as JSON types; NaN is None."""
-    from holdfast.convergence.analysis import ENDS
-
+def to_dict(w: Workspace) -> dict[str, Any]:
+    """Facts of the analysis as JSON types; NaN is None."""
     columns = w.columns
     reached = w.configurations > 0
     return {
@@ -37,37 +39,45 @@ def summary(w: Workspace) -> dict[str, Any]:
         "relative_to": w.relative_to,
         "bounds_rad": {name: [list(arc) for arc in arcs] for name, arcs in zip(columns[:-1], w.bounds, strict=True)},
         "ends": dict(zip(ENDS, w.ends.sum(axis=0).tolist(), strict=True)),
-        "undecided_share": _number(w.undecided),
-        "not_simulated_share": _number(w.saved),
-        "mean_percent": {name: dict(zip(columns, map(_number, v), strict=True)) for name, v in w.means().items()},
-        "mean_percent_95": {
-            name: {column: [_number(x) for x in ends] for column, ends in zip(columns, v, strict=True)}
-            for name, v in w.intervals().items()
-        },
+        "undecided_share": w.undecided,
+        "not_simulated_share": w.saved,
+        "mean_percent": {name: dict(zip(columns, v, strict=True)) for name, v in w.means().items()},
+        "mean_percent_95": {name: dict(zip(columns, v, strict=True)) for name, v in w.intervals().items()},
         "starts_with_R100_full": _counts(w, w.reach.full >= 100 - 1e-9),
         "starts_with_R100_none": _counts(w, w.reach.full == 0),
     }
 
 
+def tables(w: Workspace) -> list[Rows]:
+    """Where each joint may lock, the means of the measures, and of samples what holds throughout."""
+    values = []
+    for joint, arcs in zip(w.law.arm.joints, w.bounds, strict=True):
+        factor, unit = joint.shown
+        told = ", ".join(f"{factor * a:.2f} to {factor * b:.2f} {unit}" for a, b in arcs)
+        values.append([joint.name, told or "no value"])
+    sampled = w.method == "sampled"
+    found = [Rows(["joint", "target in reach with it at"], values), mean_rows(w, "the starts", sampled)]
+    if sampled:
+        names = ["R100", "F100"] if w.ends.sum() else ["R100"]
+        rows = [
+            [column, *(with_interval(100 * i.value, 100 * i.low, 100 * i.high) for i in shares)]
+            for column, shares in zip(w.columns, zip(*map(w.throughout, names), strict=True), strict=True)
+        ]
+        title = "where all configurations that were drawn do, an upper bound for all that there are"
+        found.append(Rows(["joint", *(f"starts with {name} 100, percent" for name in names)], rows, title))
+    return found
+
+
 @says("writing the results")
-def save(w: Workspace, folder: str | Path) -> list[Path]:
-    """Write ``workspace.csv``, ``workspace.json`` and the :func:`figures`: ``reach.png``, ``finish.png``.
-
-    Raises:
-        StoreError: The folder cannot be written.
-    """
-    from holdfast.convergence.analysis import ENDS
-    from holdfast.report.figures import save_png
-
+def save(w: Workspace, folder: Path, command: str = "") -> list[Path]:
+    """``workspace.csv``, ``workspace.json``, the figures and the page."""
     columns = ["configurations", "lost", *ENDS, *(f"{name}_{column}_percent" for name in w.measures for column in w.columns)]
     values = [w.configurations, w.lost, w.ends, *w.measures.values()]
-    files = save_places(folder, "workspace", w.places, columns, values, summary(w))
-    for name, figure in figures(w).items():
-        files.append(save_png(figure, Path(folder) / f"{name}.png", 130))
-    return files
+    files = save_places(folder, "workspace", w.places, columns, values, w.to_dict())
+    return files + results.save(w, folder, command, dpi=130)
 
 
-def figures(w: Workspace) -> dict[str, Any]:
+def figures(w: Workspace) -> dict[str, Figure]:
     """The maps of Fig. 10 by file name: ``reach``, and ``finish`` if failures were looked at.
 
     For tasks that are not in a plane ``reach-top`` and ``reach-side``, seen along z and along y, and ``finish`` likewise.
@@ -85,7 +95,3 @@ def figures(w: Workspace) -> dict[str, Any]:
 
 def _counts(w: Workspace, flags: NDArray[np.bool_]) -> dict[str, int]:
     return dict(zip(w.columns, flags.sum(axis=0).tolist(), strict=True))
-
-
-def _number(value: Any) -> float | None:
-    return None if np.isnan(value) else float(value)

@@ -1,4 +1,4 @@
-"""Maps over places as every analysis of a workspace draws them: over the plane of the task, or from above and from the side."""
+"""Maps over places and tables of means of every analysis of a workspace: in the plane of the task, or from two sides."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 from holdfast.convergence.measures import FINISH, REACH
 from holdfast.convergence.places import Places, in_a_plane
 from holdfast.convergence.table import axis_label
+from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.arm.task import Task
     from holdfast.control.law import Law
+    from holdfast.convergence.origins import Workspace
+    from holdfast.convergence.targets import TargetMeasures
 
 Array = NDArray[np.float64]
 
@@ -37,16 +40,9 @@ def panels(
 ) -> dict[str, Figure]:
     """A figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and y.
 
-    Args:
-        task: Whether places lie in a plane, and in which.
-        places: P places.
-        rows: By title, (P, C) percentages, NaN where there are none.
-        columns: (C,) titles.
-        label: Of the colour bar.
-        caption: What was computed; where values were averaged is added.
-        mark: (3,) a target to show; None: none.
-        gathered: Places in a plane that are no lattice are averaged in square cells, as those of spatial arms always are;
-            else each is a dot.
+    ``rows`` are by title, (P, C) percentages, NaN where there are none; ``columns`` (C,) titles; ``label`` is of the colour
+    bar; ``mark`` (3,) a target to show. Places in a plane that are no lattice are averaged in square cells if ``gathered``, as
+    those of spatial arms always are; else each is a dot.
     """
     from holdfast.report.places import Plane, binned, place_maps
 
@@ -68,6 +64,20 @@ def panels(
     return found
 
 
+def mean_rows(found: Workspace | TargetMeasures, over: str, intervals: bool = True) -> Rows:
+    """A row for each joint and ``any``, a column for the mean of each measure."""
+    means, sure = found.means(), found.intervals()
+    rows = []
+    for k, name in enumerate((*found.law.arm.joint_names, "any")):
+        rows.append([name, *(with_interval(v[k], *sure[m][k]) if intervals else number(v[k]) for m, v in means.items())])
+    return Rows(["joint", *means], rows, f"mean over {over}, percent" + " (and 95 % interval)" * intervals)
+
+
+def with_interval(value: float, low: float, high: float) -> str:
+    """A percentage over its interval."""
+    return number(value) if np.isnan(value) else f"{value:.1f}\n{low:.1f} to {high:.1f}"
+
+
 def measure_maps(
     law: Law,
     places: Places,
@@ -78,13 +88,7 @@ def measure_maps(
 ) -> dict[str, Figure]:
     """Maps of R100, Ravg, Rsens and, where failures were looked at, of F100, Favg, Fsens, by name: ``reach``, ``finish-top``.
 
-    Args:
-        law: The law, with its arm and task.
-        places: The P places.
-        measures: By name, (P, n + 1) each, percent.
-        about: First line of the captions.
-        failures: How many there were; empty: none.
-        mark: (3,) the target, to be shown.
+    ``failures`` says how many were simulated, empty if none; ``mark`` (3,) is the target, to be shown.
     """
     columns = [*law.arm.joint_names, "any joint"]
     told = {

@@ -1,20 +1,34 @@
-"""Maps over the targets of a workspace."""
+"""The measures over targets: numbers, a table, maps and files."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from holdfast.present.convergence.places import measure_maps
+from holdfast.convergence.analysis import ENDS
+from holdfast.convergence.table import save_places
+from holdfast.convergence.targets import TargetMeasures
+from holdfast.notice import says
+from holdfast.present import results
+from holdfast.present.convergence.places import mean_rows, measure_maps
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from holdfast.convergence.targets import TargetMeasures
+
+def to_dict(t: TargetMeasures) -> dict[str, Any]:
+    """Places, ends, and the measures of each target with their intervals, percent."""
+    return {"targets": t.targets.points, "ends": t.ends, "percent": t.measures, "percent_95": t.target_intervals()}
+
+
+def tables(t: TargetMeasures) -> list[Rows]:
+    """The means of the measures."""
+    return [mean_rows(t, "the targets")]
 
 
 def figures(t: TargetMeasures) -> dict[str, Figure]:
-    """See :meth:`holdfast.TargetMeasures.figures`."""
+    """Maps over the targets by name, as those of a workspace: ``reach``, and ``finish`` if failures were looked at."""
     about = (
         f"{t.law.arm.name}, {t.law.name}: each place is a target, its value the mean over {len(t.starts)} starts; "
         "grey: no value"
@@ -23,8 +37,15 @@ def figures(t: TargetMeasures) -> dict[str, Figure]:
     return measure_maps(t.law, t.targets, t.measures, about, f"{count} failures" if count else "")
 
 
-def save_maps(t: TargetMeasures, folder: Path) -> list[Path]:
-    """Write each map as ``targets-NAME.png``."""
-    from holdfast.report.figures import save_png
-
-    return [save_png(figure, folder / f"targets-{name}.png", 130) for name, figure in t.figures().items()]
+@says("writing the results")
+def save(t: TargetMeasures, folder: Path, command: str = "") -> list[Path]:
+    """``targets.csv``, with means over the starts and their 95 % intervals; ``targets.json``, maps and the page."""
+    names = (*t.law.arm.joint_names, "any")
+    columns: list[str] = list(ENDS)
+    values: list[Any] = [t.ends]
+    for name, sure in t.target_intervals().items():
+        values += [t.measures[name], sure[..., 0], sure[..., 1]]
+        columns += [f"{name}_{column}_percent{end}" for end in ("", "_low", "_high") for column in names]
+    facts: dict[str, Any] = {"arm": t.law.arm.title, "law": t.law.describe(), "starts": len(t.starts)}
+    files = save_places(folder, "targets", t.targets, columns, values, facts)
+    return files + results.save(t, folder, command, "targets-", 130)

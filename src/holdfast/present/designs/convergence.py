@@ -11,9 +11,10 @@ from markupsafe import Markup
 from holdfast import arms
 from holdfast.assessment.rows import provenance
 from holdfast.designs.convergence import FAILURES, TARGETS, ConvergenceDesigns
+from holdfast.files.output import put
 from holdfast.notice import says
 from holdfast.present.designs.figures import parameters_figure
-from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table, written
+from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table
 from holdfast.probability.intervals import Difference, Interval
 from holdfast.report import figures, page
 from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
@@ -39,7 +40,7 @@ def save(d: ConvergenceDesigns, folder: Path) -> list[Path]:
     lines = [",".join((*d.space.names, *d.measures))]
     columns = [*d.values.T.tolist(), *(m.tolist() for m in d.measures.values())]
     lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-    files = written(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: d.arm_file()})
+    files = put(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: d.arm_file()})
     return [*files, d.report(folder / "report.html")]
 
 

@@ -17,7 +17,7 @@ from holdfast.assessment.rows import provenance
 from holdfast.designs.designs import Checked, Designs, chosen, interval_text
 from holdfast.designs.space import DesignSpace
 from holdfast.failures import failure_sets
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.notice import says
 from holdfast.present.commands import failures_option, region_file, region_files, task_option
 from holdfast.present.designs.console import at_bound
@@ -61,20 +61,8 @@ def save(d: Designs, folder: Path) -> list[Path]:
         texts["region.yaml"] = region_file(d.region) + "\n"
         if d.region.listed is not None:
             texts["poses.csv"] = d.region.listed.table()
-    files = written(folder, texts)
+    files = put(folder, texts)
     return [d.report(folder / "report.html"), *files]
-
-
-def written(folder: Path, texts: dict[str, str]) -> list[Path]:
-    """The files, written one by one.
-
-    Raises:
-        StoreError: The folder cannot be made, or a file not written.
-    """
-    made(folder)
-    for name, text in texts.items():
-        replaced(folder / name, text)
-    return [folder / name for name in texts]
 
 
 def _table(d: Designs) -> str:

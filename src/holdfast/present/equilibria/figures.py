@@ -1,4 +1,4 @@
-"""Figures of rest curves and basins. Imports matplotlib: import it where a figure is made."""
+"""Figures of curves of stationary points and of basins. Imports matplotlib: import it where a figure is made."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.equilibria.attraction import Basins
 from holdfast.equilibria.curves import Curves
-from holdfast.equilibria.stability import Kind
 from holdfast.equilibria.system import wrapped
 from holdfast.report.curves import RestLine, basin_map, curves_over, share_bars
 
@@ -19,15 +18,15 @@ _CELLS, _TRIES = 360, 16  # of the locked value, to see where the target is with
 _MOST_JOINTS = 3
 
 
-def curves_figure(curves: Curves, seed: int = 0) -> Figure:
-    """Rest curves over the locked value: the error, and the other joints if they are few.
+def curves_figure(curves: Curves) -> Figure:
+    """Curves of stationary points over the locked value: the error, and the other joints if they are few.
 
     Where the target can be reached is shaded, found by inverse kinematics in steps of a degree (or a 360th of the range).
     """
     arm, joint, system = curves.law.arm, curves.joint, curves._system
     others = [k for k in np.flatnonzero(system.healthy) if np.flatnonzero(system.healthy).size <= _MOST_JOINTS]
     size = "m and rad" if curves.law.task.angular else "m"
-    shown = [f"error of the hand, {size}", *(_axis(arm, k) for k in others)]
+    shown = [f"error of the end effector, {size}", *(_axis(arm, k) for k in others)]
 
     def rows(q: Array, error: Array) -> list[Array]:
         return [error, *(_values(arm, q, k) for k in others)]
@@ -44,7 +43,7 @@ def curves_figure(curves: Curves, seed: int = 0) -> Figure:
         for word, some in (("degenerate", ~loose.attracting), ("sink", loose.attracting))
         if some.any()
     ]
-    values, reached = _within_reach(curves, seed)
+    values, reached = _within_reach(curves)
     caption = (
         f"{arm.name}, {curves.law.name}; {arm.joint_names[joint]} locked, the controller does not know; "
         f"{len(curves)} curves from {curves.starts} starts"
@@ -74,29 +73,21 @@ def basins_figure(basins: Basins) -> Figure:
     scale = np.array([arm.joints[first].shown[0], arm.joints[second].shown[0]])
     left, right = low * scale, high * scale
     alone = np.flatnonzero(~points.continuum)
-    marks = [
-        (
-            Kind(points.kind[k]).word,
-            float(_values(arm, points.q[[k]], first)[0]),
-            float(_values(arm, points.q[[k]], second)[0]),
-            "",
-        )
-        for k in alone
-    ]
-    marks = [(kind, x, y, f"{kind} {k + 1}") for (kind, x, y, _), k in zip(marks, alone, strict=True)]
+    x, y = (_values(arm, points.q, k).tolist() for k in (first, second))
+    marks = [(points.kinds[k], x[k], y[k], f"{points.kinds[k]} {k + 1}") for k in alone]
     lines = [(_values(arm, q, first), _values(arm, q, second)) for q in basins.boundaries]
     extent = (float(left[0]), float(right[0]), float(left[1]), float(right[1]))
     return basin_map(cells.reshape(basins.shape), names, extent, marks, lines, (_axis(arm, first), _axis(arm, second)), caption)
 
 
-def _within_reach(curves: Curves, seed: int) -> tuple[Array, list[tuple[float, float]]]:
+def _within_reach(curves: Curves) -> tuple[Array, list[tuple[float, float]]]:
     """The locked values to show, in degrees or m, and the ranges of them at which the target is reached."""
     arm, joint = curves.law.arm, curves.joint
     low, high = (arm.lower[joint], arm.upper[joint]) if arm.joints[joint].prismatic else (-np.pi, np.pi)
     low, high = (low if np.isfinite(low) else -1.0), (high if np.isfinite(high) else 1.0)
     edges = np.linspace(low, high, _CELLS + 1)
     middle = np.repeat((edges[1:] + edges[:-1]) / 2, _TRIES)
-    found = curves._system.reaches(middle, np.random.default_rng(seed)).reshape(_CELLS, _TRIES).any(axis=1)
+    found = curves._system.reaches(middle, np.random.default_rng(0)).reshape(_CELLS, _TRIES).any(axis=1)
     changes = np.flatnonzero(np.diff(np.r_[0, found.astype(int), 0]))
     shown = edges * arm.joints[joint].shown[0]
     return shown, [(float(shown[a]), float(shown[b])) for a, b in zip(changes[::2], changes[1::2], strict=True)]

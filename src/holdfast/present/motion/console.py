@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.motion.trajectory import Array, Trajectory
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import number
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -44,8 +44,7 @@ def to_dict(t: Trajectory) -> dict[str, Any]:
         data["torque_bound"] = t.torque_bound
         data["time_scale"] = max(scales)
         data["time_scale_by_joint"] = dict(zip(names, scales, strict=True))
-    made: dict[str, Any] = plain(data)
-    return made
+    return data
 
 
 def show(t: Trajectory, out: Console) -> None:

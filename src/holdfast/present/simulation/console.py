@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import number
 from holdfast.simulation.runs import Outcome, Reason, Runs
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def to_dict(runs: Runs) -> dict[str, Any]:
     def by_joint(values: Any) -> dict[str, Any]:
         return dict(zip(arm.joint_names, values.T, strict=True))
 
-    data = {
+    return {
         **arm.entry(),
         "law": runs.law.slug,
         "task": runs.law.task.name,
@@ -41,8 +41,6 @@ def to_dict(runs: Runs) -> dict[str, Any]:
         "limits_passed": [name for name, passed in by_joint(runs.limits_passed).items() if passed.any()],
         "limits": {joint.name: [joint.lower, joint.upper] for joint in arm.joints},
     }
-    made: dict[str, Any] = plain(data)
-    return made
 
 
 def show(runs: Runs, out: Console) -> None:

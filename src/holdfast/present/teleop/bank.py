@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast import arms
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.files.spreadsheet import csv_text
 from holdfast.teleop.bank.selection import Binning, TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
@@ -40,10 +40,9 @@ def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
     """
     from holdfast.report.figures import save_png
 
-    file = made(folder) / "bank.csv"
-    replaced(file, csv_text(bank_table(choice.bank, choice.arm, choice.cells)))
+    written = put(folder, {"bank.csv": csv_text(bank_table(choice.bank, choice.arm, choice.cells))})
     protocol = _protocol(choice, spec).write(folder / "protocol.yaml")
-    return [file, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
+    return [*written, protocol, save_png(choice.figures()["bank"], folder / "bank.png", 150)]
 
 
 def _protocol(choice: TaskChoice, spec: str) -> Protocol:

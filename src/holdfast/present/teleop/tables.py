@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from holdfast.files.output import made, replaced
+from holdfast.files.output import put
 from holdfast.files.spreadsheet import csv_text
 from holdfast.teleop.analysis.observations import CAUSES
 from holdfast.teleop.trials.performance import MEASURES
@@ -120,11 +120,8 @@ def write_tables(analysis: Analysis, folder: Path) -> list[Path]:
     Raises:
         StoreError: The folder or a file cannot be written.
     """
-    tables = {folder / f"{x}.csv": table for x, table in [*analysis.tables.items(), ("data_dictionary", dictionary(analysis))]}
-    made(folder)
-    for file, table in tables.items():
-        replaced(file, csv_text(table, "NA"))
-    return list(tables)
+    tables = {**analysis.tables, "data_dictionary": dictionary(analysis)}
+    return put(folder, {f"{name}.csv": csv_text(table, "NA") for name, table in tables.items()})
 
 
 def dictionary(analysis: Analysis) -> DataFrame:

@@ -1,4 +1,4 @@
-"""``holdfast stationary`` and ``holdfast basins``."""
+"""``holdfast stationary-points`` and ``holdfast basins``."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-POINTS = ["stationary", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
-CURVES = ["stationary", "planar-3r", "--target", "1.5,1.5", "--lock", "2"]
+POINTS = ["stationary-points", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
+CURVES = ["stationary-points", "planar-3r", "--target", "1.5,1.5", "--lock", "2"]
 BASINS = ["basins", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
 
 
@@ -52,7 +52,7 @@ def test_basins_are_printed_and_drawn(cli, ask, tmp_path):
         ([*POINTS, "--lock", "1"], "--at has 1 numbers; give one for each of the 2"),
         ([*CURVES, "--lock", "1"], "curves over the locked value are those of one"),
         ([*BASINS, "--grid", "1"], "2 or more cells"),
-        (["stationary", "planar-3r", "--target", "1", "--lock", "2"], "--target has 1 numbers"),
+        (["stationary-points", "planar-3r", "--target", "1", "--lock", "2"], "--target has 1 numbers"),
     ],
 )
 def test_wrong_input_is_one_sentence(refused, arguments, words):

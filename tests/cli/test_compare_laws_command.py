@@ -1,4 +1,4 @@
-"""``holdfast compare``: what it prints and writes, against the library."""
+"""``holdfast compare-laws``: what it prints and writes, against the library."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.cli.laws import read_law
 
-CALL = ["compare", "planar-3r", "--law", "pseudoinverse", "--law", "damped:0.3", "--time-limit", "100"]
+CALL = ["compare-laws", "planar-3r", "--law", "pseudoinverse", "--law", "damped:0.3", "--time-limit", "100"]
 
 
 def test_random_motions_are_those_of_the_library(ask):
@@ -41,7 +41,7 @@ def test_a_table_for_people_and_a_folder(cli, tmp_path):
         rows = list(csv.DictReader(stream))
     assert len(rows) == 2 * 3 * 8
     assert {r["outcome"] for r in rows} <= {"converged", "stuck", "moving", "undecided"}
-    assert "holdfast compare planar-3r" in (out / "report.html").read_text(encoding="utf-8")
+    assert "holdfast compare-laws planar-3r" in (out / "report.html").read_text(encoding="utf-8")
 
 
 def test_one_motion_of_ones_own(ask):
@@ -81,11 +81,11 @@ def test_laws_with_their_settings():
     ],
 )
 def test_wrong_input_is_one_sentence(refused, arguments, words):
-    assert words in refused("compare", "planar-3r", *arguments)
+    assert words in refused("compare-laws", "planar-3r", *arguments)
 
 
 def test_it_says_what_it_is_not(cli):
-    _, said, _ = cli("compare", "--help")
+    _, said, _ = cli("compare-laws", "--help")
     assert "holdfast assess A B C" in said
     _, said, _ = cli("assess", "--help")
-    assert "holdfast compare" in said
+    assert "holdfast compare-laws" in said

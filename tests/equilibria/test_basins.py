@@ -61,13 +61,13 @@ def test_limit_cycle(three, angle, width, period):
     assert not found.windings.any()
     if angle == 168.30:
         assert found.error == pytest.approx((0.809, 0.997), abs=1e-3)
-        assert found.describe() == f"limit cycle (period {found.period:.4g} s)"
+        assert found.describe() == [f"limit cycle (period {found.period:.4g} s)"]
 
 
 @pytest.mark.parametrize(("angle", "rate"), [(10, -3.31), (30, -0.816)])
 def test_an_arm_that_turns_for_ever(three, angle, rate):
     """Fig. 7: no rest point at all, joint 1 turns."""
-    assert len(hf.stationary(three, [-0.8, 0.0], locked=2, at=RAD(angle))) == 0
+    assert len(hf.stationary_points(three, [-0.8, 0.0], locked=2, at=RAD(angle))) == 0
     runs = hf.simulate(three, RAD([10.8852, 72.5087, angle]), [-0.8, 0.0], locked=[2], time_limit=500)
     found = orbit(runs)
     assert found.label == "turning"
@@ -86,3 +86,10 @@ def test_wrong_input_is_one_sentence(three):
         orbit(runs)
     with pytest.raises(InputError, match="there is no run 1"):
         orbit(runs, 1)
+
+
+def test_starts_and_ends_as_a_data_set(three):
+    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(140), starts=5)
+    data = found.to_xarray()
+    assert data.start.sel(joint="joint2").values == pytest.approx(RAD(140))
+    assert np.array_equal(data.end, found.end)

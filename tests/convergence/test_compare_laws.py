@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -168,12 +169,15 @@ def test_a_row_of_the_table_by_runs_of_scipy(compared, motions, arm):
 
 
 def test_the_report_is_well_formed_and_its_tables_can_be_read(compared, tmp_path):
-    html = compared.report(tmp_path / "r.html", "holdfast compare x", "some <motions>").read_text(encoding="utf-8")
+    told = replace(compared, about="some <motions>")
+    html = told.report(tmp_path / "r.html", command="holdfast compare-laws x").read_text(encoding="utf-8")
     check(html)
     assert "some &lt;motions&gt;" in html
     assert "95 %" in html
     files = {}
-    for file in compared.save(tmp_path / "tables"):
+    *tables, written = compared.save(tmp_path / "tables")
+    assert written == tmp_path / "tables" / "report.html"
+    for file in tables:
         with file.open(encoding="utf-8", newline="") as stream:
             files[file.name] = len(list(csv.DictReader(stream)))
     assert files == {

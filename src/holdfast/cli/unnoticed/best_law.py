@@ -1,0 +1,40 @@
+"""``holdfast best-law``."""
+
+from __future__ import annotations
+
+import holdfast as hf
+from holdfast.cli.laws import LawsOption, TargetsOption, read_laws, read_places, read_targets
+from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption, read_arm
+from holdfast.cli.progress import progress_bar
+from holdfast.cli.unnoticed import measures
+from holdfast.present.results import printed, said
+
+
+def command(
+    arm: ArmArgument,
+    target: TargetsOption,
+    out: measures.FolderOption = None,
+    starts: measures.MapStartsOption = "1000",
+    configurations: measures.MapConfigurationsOption = 20,
+    over: measures.OverOption = "starts",
+    law: LawsOption = None,
+    task: TaskOption = None,
+    time_limit: measures.MapTimeOption = None,
+    seed: SeedOption = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Which control law lets an arm reach its targets most often, whichever joint has locked without anybody knowing?
+
+    All laws meet the same failures: those of 'holdfast convergence-map'.
+
+    Example: holdfast best-law panda --task position --target 0.5,0.2,0.4 --law pseudoinverse --law failure-tolerant:0.2
+    """
+    laws = read_laws(law, read_arm(arm, base, tip, hold), task, arm)
+    targets, places = read_targets(laws[0], target), read_places(starts)
+    options = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
+    with progress_bar(json_, "runs") as progress:
+        result = hf.best_law(laws, targets, places, progress, **options)
+    printed(result, json_, [] if out is None else result.save(out, command=said()))

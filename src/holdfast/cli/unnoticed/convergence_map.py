@@ -1,0 +1,41 @@
+"""``holdfast convergence-map``."""
+
+from __future__ import annotations
+
+import holdfast as hf
+from holdfast.cli.laws import LawOption, TargetsOption, law_of, read_places, read_targets
+from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, SeedOption, TaskOption, TipOption
+from holdfast.cli.progress import progress_bar
+from holdfast.cli.unnoticed import measures
+from holdfast.present.results import printed, said
+
+
+def command(
+    arm: ArmArgument,
+    target: TargetsOption,
+    out: measures.FolderOption = None,
+    starts: measures.MapStartsOption = "1000",
+    configurations: measures.MapConfigurationsOption = 20,
+    over: measures.OverOption = "starts",
+    law: LawOption = "pseudoinverse",
+    task: TaskOption = None,
+    time_limit: measures.MapTimeOption = None,
+    seed: SeedOption = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """How do motions end with a joint locked from their start, each in turn, and none?
+
+    Example: holdfast convergence-map panda --task position --target 0.5,0.2,0.4 --starts 1000 --out results
+
+    Example: holdfast convergence-map planar-3r --target grid:12 --over targets --out results
+    """
+    made = law_of(law, arm, task, base, tip, hold)
+    targets, places = read_targets(made, target), read_places(starts)
+    with progress_bar(json_, "runs") as progress:
+        result = hf.convergence_map(
+            made, targets, places, configurations, over, time_limit=time_limit, seed=seed, progress=progress
+        )
+    printed(result, json_, [] if out is None else result.save(out, command=said()))

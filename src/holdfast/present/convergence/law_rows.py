@@ -1,0 +1,183 @@
+"""A comparison of laws in numbers and words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.convergence.law_comparison import ANY, HEALTHY, LawComparison
+from holdfast.present.printing import Rows, number, print_rows
+from holdfast.simulation.runs import Outcome
+from holdfast.words import fixed, percent
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+OUTCOMES = [o.name.lower() for o in Outcome]
+_OF_A_RUN = ("error", "excess", "closest", "path_length", "path_ratio", "excursion", "time")
+OUTCOME_HEAD = ["law", "locked", "converged", "95 % interval", *OUTCOMES[1:], "within reach"]
+
+
+def to_dict(c: LawComparison) -> dict[str, Any]:
+    """Outcomes, gains over the first law, and what each law costs the healthy arm."""
+    data: dict[str, Any] = {
+        **c.arm.entry(),
+        "task": c.laws[0].task.name,
+        "motions": len(c),
+        "about": c.about,
+        "laws": {name: law.describe() for name, law in zip(c.names, c.laws, strict=True)},
+        "outcomes": c.table,
+        "healthy": healthy_rows(c),
+        "undecided": {name: c.reasons(name) for name in c.names},
+    }
+    if pairs(c):
+        data["gains"] = gain_rows(c)
+    return data
+
+
+def show(c: LawComparison, out: Console) -> None:
+    """The headline and the tables."""
+    from rich.markup import escape
+
+    size = error_unit(c)
+    out.print(f"Arm {escape(c.arm.title)}, task {escape(c.laws[0].task.describe())}; {escape(c.about)}", soft_wrap=True)
+    out.print(f"[bold]{escape(headline(c))}[/]", soft_wrap=True)
+    rows = [[*outcome_cells(r), "" if r["astray"] is None else number(r["astray"], 3)] for r in c.table]
+    print_rows(out, Rows([*OUTCOME_HEAD, "astray"], rows))
+    out.print(
+        f"astray: median end error, {size}, of the runs that do not converge; joint limits are not enforced", soft_wrap=True
+    )
+    if pairs(c):
+        rows = [
+            [r["law"], r["failure"], f"{signed(r, 'gain', 100.0, 1)} points", signed(r, "error", 1.0, 4)] for r in gain_rows(c)
+        ]
+        print_rows(out, Rows(["law", "locked", f"converge, more than with {c.names[0]}", f"end error, {size}"], rows))
+    if c.comparable.any():
+        shown = (("deviation", "_m", "m", 3), ("angle", "_deg", "deg", 1), ("time", "", time_unit(c), 2))
+        rows = [
+            [r["law"], *(f"{fixed(r[f'{of}_50{end}'], digits)} {unit}" for of, end, unit, digits in shown)]
+            for r in healthy_rows(c)
+        ]
+        head = ["while healthy", "off the straight line", "largest angle to the command", "to the target"]
+        print_rows(out, Rows(head, rows))
+        out.print("medians over the motions that converge with every law", soft_wrap=True)
+
+
+def outcome_cells(row: dict[str, Any]) -> list[str]:
+    """Of a row of the table, what is below ``OUTCOME_HEAD``."""
+    interval = f"{percent(row['converged_low'])} to {percent(row['converged_high'])}"
+    return [
+        row["law"],
+        row["failure"],
+        percent(row["converged"]),
+        interval,
+        *(percent(row[x]) for x in (*OUTCOMES[1:], "reachable")),
+    ]
+
+
+def signed(row: dict[str, Any], of: str, factor: float, digits: int) -> str:
+    """A difference with its interval."""
+    value, low, high = (f"{factor * row[name]:+.{digits}f}" for name in (of, f"{of}_low", f"{of}_high"))
+    return f"{value} ({low} to {high})"
+
+
+def error_unit(c: LawComparison) -> str:
+    """Of the norm of the task's error."""
+    return "m and rad" if c.laws[0].task.angular else "m"
+
+
+def time_unit(c: LawComparison) -> str:
+    """Of the time of a run."""
+    return "cycles" if c.runs[0].cycles else "s"
+
+
+def headline(c: LawComparison) -> str:
+    """The answer in two sentences."""
+    if not c.joints:
+        return f"Healthy, {_listed([f'{percent(_share(c, n, HEALTHY))} converge with {n}' for n in c.names])}."
+    shares = _listed([f"{percent(c.share_any(n).value)} with {n}" for n in c.names])
+    text = f"With one joint locked and nobody aware of it, the end effector reaches its target in {shares} of the motions"
+    text += f" ({percent(_within_reach(c))} of the targets are still within reach)."
+    for name in c.names[1:]:
+        text += f" {_verdict(c, name)}"
+    return text
+
+
+def _verdict(c: LawComparison, name: str) -> str:
+    if len(c) < 2:
+        return ""
+    gain, nearer = c.gain(name), c.change(name, "error")
+    first = c.names[0]
+    if gain.low > 0 and c.gain(name, undecided="against").low > 0:
+        text = f"With {name} more converge than with {first}, by {_points(gain.value)}"
+    elif gain.high < 0 and c.gain(name, undecided="for").high < 0:
+        text = f"With {name} fewer converge than with {first}, by {_points(-gain.value)}"
+    else:
+        text = f"It cannot be told whether more or fewer converge with {name} than with {first}"
+    if nearer.high < 0 or nearer.low > 0:
+        size = "" if c.laws[0].task.angular else " m"
+        way = "nearer to" if nearer.value < 0 else "farther from"
+        text += f"; on average its runs end {number(abs(nearer.value))}{size} {way} the target"
+    return f"{text}."
+
+
+def _points(share: float) -> str:
+    return f"{100 * share:.1f} percentage points"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+
+
+def _share(c: LawComparison, law: str, failure: str) -> float:
+    share = c.case(law, failure).share()
+    return share.value if share else 0.0
+
+
+def _within_reach(c: LawComparison) -> float:
+    return float(np.mean([c.case(c.names[0], joint).reachable.mean() for joint in c.joints]))
+
+
+def pairs(c: LawComparison) -> bool:
+    """Whether there is anything to compare: two laws, a failure and two motions."""
+    return len(c.names) > 1 and bool(c.joints) and len(c) > 1
+
+
+def gain_rows(c: LawComparison) -> list[dict[str, Any]]:
+    """Of each law but the first and each joint: paired differences to the first law, with their intervals."""
+    rows = []
+    for name in c.names[1:]:
+        for failure in [*c.joints, ANY]:
+            row: dict[str, Any] = {"law": name, "than": c.names[0], "failure": failure}
+            gain = c.gain(name, failure)
+            row |= {"gain": gain.value, "gain_low": gain.low, "gain_high": gain.high, "gain_p_value": gain.p_value}
+            for of in ("error", "excess"):
+                d = c.change(name, of, failure)
+                row |= {of: d.value, f"{of}_low": d.low, f"{of}_high": d.high}
+            rows.append(row)
+    return rows
+
+
+def healthy_rows(c: LawComparison) -> list[dict[str, Any]]:
+    """Of each law: medians and 95 % quantiles of what it costs the healthy arm; m, deg, and s or cycles."""
+    rows = []
+    for name in c.names:
+        row: dict[str, Any] = {"law": name}
+        for of, unit, factor in (("deviation", "m", 1.0), ("angle", "deg", 180 / np.pi), ("time", "", 1.0)):
+            middle, most = factor * c.cost(name, of, (0.5, 0.95))  # type: ignore[arg-type]
+            row |= {"_".join(x for x in (of, part, unit) if x): v for part, v in (("50", middle), ("95", most))}
+        rows.append(row)
+    return rows
+
+
+def run_rows(c: LawComparison) -> list[dict[str, Any]]:
+    """Of each law, failure and motion: how the run ended."""
+    rows: list[dict[str, Any]] = []
+    for case in (c.case(name, failure) for name in c.names for failure in c.failures):
+        for k in range(len(c)):
+            row: dict[str, Any] = {"law": case.law, "failure": case.failure, "motion": k, "outcome": OUTCOMES[case.code[k]]}
+            row |= {"reachable": int(case.reachable[k])} | {of: f"{getattr(case, of)[k]:.9g}" for of in _OF_A_RUN}
+            rows.append(row | {"past_limits": int(case.past_limits[k])})
+    return rows
