@@ -27,18 +27,8 @@ import harness
 from harness import Spread
 
 HERE = Path(__file__).resolve().parents[1]
-SINGLE = (
-    "arms",
-    "describe",
-    "index",
-    "susceptibility",
-    "configure",
-    "follow",
-    "swing",
-    "simulate",
-    "recover",
-    "stationary-points",
-)
+SINGLE = ("arms", "describe", "index", "susceptibility", "optimise", "follow", "free-swing", "simulate", "recover")
+SINGLE += ("stationary-points",)
 SINGLE += ("self-motion", "export", "report", "help", "import holdfast", "study new", "study status", "study verify")
 SINGLE += ("study merge", "teleop allocation", "teleop protocol", "teleop texts", "teleop serve", "studio")
 SERVERS = ("studio", "teleop serve")  # timed until they say where the page is

@@ -407,7 +407,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     from holdfast import arms, teleop
     from holdfast import engine as study
     from holdfast.arms.serial import to_dict
-    from holdfast.assessment.assessment import load
+    from holdfast.assessment import load
     from holdfast.clearance import Capsules
     from holdfast.cli.options import read_weights
     from holdfast.engine import Threads

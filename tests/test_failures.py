@@ -5,11 +5,12 @@ from __future__ import annotations
 from itertools import combinations
 from math import comb
 
+import numpy as np
 import pytest
 
 import oracles
 from holdfast.errors import InputError, TaskError
-from holdfast.failures import failure_names, failure_sets, require_redundant
+from holdfast.failures import failure_names, failure_sets, locks_at, read_locks, require_redundant
 
 
 def test_single_is_every_joint_once(mixed8):
@@ -71,3 +72,29 @@ def test_redundancy(mixed8):
         require_redundant(mixed8, 7, "seven", pairs)
     with pytest.raises(TaskError, match="lock at most 2 joints together"):
         require_redundant(mixed8, 6, "pose", (*single, (0, 1, 2)))
+
+
+def test_a_lock_is_read_alike_however_it_is_given(mixed8):
+    at = np.arange(8.0)
+    for given in (["j2", 0], ("j2", "j0"), {"j2": None, 0: None}, [np.int64(2), 0]):
+        assert read_locks(mixed8, given) == {2: None, 0: None}
+        assert list(locks_at(mixed8, given, at).items()) == [(0, 0.0), (2, 2.0)]
+    assert read_locks(mixed8, "j2") == read_locks(mixed8, 2) == read_locks(mixed8, np.int64(2)) == {2: None}
+    assert read_locks(mixed8, {"j2": 1, 0: np.float64(0.5), "j1": None}) == {2: 1.0, 0: 0.5, 1: None}
+    assert locks_at(mixed8, {"j2": 1, "j1": None}, at) == {1: 1.0, 2: 1.0}
+    assert read_locks(mixed8, ()) == {}
+
+
+@pytest.mark.parametrize(
+    ("locked", "message"),
+    [
+        ("elbow", "no joint 'elbow'"),
+        ([8], "joint index 8 is out of range"),
+        (["j1", 1], "joint 'j1' is locked twice; give each joint once"),
+        ({"j0": np.nan}, "joint 'j0' is locked at nan; give a finite number, rad"),
+        ({"j1": "far"}, "the lock of 'j1' is not numbers; it must be a number, m"),
+    ],
+)
+def test_a_lock_that_cannot_be_is_one_sentence(locked, message, mixed8):
+    with pytest.raises(InputError, match=message):
+        read_locks(mixed8, locked)

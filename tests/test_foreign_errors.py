@@ -62,7 +62,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "assess": (
             hf.assess,
             {"arm": arm, "region": region, "index": index, "poses": 5, "seed": 0, "sampling": "random", "restarts": 2}
-            | {"store": folder / "a", "keep": None, "task": "planar", "after_lock": False, "lock_at": {0: 0.1}, "margin": 0.0},
+            | {"store": folder / "a", "keep": None, "task": "planar", "after_lock": False, "locked": {0: 0.1}, "margin": 0.0},
         ),
         "basins": (
             hf.basins,
@@ -70,7 +70,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"time_limit": 5.0, "confidence": 0.95},
         ),
         "best_law": (hf.best_law, {"laws": [law, hf.control.damped(arm, 0.1, "planar")], "targets": 2, "starts": 3}),
-        "compare": (hf.compare, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
+        "compare_assessments": (hf.compare_assessments, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
         "compare_laws": (
             hf.compare_laws,
             {"laws": [law], "q0": q, "target": target, "locked": [1], "cycles": False, "time_limit": 5.0}
@@ -118,7 +118,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "self_motion": (hf.self_motion, {**at_planar, "target": target, "spacing": 0.3, "seed": 0, "starts": 4}),
         "simulate": (
             hf.simulate,
-            {"law": law, "q0": q, "target": target, "locked": [(1, 0.5)], "cycles": False, "method": "adaptive"}
+            {"law": law, "q0": q, "target": target, "locked": [1], "time": 0.5, "cycles": False, "method": "adaptive"}
             | {"time_limit": 5.0, "tolerance": 1e-8, "step": None, "radius": 0.1},
         ),
         "solve_ik": (hf.solve_ik, {**at_planar, "poses": pose, "seed": 0, "restarts": 2, "tolerance": 1e-6, "start": q}),

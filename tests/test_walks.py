@@ -1,4 +1,4 @@
-"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows the new name."""
+"""The walks of docs/extending.md, carried out in a copy: two files and a line each, and everything knows what is new."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ def steps(anchor):
 
 
 def write(folder, where, text):
-    """A new file, an entry of a table, or a line at the end of a stub."""
+    """A new file, an entry of a table or list, or a line at the end of a stub."""
     if found := TABLE.match(where):
-        file, head = folder / found[1], f"    {found[2] or found[3]}: "
-        whole = file.read_text(encoding="utf-8")
-        assert head in whole
+        file = folder / found[1]
+        whole, entry = file.read_text(encoding="utf-8"), f"    {found[2] or found[3]}"
+        (head,) = [start for start in (f"{entry}: ", f"{entry},") if start in whole]
         first, rest = whole.split(head, 1)
         line, _, others = rest.partition("\n")
         file.write_text(f"{first}{head}{line}\n{text}{others}", encoding="utf-8")
@@ -61,13 +61,13 @@ def run(tmp_path):
     python = f"{tmp_path / 'src'}{os.pathsep}{tmp_path / 'tests'}"
     environment = {**os.environ, "PYTHONPATH": python, "HOLDFAST_BACKEND": "casadi", "NO_COLOR": "1", "COLUMNS": "200"}
 
-    def run(*words):
+    def call(*words):
         done = subprocess.run(
             [sys.executable, "-m", *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
         )
         return done.returncode, done.stdout + done.stderr
 
-    return run
+    return call
 
 
 @pytest.mark.parametrize("walk", WALKS)
@@ -96,6 +96,17 @@ def test_the_walk(walk, run, tmp_path):
     picked = ["-k", f"{name} or against_singular_values and (planar or rows)"] if kind == "index" else ["-k", "rates"]
     code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen, *picked)
     assert code == 0, told
+
+
+def test_the_walk_to_a_section_of_the_report(run, tmp_path):
+    file, line, test = steps("add-a-report-section")
+    for step in (file, line, test):
+        write(tmp_path, *step)
+    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", test[0])
+    assert code == 0, told
+    code, told = run("holdfast", "assess", "panda", "--task", "position", "--poses", "9", "--out", "results")
+    assert code == 0, told
+    assert "How near the joints are to their limits" in (tmp_path / "results/report.html").read_text(encoding="utf-8")
 
 
 def test_the_walk_of_a_command(run, tmp_path):

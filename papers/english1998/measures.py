@@ -85,7 +85,7 @@ def compare(name: str) -> Study:
     poses = poses[found.success]
     chosen = {"nothing: first configuration found": found.q[found.success]}
     for label, measure in measures.items():
-        best = hf.optimise(arm, poses, measure, SEED)
+        best = hf.optimise(arm, poses, measure, seed=SEED)
         best.require_ok()
         chosen[label] = best.q
     curves = [f.q for f in fibres(arm, poses, "pose", 0.05, SEED)]

@@ -95,7 +95,7 @@ class Extremes:
 
 def extremes(planar: Planar, measure: Susceptibility, x: float, y: float) -> Extremes:
     """Fig. 4 for any measure and point."""
-    q = [hf.optimise(planar.arm, pose(x, y), m, SEED, task="planar").q for m in (measure, measure.reversed())]
+    q = [hf.optimise(planar.arm, pose(x, y), m, seed=SEED, task="planar").q for m in (measure, measure.reversed())]
     every = measure(self_motion(planar.arm, pose(x, y), "planar", 0.01).q)
     return Extremes(q[0], q[1], (float(measure(q[0])), float(measure(q[1]))), (float(every.min()), float(every.max())))
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.present.reach.figures import self_motion_picture
 from holdfast.report import save_png
 from holdfast.solvers import SelfMotion
 from papers.claims import Claim, Verdict
@@ -111,7 +111,9 @@ def result(folder: Path) -> Part:
     pose[:2, 3] = TARGET
     motion = hf.self_motion(law().arm, pose, "planar", spacing=0.01)
     save_png(
-        self_motion_picture(law().arm, motion, [[(np.radians(a), np.radians(b)) for a, b in joint] for joint in found]),
+        replace(motion, bounds=[[(np.radians(a), np.radians(b)) for a, b in joint] for joint in found]).figures()[
+            "self-motion"
+        ],
         folder / "self-motion.png",
         dpi=110,
     )

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.arm import as_task
-from holdfast.present.reach.figures import region_picture
 from holdfast.reach import TolerantWorkspace, closed_form
 from holdfast.report import save_png
 
@@ -115,7 +114,7 @@ def main() -> None:
     """Run the grid and write RESULTS.md."""
     found = [search(half) for half in HALVES]
     region = hf.tolerant_workspace(hf.arms.load("planar-3r"), task="planar", optimise=True)
-    save_png(region_picture(region), HERE / "region.png", dpi=100)
+    save_png(region.figures()["region"], HERE / "region.png", dpi=100)
     lines = results(found, region)
     (HERE / "RESULTS.md").write_text("\n".join(lines), encoding="utf-8")
     print("\n".join(lines))

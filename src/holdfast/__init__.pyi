@@ -11,7 +11,7 @@ from holdfast.arm.task import Task as Task
 from holdfast.assessment import Assessment as Assessment
 from holdfast.assessment import Comparison as Comparison
 from holdfast.assessment import assess as assess
-from holdfast.assessment import compare as compare
+from holdfast.assessment import compare_assessments as compare_assessments
 from holdfast.assessment import load as load
 from holdfast.clearance import Capsules as Capsules
 from holdfast.clearance import Clearance as Clearance
@@ -59,7 +59,7 @@ from holdfast.recovery import recover as recover
 from holdfast.regions import Region as Region
 from holdfast.simulation import Runs as Runs
 from holdfast.simulation import simulate as simulate
-from holdfast.solvers import Optimum as Optimum
+from holdfast.solvers import Optima as Optima
 from holdfast.solvers import Reach as Reach
 from holdfast.solvers import optimise as optimise
 from holdfast.solvers import self_motion as self_motion

@@ -1,4 +1,4 @@
-"""Failure modes: which joints stay still.
+"""Failure modes: which joints may fail, and which are locked.
 
 A locked joint stays where it was when it failed. A free-swinging joint or a failed sensor that brakes turn into a lock
 is a locked joint as well.
@@ -6,12 +6,14 @@ is a locked joint as well.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from holdfast.arguments import real_numbers
 from holdfast.errors import InputError, TaskError
 from holdfast.grammar import FAILURES, TASKS
 
@@ -20,6 +22,10 @@ if TYPE_CHECKING:
 
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
+
+_Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str | int, float | None]
+# {joint: value}, rad or m; {joint: None}, or the joints alone, for where they are. Joints by name or index from 0.
+Locked = str | int | Sequence[str | int] | _Mapping
 
 _MOST = 5000
 
@@ -80,6 +86,35 @@ def require_redundant(arm: Arm, rows: int, task: str, sets: FailureSets) -> None
 def failure_names(arm: Arm, sets: FailureSets) -> list[str]:
     """Names for people and files: joint names, joined by ``+``."""
     return ["+".join(arm.joint_names[k] for k in s) for s in sets]
+
+
+def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
+    """The locked joints by index, as given, each with its value, rad or m; None: where it is.
+
+    Raises:
+        InputError: No such joint, one given twice, or a value that is not a finite number.
+    """
+    if isinstance(locked, (str, int)) or getattr(locked, "ndim", 1) == 0:
+        locked = [locked if isinstance(locked, str) else int(np.asarray(locked))]
+    if not isinstance(locked, Iterable):
+        raise InputError(f"locked is {locked!r}; it must be a joint, joints, or {{joint: value}}")
+    given = list(locked.items()) if isinstance(locked, Mapping) else [(joint, None) for joint in locked]
+    found: dict[int, float | None] = {}
+    for joint, value in given:
+        k = arm.joint_index(joint)
+        name, unit = arm.joint_names[k], arm.joints[k].unit
+        if k in found:
+            raise InputError(f"joint '{name}' is locked twice; give each joint once")
+        number = None if value is None else float(real_numbers(value, f"the lock of '{name}'", f"a number, {unit}"))
+        if number is not None and not np.isfinite(number):
+            raise InputError(f"joint '{name}' is locked at {number}; give a finite number, {unit}")
+        found[k] = number
+    return found
+
+
+def locks_at(arm: Arm, locked: Locked, at: NDArray[np.float64]) -> dict[int, float]:
+    """What :func:`read_locks` reads, in the arm's order, with the values of ``at`` (n,) for joints locked where they are."""
+    return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
 
 
 def read_joint(arm: Arm, text: str) -> int:

@@ -41,9 +41,9 @@ class Result:
         drawn: dict[str, Figure] = self._presented("figures", *args, **options)
         return drawn
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self, *args: Any, **options: Any) -> dict[str, Any]:
         """Its numbers by name, in types that JSON has, as ``--json`` prints them; infinity and NaN are None."""
-        data: dict[str, Any] = self._presented("numbers")
+        data: dict[str, Any] = self._presented("numbers", *args, **options)
         return data
 
     def describe(self) -> list[str]:

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast import Region, arms, assess, load
+from holdfast.arm.task import as_task
 from holdfast.errors import HoldfastError, InputError, StoreError, TaskError
 from holdfast.indices import CustomIndex, by_name
 from holdfast.regions.region import builtin_region
@@ -359,7 +360,10 @@ def test_rows_that_are_not_kept(pa10, tmp_path):
 
 
 def test_save_and_load(paper, tmp_path):
-    folder = paper.save(tmp_path / "a" / "run")
+    folder = tmp_path / "a" / "run"
+    files = [folder / "run.json", folder / "report.html"]
+    assert paper.save(folder) == files
+    assert all(file.exists() for file in files)
     back = load(folder)
     identical(columns(back), columns(paper))
     assert back.arm.fingerprint == paper.arm.fingerprint
@@ -369,8 +373,8 @@ def test_save_and_load(paper, tmp_path):
     np.testing.assert_array_equal(back.worst_counts, paper.worst_counts)
     assert (back.poses, back.seed, back.sampling, back.restarts, back.complete) == (3000, 4, "random", 100, True)
     assert back.seconds == paper.seconds
-    assert back.save(folder) == folder
-    assert paper.save(folder) == folder
+    assert back.save(folder) == files
+    assert paper.save(folder) == files
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "mine.txt").write_text("keep")
     with pytest.raises(StoreError, match="is not a holdfast run"):
@@ -382,7 +386,8 @@ def test_save_and_load_of_mixed_arms_with_tasks_of_their_own(mixed8, tmp_path):
     region = Region.joints(np.full(8, -1.0), np.full(8, 1.0))
     index = by_name("manipulability", mixed8, ["vx", "wz"], [["j1", "j2"], ["j5"]], 0.3)
     run = assess(mixed8, region, index, poses=64)
-    back = load(run.save(tmp_path / "run"))
+    run.save(tmp_path / "run")
+    back = load(tmp_path / "run")
     assert back.index.failures == ((1, 2), (5,))
     assert back.index.task.length == 0.3
     q = columns(run)["q"]
@@ -556,3 +561,39 @@ def test_an_index_of_ones_own_stays_in_memory(three, tmp_path):
         with pytest.raises(InputError, match="your own"):
             refused()
     assert not (tmp_path / "run").exists()
+
+
+# ---- what was asked twice --------------------------------------------------------------------------------------------
+
+
+def test_a_task_that_is_not_that_of_the_index_is_refused(three):
+    """It was ignored without a word."""
+    index = by_name("manipulability", three, "planar")
+    with pytest.raises(InputError, match=r"index is for task planar \(2 rows\), asked for is position \(3 rows\)"):
+        assess(three, THREE, index, poses=5, task="position")
+    same = assess(three, THREE, index, poses=5, task="planar")
+    assert same.index is index
+    assert assess(three, THREE, index, poses=5, task=["vx", "vy"]).distribution.total == same.distribution.total
+
+
+def test_a_task_of_another_length_is_refused(pa10):
+    index = by_name("manipulability", pa10, "pose", length=0.5)
+    assert assess(pa10, PAPER, index, poses=2, task="pose").index.task.length == 0.5
+    with pytest.raises(InputError, match=r"characteristic length 0.5 m, asked for is .* characteristic length 2 m"):
+        assess(pa10, PAPER, index, poses=2, task=as_task(pa10, "pose", 2.0))
+
+
+def test_what_it_says_in_sentences(three, tmp_path):
+    whole = assess(three, THREE, task="planar", poses=100)
+    headline, arm, region = whole.describe()
+    p = whole.probability(at_least=whole.default_threshold())
+    assert headline.startswith(f"With probability {p:.2f}")
+    assert "planar-3r" in arm
+    assert THREE.describe() in region
+
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        assess(three, THREE, task="planar", poses=10, store=tmp_path / "run", progress=stop)
+    assert load(tmp_path / "run").describe()[:2] == ["Nothing has been computed yet.", "Not finished: 0 of 10 poses."]

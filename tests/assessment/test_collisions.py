@@ -13,9 +13,9 @@ from holdfast import Capsules, Clearance, Region, arms, assess, load
 from holdfast.assessment.plan import make_plan
 from holdfast.clearance import Capsule
 from holdfast.errors import InputError, StoreError
-from holdfast.present.assessment import collisions_section as collisions
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.page import build
+from holdfast.present.assessment.sections import collisions
 from holdfast.present.commands import capsule_files, command_line
 from holdfast.status import Status
 
@@ -149,7 +149,7 @@ def test_a_folder_from_before_there_was_a_clearance_still_loads(arm, call, tmp_p
 
 @pytest.mark.parametrize("name", ["clearance", "blocked", "optimised_status"])
 def test_a_lost_column_is_named(name, run, tmp_path):
-    folder = run.save(tmp_path / "run")
+    folder = run.save(tmp_path / "run")[0].parent
     for p in (folder / "samples.zarr" / name / "c").rglob("*"):
         if p.is_file():
             p.unlink()

@@ -11,6 +11,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arms.tool import attachment, attachment_text
+from holdfast.assessment import load_comparison
 from holdfast.present.assessment.comparison import build
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
@@ -33,7 +34,7 @@ def runs():
 
 @pytest.fixture(scope="module")
 def comparison(runs):
-    return hf.compare(runs, ["straight", "side", "pa10", "position"], 0.05)
+    return hf.compare_assessments(runs, ["straight", "side", "pa10", "position"], 0.05)
 
 
 def test_the_table_is_that_of_the_runs(runs, comparison):
@@ -68,7 +69,7 @@ def test_the_table_is_that_of_the_runs(runs, comparison):
 def test_the_best(comparison, runs):
     assert comparison.best() == comparison.ranking()[0] == "position"
     assert comparison.ranking("pose")[-1] == "pa10"
-    two = hf.compare(runs[:2], ["straight", "side"], 0.05)
+    two = hf.compare_assessments(runs[:2], ["straight", "side"], 0.05)
     rows = {r["name"]: r for r in two.table}
     best = max(rows, key=lambda n: (rows[n]["optimised_probability"], rows[n]["optimised_median"]))
     assert two.best(optimised=True) == best
@@ -84,17 +85,17 @@ def test_what_differs_is_said(comparison, runs):
     text = " ".join(comparison.notes)
     assert "The tasks differ (pose, position)" in text
     assert "Only some candidates were optimised" in text
-    assert hf.compare(runs[:2], ["a", "b"]).notes == []
+    assert hf.compare_assessments(runs[:2], ["a", "b"]).notes == []
     other = hf.assess(PANDA, CELL, hf.indices.relative_manipulability(PANDA, failures=[[1]]), poses=30, seed=2, restarts=5)
-    text = " ".join(hf.compare([runs[0], other], ["a", "b"]).notes)
+    text = " ".join(hf.compare_assessments([runs[0], other], ["a", "b"]).notes)
     assert "a: each joint alone; b: panda_joint2" in text
     assert "Seeds" in text
     assert "restarts" in text
 
 
 def test_default_names_and_threshold(runs):
-    assert hf.compare([runs[0], runs[2]]).names == ("panda", "pa10-7dof")
-    both = hf.compare([runs[0], runs[3]])
+    assert hf.compare_assessments([runs[0], runs[2]]).names == ("panda", "pa10-7dof")
+    both = hf.compare_assessments([runs[0], runs[3]])
     assert both.names == ("panda, pose", "panda, position")
     assert both.threshold == 0.19  # half of sqrt(1/7), the smaller bound
     assert not both.chosen
@@ -112,17 +113,17 @@ def test_what_cannot_be_compared(runs):
         ([first, other], "'b' has the manipulability, 'a' the relative manipulability"),
     ):
         with pytest.raises(hf.InputError, match=words):
-            hf.compare(pair, list("ab")[: len(pair)])
+            hf.compare_assessments(pair, list("ab")[: len(pair)])
     with pytest.raises(hf.InputError, match="two candidates are called 'x'"):
-        hf.compare(runs[:2], ["x", "x"])
+        hf.compare_assessments(runs[:2], ["x", "x"])
     with pytest.raises(hf.InputError, match="1 names for 2"):
-        hf.compare(runs[:2], ["x"])
+        hf.compare_assessments(runs[:2], ["x"])
     with pytest.raises(hf.InputError, match="threshold is inf"):
-        hf.compare(runs[:2], ["x", "y"], np.inf)
+        hf.compare_assessments(runs[:2], ["x", "y"], np.inf)
 
 
 def test_an_empty_headline_says_who_is_nearest_and_why(runs):
-    two = hf.compare([runs[0], runs[2]], ["straight", "pa10"], 0.99)
+    two = hf.compare_assessments([runs[0], runs[2]], ["straight", "pa10"], 0.99)
     line = build(two).headline
     assert "No candidate keeps" in line
     straight = two.table[0]
@@ -144,14 +145,36 @@ def test_the_page(comparison, runs, tmp_path):
     assert u.joint in words
     assert "--tool tool=0.05,0,0.1,90,0,0" in words
     loose = [hf.assess(PANDA, CELL, "condition-number", poses=8, keep=False) for _ in range(2)]
-    html = hf.compare(loose, ["<a>", "$b$"]).report(tmp_path / "s.html").read_text(encoding="utf-8")
+    html = hf.compare_assessments(loose, ["<a>", "$b$"]).report(tmp_path / "s.html").read_text(encoding="utf-8")
     check(html)
     assert "were not kept" in html
     nothing = hf.Region.box([5, 0, 0], 0.1)
     lost = [hf.assess(arm, nothing, poses=4, restarts=1) for arm in (PANDA, SEVEN)]
-    html = hf.compare(lost).report(tmp_path / "t.html").read_text(encoding="utf-8")
+    html = hf.compare_assessments(lost).report(tmp_path / "t.html").read_text(encoding="utf-8")
     check(html)
     assert "No candidate keeps a relative manipulability" in html
+
+
+def test_a_folder_of_it(runs, tmp_path):
+    two = hf.compare_assessments(runs[:2], ["straight", "side"], 0.05, tools=[None, "bent"])
+    out = tmp_path / "cell"
+    assert two.save(out) == [out / "comparison.json", out / "report.html"]
+    assert sorted(p.name for p in out.iterdir()) == ["comparison.json", "report.html", "side", "straight"]
+    back = load_comparison(out, 0.05)
+    assert (back.names, back.tools, back.table, back.notes) == (two.names, two.tools, two.table, two.notes)
+    assert hf.load(out / "side").arm.fingerprint == SIDE.fingerprint
+    with pytest.raises(hf.InputError, match="candidate 'a/b' is not the name of a folder"):
+        hf.compare_assessments(runs[:2], ["a/b", "c"]).save(tmp_path / "other")
+    assert not (tmp_path / "other").exists()
+    with pytest.raises(hf.InputError, match="there are 1 tools for 2 assessments"):
+        hf.compare_assessments(runs[:2], ["a", "b"], tools=["x"])
+
+
+def test_what_it_says_in_sentences(comparison):
+    pose, position, *notes = comparison.describe()
+    assert pose.startswith(f"Task pose: {comparison.best('pose')} has the largest probability")
+    assert position.startswith("Task position: position has")
+    assert notes == comparison.notes
 
 
 def test_six_numbers_of_a_tool(rng):

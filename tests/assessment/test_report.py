@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +23,7 @@ from holdfast.failures import failure_sets
 from holdfast.present import commands as rerun
 from holdfast.present.assessment import facts
 from holdfast.present.assessment import page as report
-from holdfast.present.assessment import places_section as places
+from holdfast.present.assessment.sections import places
 from holdfast.regions.region import rotation_from_rpy
 from holdfast.regions.weights import Density
 from holdfast.report import save_png
@@ -63,7 +65,7 @@ CASES: dict[str, Callable[[], hf.Assessment]] = {
         NINE, PAPER, hf.indices.manipulability(NINE, "position", ["joint2"], length=0.5), poses=50
     ),
     "weighted": lambda: hf.assess(
-        NINE, replace(PAPER, weight=HEAVY), poses=210, optimise=True, after_lock=True, lock_at={1: 0.5}
+        NINE, replace(PAPER, weight=HEAVY), poses=210, optimise=True, after_lock=True, locked={1: 0.5}
     ),
     "weighted, condition number": lambda: hf.assess(SEVEN, LIST, "condition-number"),
     "list, no rows": lambda: hf.assess(NINE, LIST, poses=100, keep=False),
@@ -95,7 +97,7 @@ def test_every_case_renders(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["paper", "infinite", "none reached", "no rows, joints"])
 def test_overview_picture(name: str, tmp_path: Path) -> None:
-    data = save_png(report.overview_figure(case(name)), tmp_path / "o.png").read_bytes()
+    data = save_png(case(name).figures()["overview"], tmp_path / "o.png").read_bytes()
     assert (int.from_bytes(data[16:20]), int.from_bytes(data[20:24])) == (1200, 520)
 
 
@@ -244,7 +246,16 @@ def test_a_run_of_which_nothing_is_done_yet(region: hf.Region, tmp_path: Path) -
     check(html)
     assert headline(html) == "Nothing has been computed yet."
     assert "not kept" not in html
-    save_png(report.overview_figure(a), tmp_path / "o.png")
+    save_png(a.figures()["overview"], tmp_path / "o.png")
+
+
+def test_every_section_is_in_the_list_and_has_what_the_page_asks_for() -> None:
+    folder = Path(report.__file__).parent / "sections"
+    assert sorted(file.stem for file in folder.glob("[a-z]*.py")) == sorted(report.SECTIONS)
+    for name in report.SECTIONS:
+        section = import_module(f"holdfast.present.assessment.sections.{name}")
+        assert isinstance(section.TITLE, str)
+        assert next(iter(inspect.signature(section.blocks).parameters.values())).annotation == "Facts"
 
 
 def test_unwritable_path(tmp_path: Path) -> None:

@@ -124,7 +124,7 @@ def test_optimised_runs_through_the_folder(arm, region, tmp_path):
 def test_rows_hold_the_angle_of_the_lock(arm):
     """With it every answer can be looked at again: it is where some pose of the run had the joint, and the annulus agrees."""
     box = hf.Region.box([0, 0, 0], [5.0, 5.0, 0.0])
-    data = hf.assess(arm, box, poses=300, seed=5, task="planar", after_lock=True, lock_at={"joint3": 0.4}).dataset
+    data = hf.assess(arm, box, poses=300, seed=5, task="planar", after_lock=True, locked={"joint3": 0.4}).dataset
     reached, angles, left = data["status"].values == 0, data["lock_angle"].values, data["survives"].values
     assert np.isnan(angles[~reached]).all()
     np.testing.assert_array_equal(angles[reached, 2], 0.4)
@@ -139,7 +139,7 @@ def test_rows_hold_the_angle_of_the_lock(arm):
         clear = (np.abs(distance - inner) > 1e-3) & (np.abs(distance - outer) > 1e-3)
         truth = (inner < distance) & (distance < outer)
         assert (left[reached, joint][clear] == truth[clear]).mean() > 0.99
-    given = hf.assess(arm, box, poses=20, seed=5, task="planar", lock_at={"joint3": 0.4}).dataset["lock_angle"].values
+    given = hf.assess(arm, box, poses=20, seed=5, task="planar", locked={"joint3": 0.4}).dataset["lock_angle"].values
     assert np.isnan(given[:, :2]).all()
 
 
@@ -158,7 +158,7 @@ WIDE = hf.Region.box([0, 0, 0], [7.0, 7.0, 0.0])
 
 @pytest.mark.parametrize("angle", [-2.0, 0.3, 1.7])
 def test_locks_at_given_angles_leave_the_area_of_their_annuli(arm, angle):
-    run = hf.assess(arm, WIDE, poses=2000, seed=7, task="planar", lock_at={"joint1": angle, 1: angle, "joint3": angle})
+    run = hf.assess(arm, WIDE, poses=2000, seed=7, task="planar", locked={"joint1": angle, 1: angle, "joint3": angle})
     data = run.dataset
     left, position = data["survives"].values, data["position"].values[:, :2]
     for joint in range(3):
@@ -180,7 +180,7 @@ def test_poses_of_configurations_with_the_joint_there_are_found(rng):
     q = rng.uniform(nine.lower, nine.upper, (150, nine.n))
     q[:, 3] = 1.9
     job = hf.Region.from_poses(nine.forward_kinematics(q))
-    run = hf.assess(nine, job, lock_at={"joint4": 1.9, "joint2": nine.lower[1]})
+    run = hf.assess(nine, job, locked={"joint4": 1.9, "joint2": nine.lower[1]})
     assert run.survival("joint4")["joint4"].value > 0.9  # of 20 starts; a lower bound
     assert run.survival("joint2")["joint2"].value < 0.6
     assert run.distribution.reached >= int(run.survivors[3])
@@ -188,8 +188,8 @@ def test_poses_of_configurations_with_the_joint_there_are_found(rng):
 
 def test_joints_not_named_keep_their_rule_or_are_left_out(arm, region, tmp_path):
     plain = hf.assess(arm, region, poses=1100, seed=2, task="planar", after_lock=True)
-    mixed = hf.assess(arm, region, poses=1100, seed=2, task="planar", after_lock=True, lock_at={1: 0.5})
-    some = hf.assess(arm, region, poses=1100, seed=2, task="planar", lock_at={"joint2": 0.5}, store=tmp_path / "run")
+    mixed = hf.assess(arm, region, poses=1100, seed=2, task="planar", after_lock=True, locked={1: 0.5})
+    some = hf.assess(arm, region, poses=1100, seed=2, task="planar", locked={"joint2": 0.5}, store=tmp_path / "run")
     a, b, c = (r.dataset["survives"].values for r in (plain, mixed, some))
     np.testing.assert_array_equal(a[:, [0, 2]], b[:, [0, 2]])
     assert (a[:, 1] != b[:, 1]).any()
@@ -205,12 +205,12 @@ def test_joints_not_named_keep_their_rule_or_are_left_out(arm, region, tmp_path)
         with pytest.raises(hf.InputError, match="did not look at a lock of 'joint1'"):
             ask()
     with pytest.raises(hf.StoreError, match="its lock_at is"):
-        hf.assess(arm, region, poses=1100, seed=2, task="planar", lock_at={"joint2": 0.6}, store=tmp_path / "run")
+        hf.assess(arm, region, poses=1100, seed=2, task="planar", locked={"joint2": 0.6}, store=tmp_path / "run")
 
 
 @pytest.mark.parametrize("after_lock", [False, True])
 def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_lock):
-    run = hf.assess(arm, region, poses=210, task="planar", after_lock=after_lock, lock_at={2: -1.25})
+    run = hf.assess(arm, region, poses=210, task="planar", after_lock=after_lock, locked={2: -1.25})
     html = run.report(tmp_path / "report.html").read_text()
     assert "−71.6 deg (−1.25 rad)" in html
     assert ("where it stood at another pose" in html) == after_lock
@@ -226,14 +226,14 @@ def test_sentences_about_given_angles(arm, region):
         ({"joint2": 9.0}, "'joint2' cannot lock at 9 rad: its limits are"),
         ({"elbow": 0.0}, "no joint 'elbow'"),
         ({7: 0.0}, "joint index 7 is out of range"),
-        ({"joint2": np.nan}, "'joint2' is nan"),
-        ({"joint2": "x"}, "lock_at is {'joint2': 'x'}"),
-        ({"joint2": 0.1, 1: 0.1}, "'joint2' twice"),
+        ({"joint2": np.nan}, "'joint2' is locked at nan; give a finite number, rad"),
+        ({"joint2": "x"}, "locked is {'joint2': 'x'}"),
+        ({"joint2": 0.1, 1: 0.1}, "'joint2' is locked twice"),
         (0.3, "must be a mapping"),
     ):
         with pytest.raises(hf.InputError, match=sentence):
-            hf.assess(arm, region, poses=10, task="planar", lock_at=given)
+            hf.assess(arm, region, poses=10, task="planar", locked=given)
     with pytest.raises(hf.InputError, match=r"its limits are -0\.785398 to 0\.785398 rad"):
-        hf.assess(limited, hf.Region.around(limited), poses=10, lock_at={0: 1.0})
+        hf.assess(limited, hf.Region.around(limited), poses=10, locked={0: 1.0})
     with pytest.raises(hf.InputError, match="give a box"):
-        hf.assess(arm, hf.Region.joints([-1, -1, -1], [1, 1, 1]), poses=10, task="planar", lock_at={0: 1.0})
+        hf.assess(arm, hf.Region.joints([-1, -1, -1], [1, 1, 1]), poses=10, task="planar", locked={0: 1.0})

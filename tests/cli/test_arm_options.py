@@ -23,7 +23,7 @@ Q7 = "0.1 0.5 -0.2 -1.1 0.4 1.2 0.3"
         ("describe",),
         ("index", "--q", Q7, "--task", "position"),
         ("susceptibility", "--q", Q7),
-        ("configure", "--at", Q7, "--task", "position", "--maximise", "manipulability", "--starts", 2, "--no-clearance"),
+        ("optimise", "--at", Q7, "--task", "position", "--maximise", "manipulability", "--starts", 2, "--no-clearance"),
         ("recover", "--lock", 2, "--at", Q7, "--goal", "q:" + Q7.replace("0.3", "0.31"), "--samples", 0, "--task", "position"),
     ],
     ids=lambda command: command[0],
@@ -156,7 +156,7 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
             "--target: a place is 640.3 m from the base of 'panda', which is at most 1.423 m long; give metres",
         ),
         (
-            ("configure", "panda", "--pose", "500,0,400,0,0,0", "--minimise", "torque"),
+            ("optimise", "panda", "--pose", "500,0,400,0,0,0", "--minimise", "torque"),
             "--pose: a place is 640.3 m from the base",
         ),
         (("self-motion", "planar-3r", "--target", "nan,0.2"), "--target holds NaN or infinity;"),

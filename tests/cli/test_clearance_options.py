@@ -1,4 +1,4 @@
-"""--capsules, --radius, --margin and --no-clearance of ``holdfast assess`` and ``holdfast configure``."""
+"""--capsules, --radius, --margin and --no-clearance of ``holdfast assess`` and ``holdfast optimise``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from holdfast import Capsules, Clearance, arms
 
 CLOSE = "box: {center: [0.2, 0.1, 0], size: [0.5, 0.5, 0]}\n"
 POSE = "0.3,0.2,0,0,0,0"
-BEST = ("configure", "planar-3r", "--pose", POSE, "--maximise", "relative-manipulability", "--task", "planar")
+BEST = ("optimise", "planar-3r", "--pose", POSE, "--maximise", "relative-manipulability", "--task", "planar")
 
 
 @pytest.fixture
@@ -60,7 +60,7 @@ def test_a_run_that_is_not_optimised_looks_if_told_to(ask, close):
     assert ask(*common)["clearance"] is None
 
 
-def test_configure_keeps_the_arm_clear_of_itself(cli, ask):
+def test_optimise_keeps_the_arm_clear_of_itself(cli, ask):
     arm = arms.load("planar-3r")
     thick = Clearance(arm, Capsules.along(arm, 0.13))
     data = ask(*BEST, "--radius", 0.13, "--margin", 0.02)
@@ -82,7 +82,7 @@ def test_configure_keeps_the_arm_clear_of_itself(cli, ask):
     assert "clearance of the arm from itself" in out
 
 
-def test_configure_says_why_nothing_is_clear(cli):
+def test_optimise_says_why_nothing_is_clear(cli):
     code, out, err = cli(*BEST, "--radius", 0.13, "--margin", 9)
     assert (code, out) == (2, "")
     assert (

@@ -40,7 +40,7 @@ LEAN = [
     (["describe", "planar-3r"], FILES),
     (["index", "planar-3r", "--task", "planar", *Q], FILES),
     (["susceptibility", "planar-3r", *Q], FILES),
-    (["configure", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], FILES),
+    (["optimise", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], FILES),
     (["simulate", *PLANAR, "--start", "0.3 0.5 0.7", "--lock", "2"], FILES),
     (["stationary-points", *PLANAR, "--lock", "2", "--at", "1"], FILES),
     (["self-motion", *PLANAR, "--bounds"], FILES),
@@ -50,7 +50,7 @@ LEAN = [
 FEW = ["--starts", "2", "--configurations", "2", "--points", "1"]
 RICHER = [
     (["assess", "planar-3r", "--task", "planar", "--poses", "64", "--json"], FILES | {"scipy"}),
-    (["swing", "planar-3r", *Q, "--joint", "2"], FILES | {"mujoco"}),
+    (["free-swing", "planar-3r", *Q, "--joint", "2"], FILES | {"mujoco"}),
     (["workspace", *PLANAR, *FEW], FILES | {"scipy"}),
     (["trade-off", "planar-3r", "--samples", "10"], FILES | {"scipy", "scipy.stats"}),
     (["compare-laws", "planar-3r", *LAWS], FILES | {"scipy", "scipy.stats"}),

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import json
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
 
 import holdfast as hf
 import oracles
@@ -19,7 +24,10 @@ def test_the_command_writes_what_it_found(cli, tmp_path):
     code, text, err = cli(*CALL, "--goal", "pose:1.5,1.5,0", "--samples", "100", "--out", out, "--csv", tmp_path / "w.csv")
     assert (code, err) == (0, "")
     assert "HOME: the whole goal is met" in text
-    assert {f.name for f in out.iterdir()} == {"recovery.json", "waypoints.csv", "motion.png", "left.png"}
+    assert {f.name for f in out.iterdir()} == {"recovery.json", "waypoints.csv", "motion.png", "left.png", "report.html"}
+    page = (out / "report.html").read_text(encoding="utf-8")
+    check(page)
+    assert page.count("<svg") == 2
     data = json.loads((out / "recovery.json").read_text())
     arm = hf.arms.load("planar-3r")
     q = read_waypoints(arm, tmp_path / "w.csv")
@@ -70,7 +78,7 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
         ([*CALL, "--goal", "1,2,0"], "could be joint values or a pose"),
         ([*CALL, "--goal", "sky:1"], "not known"),
         ([*CALL, "--lock", "joint2=3"], "twice"),
-        ([*CALL, "--lock", "3=up"], "not a number"),
+        ([*CALL, "--lock", "3=up"], "not joint=number"),
         ([*CALL, "--goal", "pose:1,1,0", "--task", "planar-pose"], "no orientation"),
         ([*CALL, "--margin", "0.1"], "nothing to keep"),
     ],

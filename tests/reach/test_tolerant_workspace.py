@@ -108,6 +108,19 @@ def test_the_sampled_region_agrees_with_the_closed_form(unit3):
     assert sampled.size_interval[0] < sampled.size < sampled.size_interval[1]
 
 
+def test_the_map_of_the_exact_region_has_its_size(unit3):
+    """The area in closed form against cells counted on the grid."""
+    region = tolerant_workspace(unit3, "planar", {0: (-0.3, 0.3), 1: (-1.9, 1.9), 2: (-1.9, 1.9)})
+    data = region.to_xarray()
+    cell = float((data.u[1] - data.u[0]) * (data.v[1] - data.v[0]))
+    assert float(data.inside.sum()) * cell == pytest.approx(region.size, rel=0.01)
+    assert float(data.healthy.sum()) * cell == pytest.approx(region.healthy_size, rel=0.01)
+    np.testing.assert_allclose(data.position.sel(axis="x").values, np.broadcast_to(data.u.values, (len(data.v), len(data.u))))
+    assert (data.inside == data.survives.all("joint") & data.within).all()
+    sampled = tolerant_workspace(hf.arms.load("panda"), points=20, angles=2)
+    assert sampled.to_xarray().sizes == {"point": 20, "joint": 7, "end": 2, "axis": 3}
+
+
 def test_limits_of_any_arm_are_looked_for(flat4):
     region = tolerant_workspace(flat4, task="planar", optimise=True, points=300, angles=12)
     assert region.size > 1.0

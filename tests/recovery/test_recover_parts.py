@@ -139,7 +139,7 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     other[[1, 3, 5]] = 0.5, -2.9, 3.6
     fine = home + np.linspace(0, 1, 4001)[:, None] * (other - home)
     clearance = Clearance(arm)
-    replay = check_waypoints(arm, [home, other], None, clearance, 0.5)
+    replay = check_waypoints(arm, [home, other], (), clearance, 0.5)
     assert not replay.ok
     assert replay.least_clearance == pytest.approx(clearance(fine).min(), abs=2e-3)
     assert any("NOT KEPT" in line for line in replay.describe())

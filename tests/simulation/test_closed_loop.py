@@ -413,14 +413,14 @@ def test_a_joint_that_locks_on_the_way(three, rng):
     healthy = solve_ivp(lambda t, q: planar_rates(q, x, 1), (0, lock), q0, "DOP853", rtol=1e-11, atol=1e-13).y[:, -1]
     mask = np.array([1, 0, 1])
     end = reference(lambda q: planar_rates(q, x, mask), healthy).y[:, -1]
-    runs = simulate(three, q0, x, locked=[(1, lock)])
+    runs = simulate(three, q0, x, locked={1: None}, time=lock)
     assert runs.q_final[1] == pytest.approx(healthy[1], abs=1e-8)
     np.testing.assert_allclose(runs.q_final, end, atol=1e-6)
     path = runs.path(0, 301, until=2.0)
     np.testing.assert_allclose(path.q[path.time >= lock][:, 1], healthy[1], atol=1e-6)
     assert (path.locked[:, 1] == (path.time >= lock)).all()
     assert not path.locked[:, 0].any()
-    many = simulate(three, np.tile(q0, (3, 1)), x, locked=[(1, lock), (0, 2.5)])
+    many = simulate(three, np.tile(q0, (3, 1)), x, locked=[1, 0], time=[lock, 2.5])
     np.testing.assert_array_equal(many.q_final[0], many.q_final[2])
     assert many.q_final[0, 1] == runs.q_final[1]
 
@@ -428,8 +428,8 @@ def test_a_joint_that_locks_on_the_way(three, rng):
 @pytest.mark.parametrize("method", ["adaptive", "rk4"])
 def test_every_sample_of_a_path_with_locks_on_the_way_is_that_of_scipy(three, rng, method):
     """Before the first lock, between the two and after them."""
-    q0, x, locks = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6]), rng.uniform(-1.5, 1.5, 2), [(1, 0.5), (0, 1.2)]
-    path = simulate(three, q0, x, locks, method=method, time_limit=4.0).path(0, 47)
+    q0, x, locks = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6]), rng.uniform(-1.5, 1.5, 2), [1, 0]
+    path = simulate(three, q0, x, locks, method=method, time_limit=4.0, time=[0.5, 1.2]).path(0, 47)
     expected, q, ends = np.empty((47, 3)), q0, [0.0, 0.5, 1.2, 4.0]
     for k, mask in enumerate(([1, 1, 1], [1, 0, 1], [0, 0, 1])):
         found = solve_ivp(
@@ -460,7 +460,8 @@ def test_lock_times_of_each_run(three, rng, cycles):
     runs = simulate(law, q0, x, times, cycles=cycles)
     np.testing.assert_array_equal(runs.lock_time, times)
     for k in range(count):
-        alone = simulate(law, q0[k], x[k], [(i, float(t)) for i, t in enumerate(times[k]) if np.isfinite(t)], cycles=cycles)
+        joints = np.flatnonzero(np.isfinite(times[k])).tolist()
+        alone = simulate(law, q0[k], x[k], joints, cycles=cycles, time=times[k, joints])
         np.testing.assert_array_equal(runs.q_final[k], alone.q_final)
         assert (runs.code[k], runs.time[k]) == (alone.code, alone.time)
     np.testing.assert_array_equal(runs.q_final[1], q0[1])
@@ -566,7 +567,7 @@ def test_the_ready_made_trap_is_stuck_in_cycles(three):
     assert runs.time[1] == pytest.approx(420, abs=5)
     path = runs.path(1, 50)
     np.testing.assert_allclose(path.q[-1], runs.q_final[1], atol=1e-12)
-    later = simulate(law, q0[1], [1.5, 1.5], locked=[(0, 10)], cycles=True)
+    later = simulate(law, q0[1], [1.5, 1.5], locked=[0], cycles=True, time=10)
     assert later.outcome == "converged"
     assert later.q_final[0] != q0[1, 0]
 
@@ -604,8 +605,10 @@ def test_rows_with_nan_are_undecided_and_alone(three, random_runs):
         ({"target": [1, 2, 3]}, "takes \\(2,\\) or \\(N, 2\\)"),
         ({"locked": ["elbow"]}, "no joint 'elbow'"),
         ({"locked": [3]}, "joints 0 to 2"),
-        ({"locked": [(0, -1.0)]}, "0 or more"),
-        ({"locked": [0, (0, 2.0)]}, "twice"),
+        ({"locked": [0], "time": -1.0}, "0 or more"),
+        ({"locked": [0], "time": np.inf}, "a finite time"),
+        ({"locked": [0, 1], "time": [1.0]}, "give one time, or one for each"),
+        ({"locked": [0, "joint1"]}, "twice"),
         ({"locked": np.array([0, 5])}, "joints 0 to 2, and -1"),
         ({"locked": np.array([0.5])}, "one joint index for each run"),
         ({"locked": np.zeros((1, 2))}, "lock times are numbers \\(N, 3\\)"),
@@ -633,7 +636,7 @@ def test_pose_tasks_want_poses(panda):
     with pytest.raises(hf.InputError, match="needs tool poses"):
         simulate(panda, np.zeros(7), [0.3, 0.2, 0.1])
     damped = Damped(panda.arm, 0.1, "position")
-    runs = simulate(damped, RAD([0, -45, 0, -135, 0, 90, 45]), [0.4, 0.2, 0.5], locked=[(3, 0.5)], time_limit=4.0)
+    runs = simulate(damped, RAD([0, -45, 0, -135, 0, 90, 45]), [0.4, 0.2, 0.5], locked=[3], time_limit=4.0, time=0.5)
     assert runs.x_final.shape == (3,)
     assert runs.target.shape == (3,)
     with pytest.raises(hf.InputError, match="no run 1"):
@@ -641,5 +644,5 @@ def test_pose_tasks_want_poses(panda):
 
 
 def test_an_angle_given_with_a_lock_is_refused_and_not_ignored(two):
-    with pytest.raises(hf.InputError, match=r"locked is {'joint2': 0.5}; a joint locks where it is, so .* its angle in q0"):
+    with pytest.raises(hf.InputError, match=r"locked has 0.5 for 'joint2'; a joint locks where it is: .* its value in q0"):
         hf.simulate(hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), [0.1, 0.2, 0.3], [1, 1], {"joint2": 0.5})

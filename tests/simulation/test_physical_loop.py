@@ -88,7 +88,7 @@ def test_the_motion_is_that_of_another_simulator(rng):
     law = hf.control.pseudoinverse(arm, "position")
     target = oracles.forward(arm, q0[None])[0, :3, 3] + 0.2 * rng.normal(size=3)
     servos = hf.Servos(bandwidth=4.0, ratio=1.2, rate=100.0, compensation=0.9, step=1e-4)
-    run = hf.simulate_physics(law, q0, target, [(2, 0.3)], servos, time_limit=0.6)
+    run = hf.simulate_physics(law, q0, target, [2], servos, time_limit=0.6, time=0.3)
     expected = by_pinocchio(arm, law, run, target, 0.6, (2, 0.3))
     moved = np.abs(expected - q0).max()
     np.testing.assert_allclose(run.q[: len(expected)], expected, atol=1e-3 * moved + 1e-6)
@@ -112,7 +112,7 @@ def test_two_links_move_as_the_textbook_says():
     law = hf.control.pseudoinverse(arm, "planar", gain=1.5)
     q, target = np.array([0.4, 1.1]), np.array([-0.2, 0.7])
     servos = hf.Servos(bandwidth=3.0, ratio=1.0, rate=50.0, compensation=0.8, step=1e-4)
-    run = hf.simulate_physics(law, q, target, [(1, 0.3)], servos, time_limit=0.6)
+    run = hf.simulate_physics(law, q, target, [1], servos, time_limit=0.6, time=0.3)
     period, lead = 1 / 50.0, leads(arm, run.stiffness)
     v, reference, path = np.zeros(2), q.copy(), [q.copy()]
 
@@ -163,14 +163,13 @@ def test_a_joint_that_locks_while_moving_passes_on_no_momentum_that_is_not_there
 # ---- the kinematic picture -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("lock", [4, (3, 0.5)])
-def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, lock):
-    run = hf.simulate_physics(law, home, goal, [lock], hf.Servos(bandwidth=20.0))
+@pytest.mark.parametrize(("k", "at"), [(4, 0.0), (3, 0.5)])
+def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, k, at):
+    run = hf.simulate_physics(law, home, goal, {k: None}, hf.Servos(bandwidth=20.0), time=at)
     assert (run.outcome, run.reason, run.agrees) == ("converged", "none", True)
-    assert run.path_distance < (1e-3 if lock == 4 else 2e-3)  # a lock on the way is a blow
+    assert run.path_distance < (2e-3 if at else 1e-3)  # a lock on the way is a blow
     assert run.terminal_distance < 1e-6
     assert run.terminal_turn < 1e-3
-    k, at = lock if isinstance(lock, tuple) else (lock, 0.0)
     standing = run.q[run.time >= at, k]
     np.testing.assert_array_equal(standing, standing[0])
     assert abs(standing[0] - run.kinematic.q_final[k]) < 1e-3

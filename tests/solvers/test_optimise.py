@@ -15,8 +15,8 @@ import oracles
 from holdfast import arms
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices import CustomIndex, Manipulability, RelativeManipulability, by_name
-from holdfast.solvers import Optimum, optimise
-from holdfast.solvers.optimum import objective_ascent
+from holdfast.solvers import optimise
+from holdfast.solvers.optimum import Optimum, objective_ascent
 from holdfast.status import Status
 
 TOLERANCE = 1e-6
@@ -236,7 +236,7 @@ def test_same_seed_same_result_whatever_the_threads(pa10, rho, targets, threads)
     # Later blocks do not change earlier ones.
     assert_same(optimise(pa10, targets[:512], rho, seed=11, starts=3, restarts=4), results[0], slice(512))
     fewer = optimise(pa10, targets[:600], rho, seed=11, starts=3, restarts=4)
-    assert_same(Optimum(*(getattr(fewer, f.name)[:512] for f in fields(Optimum))), results[0], slice(512))
+    assert_same(Optimum(**{f.name: getattr(fewer, f.name)[:512] for f in fields(Optimum)}), results[0], slice(512))
 
 
 @pytest.mark.parametrize("count", [1, 5, 13])

@@ -10,7 +10,7 @@ import oracles
 from holdfast import InputError, TaskError, arms
 from holdfast.paths import line
 from holdfast.solvers import fibres, self_motion, solve_ik
-from holdfast.solvers.self_motions import distance_to_curve
+from holdfast.solvers.curve_tracing import distance_to_curve
 from holdfast.status import Status
 
 SPACING = 0.05
@@ -69,7 +69,7 @@ def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the
     seen = np.abs(wrapped(curve.q - [0.7, 0, 0])).max(axis=0)
     assert (seen <= np.array([first, other, other]) + 1e-9).all()
     np.testing.assert_allclose(seen, [first, other, other], atol=SPACING**2)
-    assert "1 curve of configurations, 1 closed" in motion.describe()
+    assert "1 curve of configurations, 1 closed" in motion.describe()[0]
 
 
 @pytest.mark.parametrize("radius", [0.2, 0.5, 0.9])
@@ -164,7 +164,7 @@ def test_two_degrees_of_redundancy_are_sampled_evenly(flat4, rng):
     known = solve_ik(flat4, np.stack([motion.pose] * 200), task="planar", seed=3).require_ok().q
     away = np.linalg.norm(wrapped(known[:, None] - motion.q[None]), axis=2).min(axis=1)
     assert away.max() < 1.2 * 0.3
-    assert "a manifold of dimension 2" in motion.describe()
+    assert "a manifold of dimension 2" in motion.describe()[0]
 
 
 def test_curves_that_no_start_found_are_found_from_the_neighbours_on_a_path():
@@ -199,7 +199,7 @@ def test_poses_out_of_reach_and_nan(unit3):
     status = [m.status for m in fibres(unit3, poses, "planar")]
     assert status == [Status.NOT_FOUND, Status.OK, Status.BAD_INPUT]
     assert fibres(unit3, poses, "planar")[0].q.shape == (0, 3)
-    assert "no solution was found" in fibres(unit3, poses, "planar")[0].describe()
+    assert "no solution was found" in fibres(unit3, poses, "planar")[0].describe()[0]
     assert fibres(unit3, np.zeros((0, 4, 4)), "planar") == []
 
 

@@ -45,7 +45,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "assessment": lambda: hf.assess(
         PANDA, hf.Region.load(INPUTS / "cell.yaml"), poses=40, restarts=10, task="position", optimise=True, after_lock=True
     ),
-    "comparison": lambda: hf.compare(
+    "comparison": lambda: hf.compare_assessments(
         [hf.assess(FLAT, BENCH, poses=64, seed=seed, task="planar", index="manipulability") for seed in (1, 2)], ["a", "b"]
     ),
     "structures": lambda: structures(PANDA),
@@ -67,11 +67,11 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "rest_points": lambda: hf.stationary_points(LAW, [1.5, 1.5], 1, np.deg2rad([140])),
     "rest_curves": lambda: hf.stationary_points(LAW, [1.5, 1.5], 1),
     "basins": lambda: hf.basins(LAW, [1.5, 1.5], 1, np.deg2rad([45]), grid=8),
-    "runs": lambda: hf.simulate(LAW, np.array([AT, -AT]), [1.5, 1.5], [(1, 0.5)]),
+    "runs": lambda: hf.simulate(LAW, np.array([AT, -AT]), [1.5, 1.5], [1], time=0.5),
     "runs_in_cycles": lambda: hf.simulate(
-        control.damped(PANDA, 0.1, "position", gain=0.1), HOME, [0.5, 0.2, 0.4], [(3, 4)], cycles=True
+        control.damped(PANDA, 0.1, "position", gain=0.1), HOME, [0.5, 0.2, 0.4], [3], cycles=True, time=4
     ),
-    "physical_run": lambda: hf.simulate_physics(LAW, AT, [1.5, 1.5], [(1, 0.5)]),
+    "physical_run": lambda: hf.simulate_physics(LAW, AT, [1.5, 1.5], [1], time=0.5),
     "free_swing": lambda: hf.free_swing(PANDA, HOME, 3, brake_after=[0.05, 0.1]),
     "motions": lambda: hf.point_to_point(PANDA, 5, distance=(0.2, 0.8), task="position", reachable_after="each"),
     "law_comparison": lambda: hf.compare_laws(
@@ -138,7 +138,7 @@ def plain(x: Any, deep: int) -> Any:
         return [plain(item, deep - 1) for item in (sorted(x, key=repr) if isinstance(x, set | frozenset) else x)]
     if isinstance(x, hf.Arm):
         return f"arm {x.fingerprint}"
-    if hasattr(x, "to_csv"):
+    if type(x).__module__.startswith("pandas"):
         return x.to_csv(index=False)
     if not type(x).__module__.startswith("holdfast") or deep <= 0:
         return type(x).__name__

@@ -1,8 +1,9 @@
 from holdfast.assessment.assessment import Assessment as Assessment
-from holdfast.assessment.assessment import assess as assess
-from holdfast.assessment.assessment import load as load
 from holdfast.assessment.comparison import Comparison as Comparison
-from holdfast.assessment.comparison import compare as compare
+from holdfast.assessment.comparison import compare_assessments as compare_assessments
+from holdfast.assessment.comparison import load_comparison as load_comparison
+from holdfast.assessment.run import assess as assess
+from holdfast.assessment.run import load as load
 from holdfast.assessment.single_points import Structure as Structure
 from holdfast.assessment.single_points import explain as explain
 from holdfast.assessment.single_points import structure as structure

@@ -1,10 +1,9 @@
-"""Draw poses in a region, solve, evaluate: the probability that the arm keeps what it needs when a joint locks."""
+"""What an assessment found: the probability that the arm keeps what it needs when a joint locks, and what follows."""
 
 from __future__ import annotations
 
 import json
-import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,14 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task
-from holdfast.assessment.plan import Plan, Rows, make_plan
-from holdfast.assessment.rows import Progress, SelfCollisions, Tally, blocks, fill, provenance, stored
+from holdfast.assessment.answer import ZERO, Answer
+from holdfast.assessment.plan import Plan, Rows
+from holdfast.assessment.rows import SelfCollisions, provenance
 from holdfast.assessment.upgrade import Sample, Upgrade, if_never_fails, sample, upgrades
-from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Store
-from holdfast.errors import InputError, StoreError
-from holdfast.indices.index import Index, by_name
+from holdfast.errors import InputError
+from holdfast.indices.index import Index
 from holdfast.notice import says
 from holdfast.probability.distribution import Distribution, Interval
 from holdfast.probability.intervals import check_confidence
@@ -33,15 +31,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-EMPTY = 0.01  # a probability below it leaves a reader with nothing: say why, and what there is
-ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
-_KEEP = 2_000_000  # rows held in memory unless asked otherwise
-_CHUNK_BLOCKS = 8
-
 
 @dataclass(frozen=True)
 class Assessment(Result):
-    """What :func:`assess` found.
+    """What :func:`holdfast.assess` found.
 
     Attributes:
         plan: What was asked for.
@@ -149,7 +142,7 @@ class Assessment(Result):
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:
         """Share of all poses of the region that can still be reached once a joint has locked, with its exact interval.
 
-        The joint stands at the angle that ``lock_at`` gave, else where it was at another pose of the region; :attr:`locks`
+        The joint is locked at the angle that ``locked`` gave, else where it was at another pose of the region; :attr:`locks`
         says which. A pose that the healthy arm does not reach counts as
         lost; so does one that was not found again in a limited number of starts, so the shares are lower bounds.
 
@@ -168,7 +161,7 @@ class Assessment(Result):
         for k in chosen:
             if k not in self.plan.locks:
                 raise InputError(
-                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with its lock_at"
+                    f"this run did not look at a lock of '{names[k]}'; assess again with after_lock=True or with it in locked"
                 )
         d = self.distribution
         if d.weighted:
@@ -297,27 +290,58 @@ class Assessment(Result):
         }
         return xr.Dataset(data, attrs={"plan": json.dumps(self.plan.to_dict())})
 
+    def describe(self) -> list[str]:
+        """The answer at :meth:`default_threshold`, and what it is about."""
+        said = [Answer(self, None).headline]
+        if not self.complete:
+            said.append(f"Not finished: {self.distribution.samples} of {self.poses} poses.")
+        return [*said, f"{self.arm.title}: {self.index.describe()}.", f"{self.region.name}: {self.region.describe()}."]
+
+    def to_dict(
+        self,
+        thresholds: Sequence[float] | None = None,
+        rates: Mapping[str | int, float] | None = None,
+        report: Path | None = None,
+    ) -> dict[str, Any]:
+        """See :meth:`holdfast.result.Result.to_dict`.
+
+        Args:
+            thresholds: Values of the index to give the probability of; some over its range if not given.
+            rates: How often each joint fails, for :meth:`expected_survival`.
+            report: Where the report was written, to be named.
+        """
+        return super().to_dict(thresholds=thresholds, rates=rates, report=report)
+
     @checked
-    @says("writing the results")
-    def save(self, path: str | Path) -> Path:  # type: ignore[override]
-        """Write the run as a results folder that :func:`load` and ``holdfast report`` read.
+    def save(self, folder: str | Path, threshold: float | None = None) -> list[Path]:
+        """Write the rows and the report into a results folder that :func:`holdfast.load` and ``holdfast report`` read.
+
+        Args:
+            folder: The folder; the rows stay where they are if they are in it.
+            threshold: See :meth:`report`.
+
+        Returns:
+            ``run.json``, which says what the folder holds, and ``report.html``.
 
         Raises:
             StoreError: The folder exists with something else in it, or cannot be written.
             InputError: The rows were not kept.
         """
-        target = Path(path)
-        if self._rows is None:
-            if self.store is not None and self.store.path.resolve() == target.resolve():
-                return target
+        target = Path(folder)
+        if self._rows is not None:
+            self._write(target, self._rows)
+        elif self.store is None or self.store.path.resolve() != target.resolve():
             raise InputError("the poses of this run were not kept, or are in another folder already; assess with store=PATH")
-        store = _open_store(target, self.plan)
+        return [target / "run.json", self.report(target / "report.html", threshold)]
+
+    @says("writing the results")
+    def _write(self, folder: Path, rows: Rows) -> None:
+        store = self.plan.create(folder)
         with store.writing():
             for k in store.missing:
                 start, stop = store.chunks[k]
-                store.write(k, {name: values[start:stop] for name, values in self._rows.items()})
+                store.write(k, {name: values[start:stop] for name, values in rows.items()})
             store.note(**provenance(self.seconds))
-        return target
 
     @checked
     @says("drawing the report")
@@ -331,96 +355,7 @@ class Assessment(Result):
         Raises:
             StoreError: The file cannot be written.
         """
-        written: Path = self._presented("write", Path(path), threshold)
-        return written
-
-
-@checked
-@says("assessing poses")
-def assess(
-    arm: Arm,
-    region: Region,
-    index: Index | str = "relative-manipulability",
-    poses: int | None = None,
-    seed: int = 0,
-    sampling: Sampling = "random",
-    restarts: int = 100,
-    store: str | Path | None = None,
-    keep: bool | None = None,
-    progress: Progress | None = None,
-    task: str | Task = "pose",
-    optimise: bool = False,
-    after_lock: bool = False,
-    lock_at: Mapping[str | int, float] | None = None,
-    clearance: Clearance | bool | None = None,
-    margin: float = 0.0,
-) -> Assessment:
-    """The distribution of an index over a region.
-
-    Each pose is solved by inverse kinematics from random starts; the configuration found is evaluated as it is (the
-    paper's non-optimised sample) and, if asked for, the best configuration of the pose as well (the optimised sample).
-    A region of joints is evaluated directly.
-
-    Args:
-        arm: The arm.
-        region: Which poses, or configurations.
-        index: An index of that arm, or its name.
-        poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
-        seed: The same seed gives the same result, whatever the number of threads or chunks.
-        sampling: ``random``, or ``sobol`` (scrambled; a power of two of poses is best).
-        restarts: Random starts per pose before it counts as not reached.
-        store: Folder for the results, written chunk by chunk; an existing folder of the same run is continued.
-        keep: Hold every row in memory. Default: if there are no more than two million and there is no store.
-        progress: Called with (poses done, poses in all).
-        task: Of the index, if that is given by name.
-        optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
-        after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
-        lock_at: Angles, rad or m, by joint name or index from 0, at which these joints lock. The others lock where they were
-            at another pose if ``after_lock``, and are left out if not.
-        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
-            of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may run through itself.
-            Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
-        margin: Smallest clearance of the best configurations, m.
-
-    Raises:
-        InputError: Options out of range, or an index or clearance of another arm.
-        TaskError: The arm is not redundant for the task, or the index cannot be optimised.
-        StoreError: The folder cannot be used; nothing committed is lost.
-        KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call goes on.
-
-    Source: Abdi et al. 2012, sections IV and V.
-    """
-    if isinstance(index, str):
-        index = by_name(index, arm, task)
-    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, lock_at, clearance, margin)
-    begin = time.monotonic()
-    keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
-    folder = None if store is None else _open_store(Path(store), plan)
-    plan.compile()
-    tally = Tally(plan)
-    kept: list[Rows] = []
-
-    def take(rows: Rows) -> None:
-        tally.add(rows)
-        if keep:
-            kept.append(rows)
-
-    if folder is None:
-        for start, rows in blocks(plan, 0, plan.poses):
-            take(rows)
-            if progress is not None:
-                progress(start + len(rows["status"]), plan.poses)
-    else:
-        with folder.writing():
-            was_complete = folder.complete
-            fill(folder, plan, progress)
-            if not was_complete:
-                spent = folder.notes.get("seconds") or 0.0
-                folder.note(**provenance(spent + time.monotonic() - begin))
-        for rows in stored(folder, plan):
-            take(rows)
-    merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
-    return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
+        return super().report(path, threshold)
 
 
 def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
@@ -431,49 +366,3 @@ def check_rates(arm: Arm, rates: Mapping[Any, float]) -> Array:
     if not np.isfinite(weights).all() or (weights < 0).any() or weights.sum() <= 0:
         raise InputError("failure rates must be finite numbers of 0 or more, at least one of them above 0")
     return weights
-
-
-@checked
-def load(path: str | Path) -> Assessment:
-    """The assessment in a results folder; of a run that was stopped, what is there.
-
-    Raises:
-        StoreError: Not a results folder of an assessment, or damaged.
-    """
-    store = Store.open(path)
-    if store.plan.get("kind") != "assess":
-        raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
-    plan = Plan.stored(store, store.rows)
-    tally = Tally(plan)
-    for rows in stored(store, plan):
-        tally.add(rows)
-    return _finished(plan, tally, store, store.notes.get("seconds"), store.complete, None)
-
-
-def _finished(
-    plan: Plan, tally: Tally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
-) -> Assessment:
-    best = tally.optimised
-    return Assessment(
-        plan,
-        tally.found.finish(),
-        tally.found.worst,
-        None if best is None else best.finish(),
-        None if best is None else best.worst,
-        tally.survivors,
-        tally.collisions,
-        store,
-        seconds,
-        complete,
-        rows,
-    )
-
-
-def _open_store(path: Path, plan: Plan) -> Store:
-    if not plan.region.storable:
-        raise InputError(
-            f"region '{plan.region.name}' has a function of your own, which a folder cannot hold; assess without a store"
-        )
-    if not plan.storable:
-        raise InputError(f"index '{plan.index.name}' is your own function, which a folder cannot hold; assess without a store")
-    return Store.create(path, plan.to_dict(), plan.columns(), plan.poses, _CHUNK_BLOCKS * plan.region.block)

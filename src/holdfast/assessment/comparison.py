@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,32 +12,40 @@ import numpy as np
 
 from holdfast.arguments import checked
 from holdfast.assessment.assessment import Assessment
+from holdfast.assessment.run import load
 from holdfast.assessment.single_points import structure
 from holdfast.assessment.upgrade import Upgrade
 from holdfast.caching import cached_property
-from holdfast.errors import InputError
+from holdfast.engine.folder import is_plain
+from holdfast.errors import InputError, StoreError
 from holdfast.failures import failure_sets
-from holdfast.notice import says
+from holdfast.files import reading
+from holdfast.files.output import replaced
 from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region
 from holdfast.result import Result
+from holdfast.words import interval
+
+LIST = "comparison.json"  # of a folder: which folders in it are compared
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Comparison(Result):
-    """Assessments of one region with one index and equally many poses; see :func:`compare`.
+    """Assessments of one region with one index and equally many poses; see :func:`holdfast.compare_assessments`.
 
     Attributes:
         assessments: The candidates.
         names: Of the candidates.
         threshold: Value of the index that the task needs.
         chosen: The threshold was given.
+        tools: What the tool attachments of the candidates are called; None for an arm's own.
     """
 
     assessments: tuple[Assessment, ...]
     names: tuple[str, ...]
     threshold: float
     chosen: bool
+    tools: tuple[str | None, ...]
 
     @cached_property
     def table(self) -> list[dict[str, Any]]:
@@ -168,20 +177,44 @@ class Comparison(Result):
             found.append("The best configurations are not equally clear of the arm itself: the clearances asked for differ.")
         return found
 
-    @says("drawing the report")
-    def report(self, path: str | Path) -> Path:
-        """Write the comparison as one self-contained HTML file.
+    def describe(self) -> list[str]:
+        """Which candidate is the best, of each task, and what must be known before they are compared."""
+        sign = "least" if self.assessments[0].index.better == "larger" else "most"
+        said = []
+        for task in dict.fromkeys(a.index.task.name for a in self.assessments):
+            name = self.best(task)
+            probability = interval(self.interval(name))
+            said.append(f"Task {task}: {name} has the largest probability, {probability}, of at {sign} {self.threshold:g}.")
+        return [*said, *self.notes]
+
+    def save(self, folder: str | Path) -> list[Path]:
+        """Write a folder that :func:`load_comparison` and ``holdfast report`` read: one in it for each candidate, a report.
+
+        Returns:
+            ``comparison.json``, which names the candidates, and ``report.html``.
 
         Raises:
-            StoreError: The file cannot be written; what was there is as it was.
+            StoreError: A folder exists with something else in it, or cannot be written.
+            InputError: The rows of a candidate were not kept, or its name is that of no folder.
         """
-        written: Path = self._presented("write", Path(path))
-        return written
+        target = Path(folder)
+        for name in self.names:
+            if not is_plain(name):
+                raise InputError(f"candidate '{name}' is not the name of a folder; give names without / and \\")
+        for name, run in zip(self.names, self.assessments, strict=True):
+            run.save(target / name, self.threshold)
+        listed = [{"name": name, "tool": tool} for name, tool in zip(self.names, self.tools, strict=True)]
+        replaced(target / LIST, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
+        return [target / LIST, self.report(target / "report.html")]
 
 
 @checked
-def compare(
-    assessments: Sequence[Assessment], names: Sequence[str] | None = None, threshold: float | None = None
+def compare_assessments(
+    assessments: Sequence[Assessment],
+    names: Sequence[str] | None = None,
+    threshold: float | None = None,
+    *,
+    tools: Sequence[str | None] | None = None,
 ) -> Comparison:
     """Put assessments of one region side by side: arms, tasks or tool attachments.
 
@@ -190,6 +223,7 @@ def compare(
         names: Of the candidates; the names of the arms, with those of the tasks where needed, if not given.
         threshold: Value of the index that the task needs. If not given, half of the smallest bound, or about the middle of
             the candidates' medians where an index has no bound.
+        tools: What the tool attachments are called; None for an arm's own.
 
     Raises:
         InputError: Fewer than two runs, runs that cannot be compared, or names that are not unique; the message says which.
@@ -216,7 +250,36 @@ def compare(
         raise InputError("nothing is computed yet, so there is nothing to compare; run the assessments first")
     if threshold is not None and not np.isfinite(threshold):
         raise InputError(f"threshold is {threshold:g}; it must be a finite number")
-    return Comparison(runs, labels, _threshold(runs) if threshold is None else float(threshold), threshold is not None)
+    attached = (None,) * len(runs) if tools is None else tuple(tools)
+    if len(attached) != len(runs):
+        raise InputError(f"there are {len(attached)} tools for {len(runs)} assessments; give one each, or None")
+    return Comparison(
+        assessments=runs,
+        names=labels,
+        threshold=_threshold(runs) if threshold is None else float(threshold),
+        chosen=threshold is not None,
+        tools=attached,
+    )
+
+
+@checked
+def load_comparison(path: str | Path, threshold: float | None = None) -> Comparison:
+    """The comparison in a folder that :meth:`Comparison.save` or ``holdfast assess A B --out`` wrote.
+
+    Raises:
+        StoreError: It is damaged.
+        InputError: See :func:`holdfast.compare_assessments`.
+    """
+    folder = Path(path)
+    again = f"'{folder / LIST}' is damaged; give the same command to 'holdfast assess' again"
+    try:
+        listed = [(c["name"], c["tool"]) for c in json.loads(reading.text(folder / LIST))["candidates"]]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        raise StoreError(again) from error
+    if not all(is_plain(name) and (tool is None or isinstance(tool, str)) for name, tool in listed):
+        raise StoreError(again)
+    runs = [load(folder / name) for name, _ in listed]
+    return compare_assessments(runs, [name for name, _ in listed], threshold, tools=[tool for _, tool in listed])
 
 
 def check_names(names: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""What an assessment computes: everything that defines its rows, and the rows of one block."""
+"""What an assessment computes: everything that defines its rows."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import operator
 import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,18 +19,17 @@ from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.clearance import Clearance
 from holdfast.engine.store import Column, Store
 from holdfast.errors import HoldfastError, InputError, StoreError
-from holdfast.indices.index import Evaluation, Index, WorstCase, by_name
+from holdfast.failures import locks_at
+from holdfast.indices.index import Index, by_name
 from holdfast.regions.region import Region, Sampling
 from holdfast.registry import INDICES
-from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.optimum import Ascent, default_starts, objective_ascent
-from holdfast.status import Status
+from holdfast.solvers.optimum import default_starts
 
 Array = NDArray[np.float64]
 Rows = dict[str, NDArray[Any]]
 
 _POSES = 2000  # unless asked otherwise
-TOLERANCE = 1e-6  # of the pose, m and rad
+_CHUNK_BLOCKS = 8
 LOCK_RESTARTS = 20  # starts for a pose after a lock, before it counts as lost
 
 _SURVIVES = (
@@ -146,6 +146,22 @@ class Plan:
         """False for an index or a region that a folder cannot hold."""
         return INDICES.storable(self.index) and self.region.storable
 
+    def create(self, path: Path) -> Store:
+        """A results folder for its rows, or that of a stopped run.
+
+        Raises:
+            InputError: It is not storable.
+            StoreError: The folder holds something else, or cannot be written.
+        """
+        own = None
+        if not self.region.storable:
+            own = f"region '{self.region.name}' has a function of your own"
+        elif not self.storable:
+            own = f"index '{self.index.name}' is your own function"
+        if own is not None:
+            raise InputError(f"{own}, which a folder cannot hold; assess without a store")
+        return Store.create(path, self.to_dict(), self.columns(), self.poses, _CHUNK_BLOCKS * self.region.block)
+
     @classmethod
     def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:
         """The plan that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
@@ -163,7 +179,7 @@ class Plan:
             data["restarts"],
             "optimise" in data,
             "after_lock" in data,
-            read_locks(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
+            _lock_angles(arm, data["lock_at"]["angles"] if "lock_at" in data else {}),
             None if apart is None else Clearance(arm, Capsules.from_dict(apart["capsules"], arm)),
             0.0 if apart is None else apart["margin"],
         )
@@ -239,112 +255,6 @@ class Plan:
             *([Column("survives", "int8", (("lock", n),), "1", survives), angle] if self.locks else []),
         ]
 
-    # ---- rows ------------------------------------------------------------------------------------------------------
-
-    def compile(self) -> None:
-        """Compile in this thread, once, instead of in every worker at the same time."""
-        self.index.evaluate(np.zeros((1, self.arm.n)))
-        if self.region.kind != "joints":
-            solver(self.arm, self.index.task)
-        if self.optimise:
-            self._ascent()
-        if self.clearance is not None:
-            self.clearance(np.zeros((1, self.arm.n)))
-
-    def _ascent(self) -> Ascent:
-        return objective_ascent(self.index, None, self.clearance, self.margin)
-
-    def evaluate(self, samples: Array, number: int) -> Rows:
-        """The rows of block ``number``."""
-        from scipy.spatial.transform import Rotation
-
-        count = len(samples)
-        if self.region.kind == "joints":
-            result = self.index.evaluate(samples)
-            direct: Rows = {
-                "q": samples,
-                "status": result.status,
-                "index": result.value,
-                "by_failure": result.by_failure,
-                "worst": _worst(result),
-            }
-            if self.clearance is not None:
-                direct["clearance"] = self.clearance(samples)
-            return direct
-        poses = self.region.poses(samples)
-        engine = solver(self.arm, self.index.task)
-        drawn = np.random.SeedSequence(self.seed, spawn_key=(1, number))
-        reach = engine.solve(poses, drawn, self.restarts, engine.within(TOLERANCE))
-        ok = np.flatnonzero(reach.success)
-        value, by_failure = np.full(count, np.nan), np.full((count, len(self.index.failures)), np.nan)
-        worst, status = np.full(count, -1, dtype=np.int16), reach.status.copy()
-        if ok.size:
-            result = self.index.evaluate(reach.q[ok])
-            value[ok], by_failure[ok], worst[ok], status[ok] = result.value, result.by_failure, _worst(result), result.status
-        rows: Rows = {
-            "position": poses[:, :3, 3],
-            "quaternion": Rotation.from_matrix(poses[:, :3, :3]).as_quat(),
-            "q": np.where(reach.success[:, None], reach.q, np.nan),
-            "status": status,
-            "index": value,
-            "by_failure": by_failure,
-            "worst": worst,
-        }
-        if self.optimise:
-            others = np.random.SeedSequence(self.seed, spawn_key=(2, number))
-            starts = default_starts(self.arm, self.index.task)
-            best = self._ascent().solve(poses, reach, others, starts, engine.within(TOLERANCE))
-            best_worst = np.full(count, -1, dtype=np.int16)
-            good = np.flatnonzero(best.success)
-            if good.size:
-                best_worst[good] = _worst(self.index.evaluate(best.q[good]))
-            rows |= {
-                "optimised_q": best.q,
-                "optimised_index": best.value,
-                "optimised_worst": best_worst,
-                "agreeing": best.agreeing,
-            }
-            if self.clearance is not None:
-                rows |= {"optimised_status": best.status, "blocked": best.blocked.astype(np.int8)}
-        if self.clearance is not None:
-            rows["clearance"] = self.clearance(rows["q"])
-        if self.weighted:
-            rows["weight"] = self.region.weights(samples)
-        if self.locks:
-            rows["survives"], rows["lock_angle"] = self._survival(poses, reach.q, reach.success, number)
-        return rows
-
-    def worst_cases(self, configurations: Array) -> Rows:
-        """Of a region of joints, from the rows of :meth:`evaluate`, only those that are counted: no failure but the worst."""
-        found = self.index.worst_case(configurations)
-        return {"status": found.status, "index": found.value, "worst": _worst(found)}
-
-    def _survival(self, poses: Array, q: Array, reached: NDArray[np.bool_], number: int) -> tuple[NDArray[np.int8], Array]:
-        """For each reached pose and each joint asked for: is it still reached once the joint has locked, and where it locked.
-
-        It locks at the angle given, or at one drawn from those in use: where it was at another reached pose of the block.
-        """
-        n = self.arm.n
-        result, where = np.full((len(poses), n), -1, dtype=np.int8), np.full((len(poses), n), np.nan)
-        rows = np.flatnonzero(reached)
-        if not rows.size:
-            return result, where
-        seed = np.random.SeedSequence(self.seed, spawn_key=(3, number))
-        draw, starts = seed.spawn(2)
-        generator = np.random.default_rng(draw)
-        angles = np.stack([q[rows[generator.integers(rows.size, size=rows.size)], k] for k in range(n)], axis=1)
-        for k, angle in self.lock_at:
-            angles[:, k] = angle
-        asked = np.array(list(self.locks))
-        locked = np.tile(asked, rows.size)
-        engine = solver(self.arm, self.index.task)
-        found = engine.reaches_locked(
-            poses[np.repeat(rows, asked.size)], locked, angles[:, asked].ravel(), starts, LOCK_RESTARTS, TOLERANCE
-        )
-        result[np.ix_(rows, asked)] = found.reshape(-1, asked.size)
-        where[np.ix_(rows, asked)] = angles[:, asked]
-        return result, where
-
 
 def make_plan(
     arm: Arm,
@@ -356,7 +266,7 @@ def make_plan(
     restarts: int,
     optimise: bool,
     after_lock: bool,
-    lock_at: Mapping[str | int, float] | None = None,
+    locked: Mapping[str | int, float] | None = None,
     clearance: Clearance | bool | None = None,
     margin: float = 0.0,
 ) -> Plan:
@@ -374,7 +284,7 @@ def make_plan(
         restarts,
         optimise,
         after_lock,
-        read_locks(arm, lock_at or {}),
+        _lock_angles(arm, locked or {}),
         _apart(arm, clearance, optimise),
         margin,
     )
@@ -386,39 +296,18 @@ def _apart(arm: Arm, clearance: Clearance | bool | None, optimise: bool) -> Clea
     return Clearance(arm) if clearance is True else clearance or None
 
 
-def read_locks(arm: Arm, given: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:
-    """Angles of locks by joint, as a plan holds them: in the order of the joints.
+def _lock_angles(arm: Arm, locked: Mapping[Any, float]) -> tuple[tuple[int, float], ...]:
+    """Where joints lock, as a plan holds it: in the order of the joints.
 
     Raises:
-        InputError: No such joint, one given twice, or an angle that is not finite or beyond the joint's limits.
+        InputError: No such joint, one given twice, or a value that is not finite or beyond the joint's limits.
     """
-    if not isinstance(given, Mapping):
-        raise InputError(f"lock_at is {given!r}; it must be angles by joint, for example {{'{arm.joint_names[0]}': 0.3}}")
-    found: dict[int, float] = {}
-    for joint, angle in given.items():
-        k = arm.joint_index(joint)
-        name, unit = arm.joint_names[k], "m" if arm.prismatic[k] else "rad"
-        if k in found:
-            raise InputError(f"lock_at gives joint '{name}' twice; give each joint once")
-        try:
-            value = float(angle)
-        except (TypeError, ValueError):
-            value = np.nan
-        if not np.isfinite(value):
-            raise InputError(f"lock_at of joint '{name}' is {angle!r}; it must be a finite number, {unit}")
-        if not arm.lower[k] <= value <= arm.upper[k]:
-            raise InputError(
-                f"joint '{name}' cannot lock at {value:g} {unit}: its limits are {arm.lower[k]:g} to {arm.upper[k]:g} {unit}"
-            )
-        found[k] = value
-    return tuple(sorted(found.items()))
-
-
-def _worst(result: Evaluation | WorstCase) -> NDArray[np.int16]:
-    """Worst failure; none at a singular configuration, where all are equally bad."""
-    worst = result.worst.astype(np.int16)
-    worst[result.status != Status.OK] = -1
-    return worst
+    found = locks_at(arm, locked, np.full(arm.n, np.nan))
+    for k, value in found.items():
+        name, unit, low, high = arm.joint_names[k], arm.joints[k].unit, arm.lower[k], arm.upper[k]
+        if not low <= value <= high:
+            raise InputError(f"joint '{name}' cannot lock at {value:g} {unit}: its limits are {low:g} to {high:g} {unit}")
+    return tuple(found.items())
 
 
 def _whole(what: str, value: Any, least: int) -> int:

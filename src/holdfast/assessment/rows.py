@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.assessment.block import evaluate
 from holdfast.assessment.plan import Plan, Rows
 from holdfast.engine.store import Store
 from holdfast.errors import StoreError
@@ -36,7 +37,7 @@ def blocks(plan: Plan, first: int, stop: int) -> Generator[tuple[int, Rows], Non
         number = next(numbers, None)
         if number is not None:
             samples = next(source)[: stop - number * size]
-            waiting.append((number * size, pool().submit(plan.evaluate, samples, number)))
+            waiting.append((number * size, pool().submit(evaluate, plan, samples, number)))
 
     try:
         for _ in range(2 * thread_count()):

@@ -117,17 +117,24 @@ def read_arm(spec: str, base: str | None, tip: str | None, hold: list[str] | Non
     return arms.resolve(spec, base, tip, read_hold(",".join(hold)) if hold else None)
 
 
-def read_by_joint(arm: Arm, texts: list[str] | None, option: str) -> dict[str | int, float]:
-    """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1."""
-    found: dict[str | int, float] = {}
+def read_by_joint(
+    arm: Arm, texts: list[str] | None, option: str, degrees: bool = False, alone: bool = False
+) -> dict[str | int, Any]:
+    """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1.
+
+    With ``degrees`` the numbers of revolute joints are in degrees; a joint may stand ``alone``, with None, where that is so.
+    """
+    found: dict[str | int, Any] = {}
     for text in texts or []:
         joint, equals, value = text.rpartition("=")
-        if not equals or not is_number(value):
+        if (equals or not alone) and not (equals and is_number(value)):
             raise InputError(f"{option} '{text}' is not joint=number; write for example {option} {arm.joint_names[0]}=0.3")
-        name = arm.joint_names[read_joint(arm, joint)]
+        k = read_joint(arm, joint if equals else text)
+        name = arm.joint_names[k]
         if name in found:
             raise InputError(f"{option} gives joint '{name}' twice; give each joint once")
-        found[name] = float(value)
+        turned = np.pi / 180 if degrees and not arm.prismatic[k] else 1.0
+        found[name] = turned * float(value) if equals else None
     return found
 
 
@@ -334,8 +341,3 @@ def read_target(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:
         raise InputError(f"--target has {values.size} numbers; task '{task.name}' needs {task.m}, in m")
     check_unit_of_places(arm, values @ task.rows[:, :3], "--target")
     return values
-
-
-def outside_limits(arm: Arm, q: NDArray[np.float64]) -> list[str]:
-    """Names of the joints of which q (n,) is beyond a limit."""
-    return [j.name for j, x in zip(arm.joints, q, strict=True) if not j.lower <= x <= j.upper]

@@ -14,8 +14,9 @@ from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task
 from holdfast.errors import InputError, TaskError
 from holdfast.solvers import joint_space
+from holdfast.solvers.curve_tracing import TOLERANCE, Component
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.solvers.self_motions import TOLERANCE, Component, fibres
+from holdfast.solvers.self_motions import fibres
 
 if TYPE_CHECKING:
     import xarray as xr

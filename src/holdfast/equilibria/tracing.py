@@ -19,7 +19,7 @@ from holdfast.equilibria.events import marked
 from holdfast.equilibria.points import classified
 from holdfast.equilibria.system import RestSystem, wrapped
 from holdfast.notice import Progress, told
-from holdfast.solvers.self_motions import Component, distance_to_curve
+from holdfast.solvers.curve_tracing import Component, distance_to_curve
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

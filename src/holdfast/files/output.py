@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
+
+import numpy as np
+from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
 
@@ -83,6 +86,20 @@ def writing(path: Path, what: str = "") -> Iterator[TextIO]:
         temporary.open("w", encoding="utf-8", newline="") as file,
     ):
         yield file
+
+
+def write_table(
+    path: str | Path, what: str, header: Sequence[str], rows: NDArray[np.float64], form: str | Sequence[str] = "%.9g"
+) -> Path:
+    """Write numbers (N, columns) as CSV, each as ``form`` says; ``what`` they are is for the error.
+
+    Raises:
+        StoreError: It cannot be written.
+    """
+    file = Path(path)
+    with writing(file, what) as stream:
+        np.savetxt(stream, rows, fmt=form, delimiter=",", header=",".join(header), comments="")
+    return file
 
 
 @contextmanager

@@ -25,7 +25,7 @@ from holdfast.notice import Count, says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
 from holdfast.solvers.inverse_kinematics import clipped, hand_error, solve_ik, solver
-from holdfast.solvers.optimum import optimise
+from holdfast.solvers.optima import optimise
 
 Array = NDArray[np.float64]
 Method = Literal["gradient-projection", "extended-jacobian", "augmented-jacobian", "none"]
@@ -213,7 +213,7 @@ def _objective(minimise: Objective | None, maximise: Objective | None) -> Object
 def _start(arm: Arm, objective: Objective, task: Task, first: Array, q: ArrayLike | None, seed: int) -> Array:
     """Where to start: given, or the best configuration of the first pose."""
     if q is None:
-        found = optimise(arm, first, objective, seed, task=task)
+        found = optimise(arm, first, objective, seed=seed, task=task)
         if not found.success:
             raise HoldfastError(
                 f"no configuration of '{arm.name}' was found for the first pose of the path, within its joint limits: move the "

@@ -14,6 +14,7 @@ from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.errors import InputError
+from holdfast.failures import Locked
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
 from holdfast.notice import each, says
@@ -21,7 +22,7 @@ from holdfast.physics.model import compiled, mujoco_spec
 from holdfast.physics.run import Ending, PhysicalRun, Why
 from holdfast.physics.servos import Servos, leads
 from holdfast.simulation.batch import ARRIVES, DECAYS
-from holdfast.simulation.closed_loop import Locked, simulate
+from holdfast.simulation.closed_loop import simulate
 from holdfast.simulation.runs import Runs
 from holdfast.simulation.system import HALF, WINDOW, System
 
@@ -45,6 +46,8 @@ def simulate_physics(
     locked: Locked = (),
     servos: Servos | None = None,
     time_limit: float | None = None,
+    *,
+    time: ArrayLike = 0.0,
 ) -> PhysicalRun:
     """One run of the closed loop on MuJoCo, beside the kinematic one (needs ``holdfast[physics]``).
 
@@ -66,10 +69,10 @@ def simulate_physics(
         law: The control law, with its arm, task, gain ``Ke`` and speed limit. The arm needs inertial data.
         q0: (n,) configuration at the start, rad and m.
         target: (m,) or (4, 4), as for :func:`holdfast.simulation.simulate`.
-        locked: Joints, by name or index from 0, that stand from the start; ``(joint, time)`` locks at that time, s, at the
-            next control cycle.
+        locked: Joints that lock where they are, ``{joint: None}`` or the joints alone, by name or index from 0.
         servos: Of the joints; :class:`holdfast.Servos` as they come if not given.
         time_limit: s; 200/Ke if not given.
+        time: When the joints lock, s, each at the next control cycle: one time, or one for each of them.
 
     Returns:
         A :class:`holdfast.PhysicalRun`, which holds the kinematic run and how far they are apart.
@@ -86,7 +89,7 @@ def simulate_physics(
     start = arm.check_configurations(q0).reshape(-1, arm.n)[0]
     plant = _Plant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen)
     stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start)
-    runs = simulate(law, q0, target, locked)
+    runs = simulate(law, q0, target, locked, time=time)
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
     notes, end = _drive(plant, law, runs, stiffness, damping, limit)

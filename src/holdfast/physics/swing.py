@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -14,8 +15,10 @@ from holdfast.arm.machine import Joint
 from holdfast.arm.mjcf import import_mujoco, quiet
 from holdfast.arm.model import Arm
 from holdfast.errors import ArmError, InputError
+from holdfast.files.output import write_table
 from holdfast.notice import each, says
 from holdfast.physics.model import mujoco_model
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Outcome = Literal["rest", "stop", "balanced", "moving"]
@@ -30,9 +33,15 @@ NEGLIGIBLE = 1e-9  # relative to mass, gravity and length of what swings
 CHECK_EVERY = 20  # steps
 SHORTEST, LONGEST = 60.0, 300.0  # s, of the time allowed when none is given
 LONGEST_STEP = 0.02  # s
+ENDS = {
+    "rest": "hangs still",
+    "stop": "lies against its stop",
+    "balanced": "does not move: gravity pulls it neither way here",
+    "moving": "was still moving at the end; give more --duration or --damping",
+}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class BrakedDrop:
     """Where the tool is when the brakes act.
 
@@ -53,8 +62,8 @@ class BrakedDrop:
     distance: float
 
 
-@dataclass(frozen=True)
-class FreeSwing:
+@dataclass(frozen=True, kw_only=True)
+class FreeSwing(Result):
     """The motion of an arm whose joint ``joint`` lets go at time 0, at rest, with all other joints held.
 
     Attributes:
@@ -99,6 +108,31 @@ class FreeSwing:
     def stopped(self) -> bool:
         """True if the joint ended against one of its limits."""
         return self.outcome == "stop"
+
+    def describe(self) -> list[str]:
+        """A few sentences for people."""
+        failed = self.arm.joints[self.joint]
+        factor, unit = failed.shown
+        lines = [f"Free swing of {failed.name}, arm {self.arm.title}, all other joints held", f"It {ENDS[self.outcome]}."]
+        if self.settled:
+            end, most = factor * self.rest_angle, factor * self.peak
+            lines.append(f"At the end it has moved {end:.4g} {unit}, on the way at most {most:.4g} {unit}.")
+        lines += [
+            f"{d.after_ms:g} ms after the failure it has moved {factor * d.angle:.4g} {unit} and moves at "
+            f"{factor * d.speed:.4g} {unit}/s; the tool has dropped {1000 * d.drop:.4g} mm."
+            for d in self.drops
+        ]
+        return lines
+
+    def to_csv(self, file: str | Path) -> Path:
+        """Write the motion as rows over time: how far the joint has moved, its speed, and the tool point, m.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        unit = self.arm.joints[self.joint].unit
+        header = ["time_s", f"moved_{unit}", f"speed_{unit}_s", "tool_x_m", "tool_y_m", "tool_z_m"]
+        return write_table(file, "motion", header, np.column_stack([self.time, self.angle, self.velocity, self.tool_position]))
 
 
 @checked

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -73,6 +73,19 @@ def print_written(out: Console, files: Iterable[Path | None]) -> None:
     for file in files:
         if file is not None:
             out.print(f"written: {escape(str(file))}", soft_wrap=True)
+
+
+def print_each(
+    of: Any, configurations: Sequence[Any], as_json: bool, data: Callable[..., Any], show: Callable[..., None]
+) -> None:
+    """What ``of`` is worth at each configuration: one JSON document, a list where there are several, or tables for people."""
+    if as_json:
+        found = [data(of, q) for q in configurations]
+        print_json(found if len(found) > 1 else found[0])
+        return
+    out = console()
+    for q in configurations:
+        show(of, q, out)
 
 
 def console(stderr: bool = False) -> Console:

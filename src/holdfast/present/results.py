@@ -23,13 +23,16 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False) -> None:
-    """What a command prints: JSON for machines, with the files if they are listed; or what people read, and the files."""
+def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), listed: bool = False, **options: Any) -> None:
+    """What a command prints: JSON for machines, with the files if they are listed; or what people read, and the files.
+
+    The options are what was asked about the result: its ``to_dict`` and ``show`` take them.
+    """
     if as_json:
-        print_json(result.to_dict() | ({"files": list(map(str, files))} if listed else {}))
+        print_json(result.to_dict(**options) | ({"files": list(map(str, files))} if listed else {}))
         return
     out = console()
-    result._presented("show", out)
+    result._presented("show", out, **options)
     print_written(out, files)
 
 
@@ -45,9 +48,9 @@ def drawn(result: Result, file: Path) -> Path:
     return save_png(next(iter(result.figures().values())), file)
 
 
-def numbers(result: Result) -> dict[str, Any]:
+def numbers(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
     """Its numbers in types that JSON has."""
-    data: dict[str, Any] = plain(result._presented("to_dict"))
+    data: dict[str, Any] = plain(result._presented("to_dict", *args, **options))
     return data
 
 

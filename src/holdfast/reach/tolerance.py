@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,10 @@ from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.reach import closed_form as tolerant_planar
 from holdfast.reach import samples as tolerant_sampled
 from holdfast.reach.closed_form import ThreeLinks
+from holdfast.result import Result
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 Limits = ArrayLike | Mapping[str | int, tuple[float, float]] | Mapping[int, tuple[float, float]]
@@ -31,8 +35,8 @@ _SEARCH_POINTS = 250  # at most, of which the limits are chosen
 _GENERATIONS = 60  # of a search for limits at most
 
 
-@dataclass(frozen=True, eq=False)
-class TolerantWorkspace:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TolerantWorkspace(Result):
     """The failure-tolerant workspace of an arm under artificial joint limits.
 
     Attributes:
@@ -86,8 +90,8 @@ class TolerantWorkspace:
         size = int(self.within.sum())
         return 1 - self.survives.sum(axis=0) / size if size else np.full(self.arm.n, np.nan)
 
-    def describe(self) -> str:
-        """What was computed, for people."""
+    def describe(self) -> list[str]:
+        """A few sentences for people: how large the region is, and what the locks of each joint lose."""
         low, high = self.size_interval
         how = (
             "in closed form for each radius"
@@ -95,7 +99,39 @@ class TolerantWorkspace:
             else f"{len(self.points)} points, {self.angles} locked values per joint, {self.confidence:.0%} interval "
             f"{low:.3g} to {high:.3g}"
         )
-        return f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({how})"
+        size = f"{self.size:.4g} {self.unit} of {self.healthy_size:.4g} {self.unit} ({how})"
+        lines = [f"{self.arm.title}, task {self.task.name}: {size}"]
+        for joint, (least, most), lost in zip(self.arm.joints, self.limits, self.lost_to, strict=True):
+            factor, shown = joint.shown
+            ranged = f"{factor * least:.2f} to {factor * most:.2f} {shown}"
+            lines.append(f"{joint.name} within {ranged}: its locks lose {lost:.1%} of the points within the artificial limits")
+        return lines
+
+    def to_xarray(self) -> xr.Dataset:
+        """What is reached at each point: over ``v`` and ``u`` (m, in the plane) of an exact region, else ``point``."""
+        import xarray as xr
+
+        count = round(np.sqrt(len(self.points)))
+        shape, at = ((count, count), ["v", "u"]) if self.exact else ((len(self.points),), ["point"])
+        reached = {name: (at, getattr(self, name).reshape(shape)) for name in ("healthy", "within", "inside")}
+        found = xr.Dataset(
+            {
+                **reached,
+                "survives": ([*at, "joint"], self.survives.reshape(*shape, -1)),
+                "limits": (["joint", "end"], self.limits),
+            },
+            {
+                "position": ([*at, "axis"], self.points.reshape(*shape, 3), {"units": "m"}),
+                "joint": list(self.arm.joint_names),
+                "end": ["lower", "upper"],
+                "axis": list("xyz"),
+            },
+            {"arm": self.arm.name, "task": self.task.name, "size": self.size, "unit": self.unit, "exact": int(self.exact)},
+        )
+        if self.exact:
+            plane = (self.points @ self.task.rows[:, :3].T).reshape(count, count, 2)
+            found = found.assign_coords(u=("u", plane[0, :, 0], {"units": "m"}), v=("v", plane[:, 0, 1], {"units": "m"}))
+        return found
 
 
 @checked

@@ -5,7 +5,7 @@ from holdfast.recovery.recovery import Leg as Leg
 from holdfast.recovery.recovery import Recovery as Recovery
 from holdfast.recovery.remainder import WhatIsLeft as WhatIsLeft
 from holdfast.recovery.search import recover as recover
-from holdfast.recovery.waypoints import Replay as Replay
+from holdfast.recovery.waypoints import WaypointCheck as WaypointCheck
 from holdfast.recovery.waypoints import check_waypoints as check_waypoints
 from holdfast.recovery.waypoints import read_waypoints as read_waypoints
 from holdfast.recovery.waypoints import write_waypoints as write_waypoints

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,16 +12,13 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.clearance.clearance import Clearance
-from holdfast.errors import HoldfastError
-from holdfast.recovery import waypoints as recover_waypoints
+from holdfast.errors import HoldfastError, StoreError
 from holdfast.recovery.continuation import RestOfPath
 from holdfast.recovery.goals import RowsGivenUp
 from holdfast.recovery.remainder import WhatIsLeft
 from holdfast.recovery.routes import MetricName
+from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -81,7 +77,7 @@ class Leg:
     straight: bool
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Recovery(Result):
     """The answer to "my joint is stuck now".
 
@@ -116,17 +112,17 @@ class Recovery(Result):
     goal: str
     goal_pose: Array | None
     task: Task
-    ending: Ending
-    reason: str
+    ending: Ending = Ending.HOME
+    reason: str = ""
     q: Array
-    legs: tuple[Leg, ...]
-    given_up: RowsGivenUp | None
-    choices: tuple[RowsGivenUp, ...]
-    proof: str | None
-    left: WhatIsLeft | None
-    rest: RestOfPath | None
+    legs: tuple[Leg, ...] = ()
+    given_up: RowsGivenUp | None = None
+    choices: tuple[RowsGivenUp, ...] = ()
+    proof: str | None = None
+    left: WhatIsLeft | None = None
+    rest: RestOfPath | None = None
     starts: int
-    found: int
+    found: int = 0
     metric: MetricName
     unit: str
     clearance: Clearance | None
@@ -154,40 +150,23 @@ class Recovery(Result):
         """Sum of the legs' lower bounds, in ``unit``: between the ends that were chosen nothing is shorter."""
         return sum(leg.lower_bound for leg in self.legs)
 
-    def save(self, path: str | Path) -> Path:  # type: ignore[override]
-        """Write the waypoints as CSV; see :func:`holdfast.recovery.read_waypoints`.
+    def to_csv(self, file: str | Path) -> Path:
+        """Write the waypoints; see :func:`holdfast.recovery.read_waypoints`.
 
         Raises:
             StoreError: There is no motion, or the file cannot be written.
         """
-        from holdfast.errors import StoreError
-
         if not len(self.q):
             raise StoreError(f"there are no waypoints to write: {self.ending.sentence}")
-        return recover_waypoints.write_waypoints(self.arm, self.q, path)
+        return write_waypoints(self.arm, self.q, file)
 
-    def check(self) -> recover_waypoints.Replay:
+    def check(self) -> WaypointCheck:
         """Replay the waypoints in small steps; see :func:`holdfast.recovery.check_waypoints`.
 
         Raises:
             InputError: There is no motion.
         """
-        stands: dict[str | int, float] = dict(self.locked.items())
-        return recover_waypoints.check_waypoints(self.arm, self.q, stands, self.clearance, self.margin)
-
-    def figure(self) -> Figure:
-        """The arm at the start, on the way and at the end, seen from the side and from above."""
-        figure: Figure = self._presented("scene_figure")
-        return figure
-
-    def map(self) -> Figure:
-        """What is left of the workspace as a map.
-
-        Raises:
-            InputError: That was not asked for, or nothing was reached.
-        """
-        figure: Figure = self._presented("left_figure")
-        return figure
+        return check_waypoints(self.arm, self.q, self.locked, self.clearance, self.margin)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -216,5 +195,5 @@ class Recovery(Result):
         if self.rest is not None:
             lines.append(self.rest.describe())
         if self.left is not None:
-            lines.append(self.left.describe())
+            lines += self.left.describe()
         return lines

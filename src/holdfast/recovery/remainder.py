@@ -12,6 +12,7 @@ from holdfast.notice import Count
 from holdfast.probability.intervals import Interval, Sums
 from holdfast.recovery.rows import RowSolver
 from holdfast.regions.region import Region
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -19,8 +20,8 @@ Flags = NDArray[np.bool_]
 STARTS = 48  # per target
 
 
-@dataclass(frozen=True)
-class WhatIsLeft:
+@dataclass(frozen=True, kw_only=True)
+class WhatIsLeft(Result):
     """The share of targets that are still reached with joints standing.
 
     A target counts as left if a configuration is found in ``starts`` random starts, so the share is a lower bound.
@@ -30,6 +31,7 @@ class WhatIsLeft:
         of_region: Share of all poses of the region that are left; None without a region.
         healthy_of_region: The same of the healthy arm; None without a region.
         region: What was sampled, for people.
+        joints: Names of the locked joints.
         rows: The rows of the target that count.
         position: (N, 3) of the targets, m, world.
         healthy: (N,) True where the healthy arm reaches them.
@@ -41,20 +43,23 @@ class WhatIsLeft:
     of_region: Interval | None
     healthy_of_region: Interval | None
     region: str
+    joints: tuple[str, ...]
     rows: tuple[str, ...]
     position: Array
     healthy: Flags
     locked: Flags
     starts: int
 
-    def describe(self) -> str:
+    def describe(self) -> list[str]:
         """One sentence for people."""
         if self.left is None:
-            return f"The healthy arm reaches none of the {len(self.healthy):,} targets ({self.region}), so nothing can be left."
-        return (
+            return [
+                f"The healthy arm reaches none of the {len(self.healthy):,} targets ({self.region}), so nothing can be left."
+            ]
+        return [
             f"Of {int(self.healthy.sum()):,} targets that the healthy arm reaches ({self.region}; {len(self.rows)} rows: "
             f"{', '.join(self.rows)}) the failed arm still reaches {self.left} in {self.starts} starts each"
-        )
+        ]
 
 
 def what_is_left(
@@ -97,15 +102,16 @@ def what_is_left(
     locked = healthy.copy()
     locked[healthy] = _reached(solver, poses[healthy], at, free, clearance, margin, rng)
     return WhatIsLeft(
-        _share(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
-        None if region is None else _share(weights, locked, heaviest),
-        None if region is None else _share(weights, healthy, heaviest),
-        name,
-        solver.rows.names,
-        poses[:, :3, 3],
-        healthy,
-        locked,
-        STARTS,
+        left=_share(weights[healthy], locked[healthy], heaviest) if healthy.any() else None,
+        of_region=None if region is None else _share(weights, locked, heaviest),
+        healthy_of_region=None if region is None else _share(weights, healthy, heaviest),
+        region=name,
+        joints=tuple(np.array(arm.joint_names)[~free].tolist()),
+        rows=solver.rows.names,
+        position=poses[:, :3, 3],
+        healthy=healthy,
+        locked=locked,
+        starts=STARTS,
     )
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked, real_numbers
+from holdfast.arguments import checked
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
@@ -17,6 +17,7 @@ from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arm.tree import listed
 from holdfast.clearance.clearance import Clearance, too_close
 from holdfast.errors import InputError
+from holdfast.failures import Locked, locks_at
 from holdfast.notice import says
 from holdfast.paths.path import Path
 from holdfast.recovery.bounds import out_of_reach
@@ -31,7 +32,6 @@ from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-Locked = Mapping[str, float] | Mapping[int, float] | Mapping[str | int, float] | Sequence[str | int]
 
 SAME = 1e-6  # rad and m: a joint this near to its angle stands there
 
@@ -81,8 +81,8 @@ def recover(
 
     Args:
         arm: The arm.
-        locked: Where each locked joint stands, rad or m, by name or index from 0; or just the joints, which then stand as in
-            ``at``.
+        locked: ``{joint: value}``, joints by name or index from 0, values in rad or m; ``{joint: None}``, or the joints alone,
+            for where ``at`` has them.
         at: (n,) where the arm stands, rad and m.
         goal: (4, 4) pose of the hand in the world, m; (n,) a configuration; the name of one of ``arm.states`` (a built-in arm's
             home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of an arm without a state of this name:
@@ -120,7 +120,11 @@ def recover(
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin}; it must be a finite number of metres")
     start = q[0]
-    stands = _locks(arm, locked, start)
+    stands = locks_at(arm, locked, start)
+    if not stands:
+        raise InputError(f"no joint is locked; name at least one, for example locked=['{arm.joint_names[0]}']")
+    if len(stands) == arm.n:
+        raise InputError(f"all {arm.n} joints of '{arm.name}' are locked, so nothing can move; leave one free")
     free = np.ones(arm.n, dtype=bool)
     free[list(stands)] = False
     kept = Clearance.by_default(arm) if clearance is None else clearance or None
@@ -136,17 +140,8 @@ def recover(
         goal="",
         goal_pose=None,
         task=wanted,
-        ending=Ending.HOME,
-        reason="",
         q=np.zeros((0, arm.n)),
-        legs=(),
-        given_up=None,
-        choices=(),
-        proof=None,
-        left=None,
-        rest=None,
         starts=starts,
-        found=0,
         metric=metric,
         unit=length.unit,
         clearance=kept,
@@ -180,30 +175,6 @@ def home_of(arm: Arm) -> tuple[Array, str]:
 
 
 # ---- what was asked ------------------------------------------------------------------------------------------------------
-
-
-def _locks(arm: Arm, locked: Locked, at: Array) -> dict[int, float]:
-    """Index and angle of every locked joint."""
-    if isinstance(locked, (str, int)) or getattr(locked, "ndim", 1) == 0:
-        locked = [locked if isinstance(locked, str) else int(np.asarray(locked))]
-    found: dict[int, float] = {}
-    given: list[tuple[str | int, float | None]] = (
-        [(k, v) for k, v in locked.items()] if isinstance(locked, Mapping) else [(k, None) for k in locked]
-    )
-    for joint, value in given:
-        k = arm.joint_index(joint)
-        if k in found:
-            raise InputError(f"joint '{arm.joint_names[k]}' is locked twice; give each joint once")
-        what = f"the lock of '{arm.joint_names[k]}'"
-        number = float(at[k]) if value is None else float(real_numbers(value, what, "a number"))
-        if not np.isfinite(number):
-            raise InputError(f"joint '{arm.joint_names[k]}' is locked at {number}; give a finite angle in rad, or m")
-        found[k] = number
-    if not found:
-        raise InputError(f"no joint is locked; name at least one, for example locked=['{arm.joint_names[0]}']")
-    if len(found) == arm.n:
-        raise InputError(f"all {arm.n} joints of '{arm.name}' are locked, so nothing can move; leave one free")
-    return dict(sorted(found.items()))
 
 
 def _task(arm: Arm, task: str | Task | Sequence[str] | None, path: Path | None) -> Task:

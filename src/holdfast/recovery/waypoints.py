@@ -8,7 +8,6 @@ others are joints, ``joint1_rad`` or ``slide_m``. In between, joints move in a s
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -19,8 +18,10 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arm.model import Arm
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
+from holdfast.failures import Locked, locks_at
 from holdfast.files.output import writing
 from holdfast.paths.joint_table import joint_columns, read_joint_table
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 
@@ -68,8 +69,8 @@ def read_waypoints(arm: Arm, path: str | Path) -> Array:
     return table.numbers(wanted)
 
 
-@dataclass(frozen=True)
-class Replay:
+@dataclass(frozen=True, kw_only=True)
+class WaypointCheck(Result):
     """What a motion through waypoints does, looked at in small steps.
 
     Attributes:
@@ -114,16 +115,16 @@ class Replay:
 def check_waypoints(
     arm: Arm,
     q: ArrayLike,
-    locked: Mapping[str | int, float] | None = None,
+    locked: Locked = (),
     clearance: Clearance | None = None,
     margin: float = 0.0,
-) -> Replay:
+) -> WaypointCheck:
     """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by other code than planned them.
 
     Args:
         arm: The arm.
         q: (K, n) waypoints, rad and m.
-        locked: Joints that should stand, by name or index from 0, and where, rad or m.
+        locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it.
         clearance: Looked at if given.
         margin: m that it should keep.
 
@@ -135,19 +136,18 @@ def check_waypoints(
         raise InputError("waypoints must be one configuration or more of finite numbers")
     fine = _between(a)
     beyond = np.maximum(np.maximum(arm.lower - fine, fine - arm.upper).max(axis=0), 0.0)
-    stands = {arm.joint_index(k): value for k, value in (locked or {}).items()}
-    moved = {k: float(np.abs(fine[:, k] - value).max()) for k, value in stands.items()}
+    moved = {k: float(np.abs(fine[:, k] - value).max()) for k, value in locks_at(arm, locked, a[0]).items()}
     least = None
     if clearance is not None:
         least = min(float(clearance(fine[i : i + _CHUNK]).min()) for i in range(0, len(fine), _CHUNK))
-    return Replay(
-        a,
-        arm.forward_kinematics(a),
-        len(fine),
-        {arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
-        {arm.joint_names[k]: miss for k, miss in moved.items() if miss > 1e-12},
-        least,
-        margin,
+    return WaypointCheck(
+        q=a,
+        poses=arm.forward_kinematics(a),
+        looked_at=len(fine),
+        beyond_limits={arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
+        locks_moved={arm.joint_names[k]: miss for k, miss in moved.items() if miss > 1e-12},
+        least_clearance=least,
+        margin=margin,
     )
 
 

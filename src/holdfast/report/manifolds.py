@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from holdfast.report.animations import Projection
 from holdfast.report.figures import BLUE, INK, ORANGE, PALE, SKY, SOFT, WIDTH, finished, plain, style
 
 Array = NDArray[np.float64]
@@ -36,18 +37,10 @@ class JointPanel:
     whole: tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Projection:
-    """Polylines (C, K, 2) of an arm, m, seen from somewhere, with the labels of the two axes."""
-
-    chains: Array
-    labels: tuple[str, str]
-    title: str
-
-
 def self_motion_figure(
     joints: Sequence[JointPanel],
     curves: Sequence[tuple[Array, Array]],
+    chains: Array,
     views: Sequence[Projection],
     caption: str,
 ) -> Figure:
@@ -56,7 +49,8 @@ def self_motion_figure(
     Args:
         joints: From base to tip.
         curves: Arc length (K,) and joint values (K, n) in the units of the panels; none if the manifold is not made of curves.
-        views: The arm in several configurations.
+        chains: (C, K, 3) the arm in several configurations, m.
+        views: How it is seen.
         caption: One line.
     """
     with style():
@@ -73,7 +67,7 @@ def self_motion_figure(
         rows[0].set_title("Values that keep the target within reach" if not len(curves) else "Along the self-motion manifold")
         panels = np.atleast_1d(right.subplots(len(views), 1)) if views else ()
         for axes, view in zip(panels, views, strict=True):
-            _draw_arm(axes, view)
+            _draw_arm(axes, chains @ np.stack([view.right, view.up]).T, view)
         handles = [
             Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target"),
             *([Line2D([], [], color=BLUE, linewidth=1.6, label="on the curve")] if len(curves) else []),
@@ -108,37 +102,34 @@ def _draw_joint(axes: Axes, panel: JointPanel, k: int, curves: Sequence[tuple[Ar
         axes.set_xlim(-0.01 * total, at - _GAP * total + 0.01 * total)
 
 
-def _draw_arm(axes: Axes, view: Projection) -> None:
-    shades = np.linspace(0.25, 1.0, len(view.chains))
-    for shade, chain in zip(shades, view.chains, strict=True):
+def _draw_arm(axes: Axes, chains: Array, view: Projection) -> None:
+    for shade, chain in zip(np.linspace(0.25, 1.0, len(chains)), chains, strict=True):
         axes.plot(*chain.T, color=INK, alpha=0.25 + 0.55 * shade, linewidth=1.2 + 0.9 * shade, solid_joinstyle="round")
         axes.plot(*chain[1:-1].T, "o", color="white", markeredgecolor=INK, markeredgewidth=1.0, markersize=4, zorder=3)
-    axes.plot(*view.chains[0, 0], marker="s", color=INK, markersize=8)
-    axes.plot(*view.chains[-1, -1], marker="D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=4)
+    axes.plot(*chains[0, 0], marker="s", color=INK, markersize=8)
+    axes.plot(*chains[-1, -1], marker="D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=4)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.1)
-    axes.set(xlabel=view.labels[0], ylabel=view.labels[1], title=view.title)
+    axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
 
 
 @dataclass(frozen=True)
 class RegionMap:
-    """Points (N, 2) of a projection, m, in three nested sets.
+    """Points (N, 2) of a view, m, in three nested sets.
 
     Attributes:
         points: Where.
+        view: How they are seen.
         healthy, within, inside: (N,) reached by the healthy arm; within its artificial limits; and after any lock.
         grid: Points along each edge, if they are a square grid, row by row from below; None for a sample.
-        labels: Of the two axes.
-        title: One line.
     """
 
     points: Array
+    view: Projection
     healthy: Bools
     within: Bools
     inside: Bools
     grid: int | None
-    labels: tuple[str, str]
-    title: str
 
 
 def region_figure(
@@ -178,17 +169,17 @@ def region_figure(
         return finished(figure)
 
 
-def _draw_map(axes: Axes, view: RegionMap) -> None:
-    sets = ((view.healthy, PALE), (view.within, SKY), (view.inside, BLUE))
-    if view.grid is not None:
-        size = (view.grid, view.grid)
-        x, y = (view.points[:, k].reshape(size) for k in (0, 1))
+def _draw_map(axes: Axes, region: RegionMap) -> None:
+    sets = ((region.healthy, PALE), (region.within, SKY), (region.inside, BLUE))
+    if region.grid is not None:
+        size = (region.grid, region.grid)
+        x, y = (region.points[:, k].reshape(size) for k in (0, 1))
         for chosen, color in sets:
             if chosen.any():
                 axes.contourf(x, y, chosen.reshape(size).astype(float), levels=[0.5, 1.5], colors=[color])
     else:
         for chosen, color in sets:
-            axes.scatter(view.points[chosen, 0], view.points[chosen, 1], s=9, c=color, linewidths=0)
+            axes.scatter(region.points[chosen, 0], region.points[chosen, 1], s=9, c=color, linewidths=0)
     axes.plot(0, 0, marker="s", color=INK, markersize=6)
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set(xlabel=view.labels[0], ylabel=view.labels[1], title=view.title)
+    axes.set(xlabel=region.view.names[0], ylabel=region.view.names[1], title=region.view.title)

@@ -74,6 +74,15 @@ class View:
     title: str
 
 
+def sides(points: Array) -> list[View]:
+    """Side and top view of points (N, 3); only one of them if everything lies in its plane."""
+    size = np.ptp(points, axis=0)
+    flat = size < 1e-6 * max(float(size.max()), 1e-6)
+    side = View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
+    found = [v for v in (side, View(0, 1, "Top view")) if not (flat[v.right] or flat[v.up])]
+    return found or [View(0, 2 if flat[1] else 1, "View")]
+
+
 @dataclass(frozen=True)
 class Scene:
     """Things in space, m.

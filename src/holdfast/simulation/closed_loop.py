@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from holdfast.arguments import checked
+from holdfast.arguments import checked, real_numbers
 from holdfast.arm.configurations import as_configurations
 from holdfast.arm.task import target_poses
 from holdfast.control.law import Law
 from holdfast.errors import InputError
+from holdfast.failures import Locked, read_locks
 from holdfast.notice import says
 from holdfast.simulation.batch import motion_of
 from holdfast.simulation.runs import Runs, Setting
@@ -21,7 +21,6 @@ from holdfast.simulation.tableaus import CLASSIC
 
 Array = NDArray[np.float64]
 Method = Literal["adaptive", "rk4"]
-Locked = Sequence[str | int | tuple[str | int, float]] | NDArray[np.int64] | Array
 
 TIME_LIMIT, CYCLE_LIMIT = 3000.0, 1000.0  # 1/Ke, cycles
 RADIUS = 0.1  # m
@@ -34,13 +33,15 @@ def simulate(
     law: Law,
     q0: ArrayLike,
     target: ArrayLike,
-    locked: Locked = (),
+    locked: Locked | NDArray[np.int64] | Array = (),
     cycles: bool = False,
     method: Method = "adaptive",
     time_limit: float | None = None,
     tolerance: float = TOLERANCE,
     step: float | None = None,
     radius: float = RADIUS,
+    *,
+    time: ArrayLike = 0.0,
 ) -> Runs:
     """What the arm does when joints lock and its controller goes on as if nothing had happened.
 
@@ -77,15 +78,16 @@ def simulate(
         q0: (n,) or (N, n) configurations at the start, rad and m.
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
-        locked: Joints, by name or index from 0, that stand from the start in every run; ``(joint, time)`` locks at that time,
-            s or cycles. Or for each run of its own, as an array: (N,) the index of one joint, -1 for none; or (N, n) the time
-            at which each joint locks, s or cycles, infinite for never.
+        locked: Joints that lock where they are in every run, ``{joint: None}`` or the joints alone, by name or index from 0.
+            Or for each run of its own, as an array: (N,) the index of one joint, -1 for none; or (N, n) the time at which
+            each joint locks, s or cycles, infinite for never.
         cycles: Discrete control cycles in place of continuous time.
         method: ``adaptive`` (DOP853, order 8) or ``rk4`` (classic Runge-Kutta, fixed step).
         time_limit: s or cycles; 3000/Ke, or 1000 cycles, if not given.
         tolerance: Of the adaptive method: the local error of a step, rad (and m), 1e-13 to 1e-6.
         step: Of ``rk4``, s; 0.1/Ke if not given.
         radius: Of the target in cycles, m (and rad).
+        time: When the joints lock, s or cycles: one time, or one for each of them.
 
     Returns:
         A :class:`holdfast.Runs`. A row with NaN is undecided; a single start with NaN raises.
@@ -98,7 +100,7 @@ def simulate(
     start, single = as_configurations(law.arm, q0)
     poses, rows_wanted = target_poses(law.task, target)
     targets = poses if rows_wanted is None else rows_wanted
-    locks, shared = _locks(law, locked)
+    locks, shared = _locks(law, locked, time)
     counts = {"q0": len(start), "target": len(targets), "locked": len(locks)}
     rows = max(counts.values()) if min(counts.values()) else 0
     for what, count in counts.items():
@@ -137,7 +139,7 @@ def simulate(
 # ---- input -------------------------------------------------------------------------------------------------------
 
 
-def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
+def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike) -> tuple[Array, bool]:
     """When each joint locks (M, n), infinite for never; and whether that is the same for all runs."""
     arm = law.arm
     if isinstance(locked, np.ndarray):
@@ -157,22 +159,18 @@ def _locks(law: Law, locked: Locked) -> tuple[Array, bool]:
         rows = np.flatnonzero(locked >= 0)
         times[rows, locked[rows]] = 0.0
         return times, False
-    if isinstance(locked, Mapping):
-        raise InputError(
-            f"locked is {dict(locked)!r}; a joint locks where it is, so give joints, or (joint, time) pairs, and "
-            "its angle in q0"
-        )
-    if isinstance(locked, (str, int)):
-        raise InputError(f"locked is {locked!r}; give a list, for example [{locked!r}]")
+    joints = read_locks(arm, locked)
+    for k, value in joints.items():
+        if value is not None:
+            name = arm.joint_names[k]
+            raise InputError(f"locked has {value:g} for '{name}'; a joint locks where it is: give None, and its value in q0")
+    when = real_numbers(time, "time")
+    if when.shape not in ((), (len(joints),)):
+        raise InputError(f"time has shape {when.shape} and locked names {len(joints)} joints; give one time, or one for each")
+    if not (np.isfinite(when) & (when >= 0)).all():
+        raise InputError(f"time is {time!r}; a joint locks at a finite time of 0 or more")
     times = np.full((1, arm.n), np.inf)
-    for item in locked:
-        joint, time = item if isinstance(item, tuple) else (item, 0.0)
-        k = arm.joint_index(joint)
-        if not (np.isfinite(time) and time >= 0):
-            raise InputError(f"joint '{arm.joint_names[k]}' locks at {time:g}; the time must be a finite number of 0 or more")
-        if np.isfinite(times[0, k]):
-            raise InputError(f"locked names joint '{arm.joint_names[k]}' twice; a joint locks once")
-        times[0, k] = time
+    times[0, list(joints)] = when
     return times, True
 
 

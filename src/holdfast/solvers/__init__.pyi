@@ -1,12 +1,12 @@
+from holdfast.solvers.curve_tracing import Component as Component
 from holdfast.solvers.fibre_paths import FibrePath as FibrePath
 from holdfast.solvers.fibre_paths import best_path as best_path
 from holdfast.solvers.fibre_paths import best_path_over as best_path_over
 from holdfast.solvers.inverse_kinematics import Reach as Reach
 from holdfast.solvers.inverse_kinematics import solve_ik as solve_ik
 from holdfast.solvers.inverse_kinematics import solver as solver
-from holdfast.solvers.optimum import Optimum as Optimum
-from holdfast.solvers.optimum import optimise as optimise
-from holdfast.solvers.self_motions import Component as Component
+from holdfast.solvers.optima import Optima as Optima
+from holdfast.solvers.optima import optimise as optimise
 from holdfast.solvers.self_motions import SelfMotion as SelfMotion
 from holdfast.solvers.self_motions import fibres as fibres
 from holdfast.solvers.self_motions import self_motion as self_motion

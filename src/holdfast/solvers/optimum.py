@@ -1,4 +1,4 @@
-"""The best configuration of a pose: as good as possible after the worst failure, without moving the hand.
+"""The best configuration of a pose: as good as possible after the worst failure, without moving the end effector.
 
 Source: Abdi, Maciejewski, Nahavandi 2012, eq. (11), (12), in the epigraph form: ``max t`` subject to ``s_k(q) >= t`` for
 every failure k, the pose and the joint limits. Each step solves that program linearised about q on the self-motion
@@ -7,28 +7,24 @@ manifold, within a trust region; many starts run side by side and the poor ones 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from holdfast.arguments import checked
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
-from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
 from holdfast.caching import cached_property
-from holdfast.errors import InputError, TaskError
+from holdfast.errors import TaskError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
-from holdfast.kernels.threads import in_pool, pool, thread_count
 from holdfast.linalg import damped_least_norm, dot, householder
-from holdfast.notice import Count, each, says
+from holdfast.notice import each
 from holdfast.solvers import joint_space
 from holdfast.solvers.inverse_kinematics import InverseKinematics, Reach, clipped, solver, task_error
 from holdfast.solvers.maximin import maximin_step
@@ -45,10 +41,9 @@ LAST_STEPS = 12  # of the few that are kept
 _KEPT = 4
 RADIUS = 0.3  # first step along each null-space direction, rad or m
 _WIDEST = 0.6
-_BLOCK = 512  # poses worked on together by one thread; no result depends on it
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Optimum:
     """Best configurations found for N poses, or for one (then without the leading N).
 
@@ -83,7 +78,7 @@ class Optimum:
         """(N,) True where the pose is reached."""
         return np.asarray((self.status == Status.OK) | (self.status == Status.SINGULAR))
 
-    def require_ok(self) -> Optimum:
+    def require_ok(self) -> Self:
         """Itself, or :class:`holdfast.HoldfastError` naming the first row that failed."""
         require_ok(self.status, "optimisation")
         return self
@@ -288,7 +283,16 @@ class Ascent:
                 status[kept[found_there == code]] = code
         position_error, rotation_error = engine.errors(best_q, poses)
         return Optimum(
-            best_q, sign * best, start_value, first.q, status, position_error, rotation_error, found, agreeing, blocked
+            q=best_q,
+            value=sign * best,
+            start_value=start_value,
+            start_q=first.q,
+            status=status,
+            position_error=position_error,
+            rotation_error=rotation_error,
+            starts=found,
+            agreeing=agreeing,
+            blocked=blocked,
         )
 
 
@@ -308,81 +312,6 @@ def best_of_each(owner: NDArray[np.int64], value: Array, most: int) -> NDArray[n
     first = np.flatnonzero(np.r_[True, sorted_owner[1:] != sorted_owner[:-1]])
     rank = np.arange(len(owner)) - np.repeat(first, np.diff(np.r_[first, len(owner)]))
     return np.asarray(order[rank < most])
-
-
-@checked
-@says("optimising configurations")
-def optimise(
-    arm: Arm,
-    poses: ArrayLike,
-    objective: Objective,
-    seed: int = 0,
-    starts: int | None = None,
-    restarts: int = 100,
-    tolerance: float = 1e-6,
-    task: str | Task | Sequence[str] | None = None,
-    clearance: Clearance | None = None,
-    margin: float = 0.0,
-) -> Optimum:
-    """The configuration of each pose that is best under an objective, within the joint limits.
-
-    Args:
-        arm: The arm.
-        poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met.
-        objective: An index, a susceptibility or a weighted sum of them; it knows whether larger or smaller is better.
-        seed: The same seed gives the same result, whatever the number of threads and of other poses behind.
-        starts: Random starts per pose; more find better optima (the problem has many). Default: :func:`default_starts`.
-            Where fewer than half of them arrive, up to seven times as many follow.
-        restarts: Random starts of inverse kinematics before a pose counts as not found.
-        tolerance: Largest pose error, m and rad.
-        task: Rows of the pose to keep. Default: those of the objective, or ``pose`` if it is not of a task.
-        clearance: Keep the links of the arm apart; not looked at if not given.
-        margin: Smallest clearance, m.
-
-    Returns:
-        An :class:`Optimum`. Its value is never worse than that of the first configuration found, unless that one runs the
-        arm through itself.
-
-    Raises:
-        InputError: Poses that are not 4x4 transforms, options out of range, or an objective or clearance of another arm.
-        TaskError: A task other than the objective's, or an objective that cannot be optimised.
-
-    Source: Abdi et al. 2012, eq. (11), (12).
-    """
-    targets = check_poses(poses)
-    for what, other in (("objective", objective.arm), ("clearance", arm if clearance is None else clearance.arm)):
-        if other.fingerprint != arm.fingerprint:
-            raise InputError(f"the {what} belongs to '{other.name}', not to '{arm.name}'; make it with the same arm")
-    for name, value in (("starts", starts), ("restarts", restarts)):
-        if value is not None and value < 1:
-            raise InputError(f"{name} is {value}; it must be 1 or more")
-    if not 0 < tolerance <= 1:
-        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
-    if not np.isfinite(margin):
-        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
-    within = ascent.engine.within(tolerance)
-    most = default_starts(arm, ascent.task) if starts is None else starts
-    blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
-
-    def work(number: int) -> Optimum:
-        part = targets[blocks[number]]
-        first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
-        reach = ascent.engine.solve(part, first, restarts, within)
-        found = ascent.solve(part, reach, others, most, within)
-        tell(len(part))
-        return found
-
-    with Count("poses", len(targets), whole=len(blocks) > 4 * thread_count()) as tell:
-        if len(blocks) == 1 or in_pool() or thread_count() == 1:
-            parts = [work(k) for k in range(len(blocks))]
-        else:
-            parts = list(pool().map(work, range(len(blocks))))
-    names = list(Optimum.__dataclass_fields__)
-    joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    if np.ndim(poses) == 2:
-        return Optimum(**{name: value[0] for name, value in joined.items()})
-    return Optimum(**joined)
 
 
 def objective_ascent(

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from holdfast.assessment.assessment import EMPTY
+from holdfast.assessment.answer import EMPTY
 from holdfast.probability.intervals import Interval
 from holdfast.studies.results import Assessed, Driven
 from holdfast.words import as_given, number

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assessment.assessment import ZERO
+from holdfast.assessment.answer import ZERO
 from holdfast.assessment.bins import Counts
 from holdfast.assessment.plan import Plan
 from holdfast.assessment.rows import Tally

@@ -38,7 +38,7 @@ def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
     Raises:
         InputError: The arm has no such objective, or no configuration of the pose was found.
     """
-    from holdfast.solvers.optimum import optimise
+    from holdfast.solvers.optima import optimise
 
     both = machine.objectives(state.objective)
     if isinstance(both, str):

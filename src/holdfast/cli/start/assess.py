@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -30,23 +28,18 @@ from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.candidates import TOOL_HELP, read_candidates
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
-from holdfast.files.output import replaced
-from holdfast.present.assessment.console import comparison_summary, print_assessment, print_comparison, summary
-from holdfast.present.printing import print_json
+from holdfast.present.results import printed
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
-    from holdfast.assessment.assessment import Assessment
-    from holdfast.assessment.comparison import Comparison
     from holdfast.regions.region import Region
-
-_CANDIDATES = "comparison.json"
+    from holdfast.result import Result
 
 FailureRateOption = Annotated[
     list[str] | None,
     typer.Option(
         "--failure-rate",
-        help="joint=how often it fails, for the share left after a failure; may be given again.",
+        help="joint=how often it fails, for the fraction left after a failure; may be given again.",
         show_default=False,
     ),
 ]
@@ -94,7 +87,7 @@ def command(
         list[float] | None, typer.Option("--at-least", help="Threshold; may be given again.", show_default=False)
     ] = None,
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for results and report; a stopped run goes on.", show_default=False)
+        Path | None, typer.Option("--out", help="Folder for results and report; a stopped run resumes.", show_default=False)
     ] = None,
     threads: Annotated[
         int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
@@ -114,14 +107,14 @@ def command(
 
     Example: holdfast assess panda iiwa14 --task pose --task position --region cell.yaml --out results
     """
-    from holdfast.assessment.assessment import assess as run
-    from holdfast.assessment.comparison import compare
+    from holdfast.assessment.comparison import compare_assessments
     from holdfast.assessment.plan import make_plan
+    from holdfast.assessment.run import assess
     from holdfast.assessment.single_points import explain, structure, structures
     from holdfast.indices.index import by_name
     from holdfast.kernels.threads import set_threads
 
-    check_thresholds(at_least)
+    threshold = _first(at_least)
     check_clearance(clearance, capsules, radius, margin)
     if threads is not None:
         set_threads(threads)
@@ -129,8 +122,6 @@ def command(
     several = len(candidates) > 1
     first = candidates[0]
     chosen = read_region(region, first.spec, first.arm)
-    if sampling not in ("random", "sobol"):
-        raise InputError(f"sampling '{sampling}' is not known; use 'random' or 'sobol'")
     if several and failure_rate:
         raise InputError(
             "--failure-rate is about the joints of one arm and there are several candidates; assess each alone with it, or "
@@ -151,7 +142,7 @@ def command(
             "restarts": restarts,
             "optimise": optimise,
             "after_lock": after_lock,
-            "lock_at": read_by_joint(c.arm, lock_at, "--lock-at"),
+            "locked": read_by_joint(c.arm, lock_at, "--lock-at"),
             "clearance": read_clearance(c.arm, clearance, capsules, radius, margin, optimise) or False,
             "margin": margin or 0.0,
         }
@@ -162,31 +153,22 @@ def command(
         raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
     if several and region is None:
         typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)
-    results = []
+    runs = []
     for c, (measure, options) in zip(candidates, asked, strict=True):
         if not json_:
             found = structure(c.arm, measure.task)
             if not found.survives:
                 typer.echo(explain(c.arm, found, structures(c.arm)), err=True)
+        store = out / c.name if out is not None and several else out
         with progress_bar(json_, c.name if several else "poses") as progress:
-            result = run(
-                c.arm,
-                chosen,
-                measure,
-                store=out / c.name if out is not None and several else out,
-                progress=progress,
-                **options,
-            )
-        results.append(result)
-    threshold = at_least[0] if at_least else None
-    if not several:
-        _finish(results[0], None if out is None else out / "report.html", at_least, rates, json_)
-        return
-    comparison = compare(results, [c.name for c in candidates], threshold)
-    tools = [c.tool for c in candidates]
-    if out is not None:
-        _write_candidates(out, comparison.names, tools)
-    _finish_comparison(comparison, tools, out, None if out is None else out / "report.html", at_least, json_)
+            runs.append(assess(c.arm, chosen, measure, store=store, progress=progress, **options))
+    if several:
+        comparison = compare_assessments(runs, [c.name for c in candidates], threshold, tools=[c.tool for c in candidates])
+        files = [] if out is None else comparison.save(out)
+        _printed(comparison, json_, files, thresholds=at_least)
+    else:
+        files = [] if out is None else runs[0].save(out, threshold)
+        _printed(runs[0], json_, files, thresholds=at_least, rates=rates)
 
 
 def report(
@@ -202,64 +184,28 @@ def report(
 
     Example: holdfast report results
     """
-    from holdfast.assessment.assessment import load
+    from holdfast.assessment.comparison import LIST, load_comparison
+    from holdfast.assessment.run import load
 
-    check_thresholds(at_least)
-    if not reading.exists(folder / "run.json") and reading.exists(folder / _CANDIDATES):
+    threshold = _first(at_least)
+    page = to or folder / "report.html"
+    if not reading.exists(folder / "run.json") and reading.exists(folder / LIST):
         if failure_rate:
             raise InputError(f"'{folder}' holds a comparison; give --failure-rate with the folder of one candidate in it")
-        _report_comparison(folder, to, at_least, json_)
+        comparison = load_comparison(folder, threshold)
+        _printed(comparison, json_, [comparison.report(page)], thresholds=at_least)
         return
-    result = load(folder)
-    rates = read_by_joint(result.arm, failure_rate, "--failure-rate")
-    if rates and result.distribution.samples:
-        result.expected_survival(rates)  # before anything is written
-    _finish(result, to or folder / "report.html", at_least, rates, json_)
+    found = load(folder)
+    rates = read_by_joint(found.arm, failure_rate, "--failure-rate")
+    if rates and found.distribution.samples:
+        found.expected_survival(rates)  # before anything is written
+    _printed(found, json_, [found.report(page, threshold)], thresholds=at_least, rates=rates)
 
 
-def _write_candidates(out: Path, names: Sequence[str], tools: Sequence[str | None]) -> None:
-    """Which folders in ``out`` are compared, and in which order."""
-    listed = [{"name": name, "tool": tool} for name, tool in zip(names, tools, strict=True)]
-    replaced(out / _CANDIDATES, json.dumps({"format": "holdfast-comparison", "candidates": listed}, indent=1) + "\n")
-
-
-def _report_comparison(folder: Path, to: Path | None, at_least: list[float] | None, json_: bool) -> None:
-    """Write the report of a comparison again."""
-    from holdfast.assessment.assessment import load
-    from holdfast.assessment.comparison import compare
-    from holdfast.engine.folder import is_plain
-
-    file = folder / _CANDIDATES
-    try:
-        listed = [(c["name"], c["tool"]) for c in json.loads(reading.text(file))["candidates"]]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise StoreError(f"'{file}' is damaged; give the same command to 'holdfast assess' again") from error
-    if not all(is_plain(name) and (tool is None or isinstance(tool, str)) for name, tool in listed):
-        raise StoreError(f"'{file}' is damaged; give the same command to 'holdfast assess' again")
-    names, tools = [name for name, _ in listed], [tool for _, tool in listed]
-    comparison = compare([load(folder / name) for name in names], names, at_least[0] if at_least else None)
-    _finish_comparison(comparison, tools, None, to or folder / "report.html", at_least, json_)
-
-
-def _finish_comparison(
-    comparison: Comparison,
-    tools: Sequence[str | None],
-    out: Path | None,
-    to: Path | None,
-    at_least: list[float] | None,
-    json_: bool,
-) -> None:
-    """Write the report ``to``, and those of the candidates in ``out``, and say what was found."""
-    if out is not None:
-        for name, result in zip(comparison.names, comparison.assessments, strict=True):
-            result.report(out / name / "report.html", comparison.threshold)
-    page = None if to is None else comparison.report(to)
-    if json_:
-        print_json(comparison_summary(comparison, tools, at_least, page))
-        return
-    print_comparison(comparison)
-    if page is not None:
-        typer.echo(f"report: {page}")
+def _printed(result: Result, json_: bool, files: list[Path], **options: Any) -> None:
+    """What was found, and where its report is, the last of the files."""
+    page = files[-1] if files else None
+    printed(result, json_, [page], report=page, **options)
 
 
 def _read_rates(
@@ -278,23 +224,11 @@ def _read_rates(
     return rates
 
 
-def _finish(
-    result: Assessment, to: Path | None, at_least: list[float] | None, rates: dict[str | int, float], json_: bool
-) -> None:
-    """Write the report of one run and say what it found."""
-    page = None if to is None else result.report(to, at_least[0] if at_least else None)
-    if json_:
-        print_json({**summary(result, at_least, rates), "report": None if page is None else str(page)})
-        return
-    print_assessment(result, at_least, rates)
-    if page is not None:
-        typer.echo(f"report: {page}")
-
-
-def check_thresholds(at_least: list[float] | None) -> None:
-    """Refuse --at-least nan before any work is done."""
+def _first(at_least: list[float] | None) -> float | None:
+    """The first --at-least, for which reports are written; nan is refused before any work is done."""
     if any(math.isnan(x) for x in at_least or []):
         raise InputError("--at-least is nan; give a number")
+    return at_least[0] if at_least else None
 
 
 def read_region(path: Path | None, spec: str, arm: Arm) -> Region:

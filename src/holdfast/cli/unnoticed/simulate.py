@@ -78,15 +78,16 @@ def command(
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """
     made = law_of(law, arm, task, base, tip, hold, gain=gain, speed_limit=speed_limit)
-    goal, locks = read_target(made.arm, made.task, target), [_lock(made.arm, text) for text in lock or []]
+    goal = read_target(made.arm, made.task, target)
+    joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
-    runs = hf.simulate(made, q0, goal, locks, cycles, time_limit=time_limit)
+    runs = hf.simulate(made, q0, goal, joints, cycles, time_limit=time_limit, time=times or 0.0)
     result: Result = runs
     if physics:
         if cycles:
             raise InputError("--physics has a control rate of its own; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
-        result = hf.simulate_physics(made, runs.q0, goal, locks, servos, time_limit)
+        result = hf.simulate_physics(made, q0, goal, joints, servos, time_limit, time=times or 0.0)
     files = [] if out is None else result.save(out, command=said())
     if csv is not None:
         files.append(runs.to_csv(csv))

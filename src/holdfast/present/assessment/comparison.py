@@ -7,15 +7,18 @@ from typing import Any
 
 import numpy as np
 from markupsafe import Markup
+from matplotlib.figure import Figure
 
 from holdfast.arm.model import Arm
 from holdfast.arms.tool import attachment_text
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.comparison import Comparison
+from holdfast.notice import says
 from holdfast.present.assessment.facts import Facts
-from holdfast.present.assessment.worst_section import paired
+from holdfast.present.assessment.sections.upgrades import paired
 from holdfast.present.commands import capsule_files, command_line, region_files
-from holdfast.report import figures, page
+from holdfast.report import figures as drawing
+from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
 from holdfast.words import article, as_given, counted, fixed, interval, number, percent
@@ -23,12 +26,9 @@ from holdfast.words import article, as_given, counted, fixed, interval, number, 
 _MOST_UPGRADES = 3  # joints per candidate; its own report has all
 
 
+@says("drawing the report")
 def write(comparison: Comparison, path: Path) -> Path:
-    """Write the comparison as one HTML file that needs nothing else.
-
-    Raises:
-        StoreError: The file cannot be written; what was there is as it was.
-    """
+    """The comparison as a page, which begins with the table."""
     return page.write(build(comparison), path)
 
 
@@ -158,15 +158,16 @@ def _worst(row: dict[str, Any], a: Assessment, before: str) -> str:
     return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_share'])})"
 
 
-def _distributions(c: Comparison, f: Facts) -> list[Block]:
-    """The cumulative distributions of all candidates in one figure."""
+def figures(c: Comparison) -> dict[str, Figure]:
+    """The cumulative distributions of all candidates; nothing where there is no finite value."""
+    f = Facts(c.assessments[0], c.threshold)
     pairs = list(zip(c.names, c.assessments, strict=True))
     samples = [("As inverse kinematics found them" if f.a.region.kind != "joints" else "Cumulative (CDF)", pairs, False)]
     if any(a.optimised is not None for a in c.assessments):
         samples.append(("After optimisation", [(n, a) for n, a in pairs if a.optimised is not None], True))
     ends = [x for _, some, o in samples for _, a in some for x in (a.of(o).lowest, a.of(o).highest) if np.isfinite(x)]
     if not ends:
-        return []
+        return {}
     log = not f.larger and min(ends) > 0 and max(ends) > 20 * min(ends)
     bounds = {a.index.bound for a in c.assessments}
     marks = [Mark(c.threshold, f"threshold {as_given(c.threshold)}{f.unit}")]
@@ -177,7 +178,14 @@ def _distributions(c: Comparison, f: Facts) -> list[Block]:
     ends += [m.x for m in marks]
     axis = np.geomspace(min(ends), max(ends), 801) if log else np.linspace(min(0.0, *ends), 1.04 * max(0.0, *ends), 801)
     panels = [(title, [Curve(axis, a.cdf(axis, optimised=o), n) for n, a in some]) for title, some, o in samples]
-    figure = figures.compare_cdf_figure(panels, marks, f.axis_label, "share with a smaller value, F", log)
+    return {"compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, "share with a smaller value, F", log)}
+
+
+def _distributions(c: Comparison, f: Facts) -> list[Block]:
+    """What the figure shows."""
+    drawn = c.figures()
+    if not drawn:
+        return []
     meets = "1 − F" if f.larger else "F"
     text = (
         f"Over all {counted(f.d.samples, f.noun)} of each candidate; the probability of meeting a threshold is {meets} there. "
@@ -186,7 +194,7 @@ def _distributions(c: Comparison, f: Facts) -> list[Block]:
         text += f"A pose without a configuration counts as {'0' if f.larger else 'infinite'}. "
     width = max(a.distribution.band() for a in c.assessments)
     text += f"The 95 % band of each curve is ±{width:.3f}."
-    return [Picture(figures.svg(figure, "compare", "Cumulative distributions of all candidates"), text)]
+    return [Picture(drawing.svg(drawn["compare"], "compare", "Cumulative distributions of all candidates"), text)]
 
 
 def _upgrades(c: Comparison, f: Facts) -> list[Block]:

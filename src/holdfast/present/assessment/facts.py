@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotations_of_quaternions
-from holdfast.arm.task import as_task
-from holdfast.assessment.assessment import EMPTY, ZERO, Assessment
+from holdfast.assessment.answer import Answer
+from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.rows import provenance
-from holdfast.assessment.single_points import Structure, structure, structures
 from holdfast.assessment.upgrade import sample
 from holdfast.caching import cached_property
-from holdfast.errors import InputError
-from holdfast.probability.distribution import Distribution, Interval
+from holdfast.probability.distribution import Distribution
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
-from holdfast.report.scenes import Scale, Scene, View
+from holdfast.report.scenes import Scale, Scene, View, sides
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.words import article, as_given, either, interval, number, percent, share
+from holdfast.words import as_given, number
 
 Array = NDArray[np.float64]
 
@@ -43,48 +40,18 @@ class Rows:
     weight: Array | None
 
 
-class Facts:
-    """Everything the report says, computed once."""
+class Facts(Answer):
+    """Everything the report says and draws, computed once."""
+
+    a: Assessment
 
     def __init__(self, assessment: Assessment, threshold: float | None) -> None:
-        if threshold is not None and not np.isfinite(threshold):
-            raise InputError(f"threshold is {threshold:g}; it must be a finite number")
-        self.a = assessment
-        self.d = assessment.distribution
-        self.index = assessment.index
-        self.larger = self.index.better == "larger"
-        self.noun = "configuration" if assessment.region.kind == "joints" else "pose"
-        self.reached = f"{self.noun}s" if assessment.region.kind == "joints" else "reached poses"
-        self.chosen = threshold is not None
-        self.threshold = assessment.default_threshold() if threshold is None else float(threshold)
-
-    @property
-    def nothing(self) -> bool:
-        """The index is at its worst at every reached pose, up to rounding."""
-        if self.larger:
-            return self.d.reached > 0 and self.d.highest <= ZERO
-        return self.d.reached > 0 and self.d.infinite == self.d.reached
-
-    @property
-    def decided(self) -> bool:
-        """There is a threshold that means something."""
-        return self.chosen or self.index.bound is not None or (self.d.reached > 0 and not self.nothing)
+        super().__init__(assessment, threshold)
 
     @property
     def drawable(self) -> bool:
         """There are finite values."""
         return self.d.reached > self.d.infinite
-
-    @cached_property
-    def answer(self) -> Interval:
-        """Probability that a pose of the region meets the threshold."""
-        t = self.threshold
-        return self.a.interval(at_least=t) if self.larger else self.a.interval(at_most=t)
-
-    @property
-    def condition(self) -> str:
-        """The threshold as a condition, for a formula."""
-        return f"index {'≥' if self.larger else '≤'} {as_given(self.threshold)}{self.unit}"
 
     @property
     def axis_label(self) -> str:
@@ -92,110 +59,10 @@ class Facts:
         return figures.plain(f"worst-case {self.index.name}{self.unit and ','}{self.unit}")
 
     @property
-    def failures(self) -> str:
-        """``whichever joint locks`` and the like."""
-        sizes = {len(s) for s in self.index.failures}
-        size = sizes.pop() if len(sizes) == 1 else 0
-        if size and len(self.index.failures) == math.comb(self.a.arm.n, size):
-            return "whichever joint locks" if size == 1 else f"whichever {size} joints lock together"
-        count = len(self.index.failures)
-        return f"if {either(self.index.failure_names)} locks" if count == 1 else f"after any of the {count} failures considered"
-
-    @cached_property
-    def headline(self) -> str:
-        """The answer in one sentence."""
-        d, name, noun = self.d, self.index.name, self.noun
-        if not d.samples:
-            return "Nothing has been computed yet."
-        if not d.reached:
-            return (
-                f"No configuration within the joint limits was found for any of the {d.samples:,} poses of the region: "
-                "move the region, widen the joint limits or give more restarts."
-            )
-        lost = (
-            f"; for {percent(d.unreached_share)} of poses no configuration within the joint limits was found"
-            if d.unreached
-            else ""
-        )
-        if self.nothing:
-            worst = "0" if self.larger else "infinite"
-            verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
-            return f"No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
-        bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
-        kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
-        text = f"With probability {interval(self.answer)} a {noun} of the region {kept}"
-        return f"{text} {self.why}" if self.answer.value < EMPTY else text
-
-    @cached_property
-    def why(self) -> str:
-        """What keeps the answer at nothing, joint or structure, and the next figures that say something."""
-        a, index, names = self.a, self.index, self.a.arm.joint_names
-        own = self.structures[0]
-        ends = [k for k in own.fatal if any(k in s for s in index.failures)]
-        if own.never:
-            return "The healthy arm itself is singular for this task in every configuration."
-        if ends:
-            text = f"Once {either([names[k] for k in ends])} locks, the task is singular in every configuration."
-            spared = any(ends[0] not in s for s in index.failures)
-            if len(ends) == 1 and spared and a.kept and self.d.reached:
-                median = number(float(a.if_never_fails(ends[0]).quantile(0.5)))
-                text += f" If it never failed, the median of the {self.reached} would be {median}."
-            return text
-        counts = a.worst_counts
-        parts = []
-        if counts.sum() > 0:
-            k = int(counts.argmax())
-            worst = percent(float(counts[k] / counts.sum()))
-            parts.append(f"A lock of {index.failure_names[k]} is the worst failure at {worst} of the {self.reached}.")
-        parts.append(f"The median of the {self.reached} is {number(float(self.d.quantile(0.5)))}")
-        best = a.optimised
-        if best is not None and best.reached:
-            p = a.interval(**{f"at_{'least' if self.larger else 'most'}": self.threshold}, optimised=True)  # type: ignore[arg-type]
-            parts[-1] += f"; at the best configuration of each pose it is {number(float(best.quantile(0.5)))}, "
-            parts[-1] += f"and the probability {interval(p)}"
-        elif a.region.kind != "joints":
-            parts[-1] += "; what the best configuration of each pose would gain, a run that optimises says"
-        return f"{' '.join(parts)}."
-
-    @property
-    def drawn(self) -> str:
-        """How poses were chosen."""
-        listed = self.a.region.listed
-        each = listed is not None and self.a.poses == len(listed)
-        return "each pose of the list once" if each else f"{self.a.sampling} poses of the region"
-
-    def share(self, count: int) -> str:
-        """A count of poses as a share of all, with its interval if all count alike."""
-        d = self.d
-        return f"{count:,} of {d.samples:,} {self.noun}s, not weighted" if d.weighted else share(count, d.samples)
-
-    @property
-    def weights(self) -> str:
-        """What weights do to the numbers."""
-        return (
-            f"poses count by weight: {percent(1 - self.d.unreached_share)} of the weight is reached. Effective sample size "
-            f"{self.d.effective():,.0f} of {self.d.samples:,} (total weight over the largest weight): intervals and bands are "
-            "those of so many equal poses"
-        )
-
-    @property
-    def unit(self) -> str:
-        """With a space in front, or nothing."""
-        return "" if self.index.unit == "1" else f" {self.index.unit}".replace("^2", "²").replace("^3", "³")
-
-    # ---- structure -------------------------------------------------------------------------------------------------
-
-    @cached_property
-    def structures(self) -> tuple[Structure, list[Structure]]:
-        """Of the task of the run, and of all tasks with that one among them."""
-        everything = structures(self.a.arm)
-        task = self.index.task
-        for s in everything:
-            standard = as_task(self.a.arm, s.task)
-            if s.task == task.name and standard.rows.shape == task.rows.shape and np.allclose(standard.rows, task.rows):
-                return s, everything
-        own = structure(self.a.arm, task)
-        return own, [own, *everything]
+    def failure_labels(self) -> list[str]:
+        """Numbers from 1 and names: ``4 elbow``, ``2+4 shoulder+elbow``."""
+        pairs = zip(self.index.failures, self.index.failure_names, strict=True)
+        return [f"{'+'.join(str(k + 1) for k in s)}  {name}" for s, name in pairs]
 
     # ---- rows ------------------------------------------------------------------------------------------------------
 
@@ -283,12 +150,7 @@ class Facts:
     @cached_property
     def views(self) -> list[View]:
         """Side and top view; only one of them if everything lies in its plane."""
-        size = np.diff(self.scene[0].extent, axis=0)[0]
-        flat = size < 1e-6 * size.max()
-        found = [View(0, 2, "Side view"), View(0, 1, "Top view")]
-        if size[1] > 1.5 * size[0]:
-            found[0] = View(1, 2, "Side view")
-        return [v for v in found if not (flat[v.right] or flat[v.up])] or found
+        return sides(self.scene[0].extent)
 
     @property
     def side(self) -> View:

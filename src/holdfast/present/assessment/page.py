@@ -2,87 +2,96 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from holdfast.assessment.assessment import Assessment
-from holdfast.present.assessment import places_section as places
-from holdfast.present.assessment import sections
-from holdfast.present.assessment import worst_section as worst
-from holdfast.present.assessment.collisions_section import collisions
+from holdfast.assessment.single_points import explain
 from holdfast.present.assessment.facts import Facts
-from holdfast.present.assessment.gain_section import gain
-from holdfast.present.assessment.survival_section import survival
-from holdfast.report import figures, page, scenes
-from holdfast.report.page import Page, Section
+from holdfast.report import figures as drawing
+from holdfast.report import page, scenes
+from holdfast.report.page import Callout, Page, Section
 from holdfast.words import interval
+
+# The sections, in order: files of `sections` with a TITLE and blocks(facts: Facts) -> list[Block]; one without is left out.
+SECTIONS = (
+    "key_numbers",
+    "structure",
+    "views",
+    "distribution",
+    "gain",
+    "collisions",
+    "survival",
+    "worst",
+    "upgrades",
+    "places",
+    "method",
+)
 
 
 def write(assessment: Assessment, path: Path, threshold: float | None = None) -> Path:
-    """Write the report as one HTML file that needs nothing else.
-
-    Args:
-        assessment: What to report.
-        path: The file; it is replaced in one step.
-        threshold: The value of the index that the task needs. Half of the largest possible value if there is one, else
-            the median over the reached poses.
-
-    Raises:
-        StoreError: The file cannot be written; what was there is as it was.
-        InputError: The threshold is not a finite number.
-    """
+    """See :meth:`holdfast.Assessment.report`."""
     return page.write(build(assessment, threshold), path)
 
 
 def build(assessment: Assessment, threshold: float | None = None) -> Page:
     """The report as blocks, before it becomes HTML; see :func:`write`."""
     facts = Facts(assessment, threshold)
-    parts = [
-        Section("", [*sections.structure_callout(facts)]),
-        Section("Key numbers", sections.key_numbers(facts)),
-        Section("Single points of failure by structure", sections.structure_table(facts)),
-        Section("The arm and the region", sections.views(facts)),
-        Section("How the index is distributed", sections.distribution(facts)),
-        Section("What choosing configurations gains", gain(facts)),
-        Section("Does the arm run through itself?", collisions(facts)),
-        Section("What survives a locked joint", survival(facts)),
-        Section("Which failure is the worst", worst.worst_failures(facts)),
-        Section("Which joint deserves the redundant motor or brake", worst.upgrades(facts)),
-        Section(f"The worst {facts.noun}s, and where tolerance is low", places.places(facts)),
-        Section("How it was computed", sections.method(facts)),
-    ]
+    found = [import_module(f"holdfast.present.assessment.sections.{name}") for name in SECTIONS]
+    parts = [Section("", [_verdict(facts)])]
+    parts += [Section(each.TITLE.format(noun=facts.noun), each.blocks(facts)) for each in found]
     a = assessment
     return Page(
         f"Fault tolerance of {a.arm.name}",
         facts.headline,
         [s for s in parts if s.blocks],
         a.region.name,
-        sections.alerts(facts),
+        _alerts(facts),
         "Written by holdfast. This file needs no network and no other file.",
     )
 
 
-def overview_figure(assessment: Assessment, threshold: float | None = None) -> Figure:
+def _verdict(f: Facts) -> Callout:
+    """Single points of failure by structure, said at once."""
+    own, everything = f.structures
+    text = explain(f.a.arm, own, everything)
+    fatal = not own.survives
+    title = "A single locked joint ends this task everywhere" if fatal else ""
+    if own.never:
+        title = "The task is impossible for this arm"
+    return Callout(text, "bad" if fatal else "good", title)
+
+
+def _alerts(f: Facts) -> list[Callout]:
+    """What the reader must know before anything else."""
+    if f.a.complete:
+        return []
+    text = f"{f.d.samples:,} of {f.a.poses:,} {f.noun}s are computed; everything below is about these."
+    return [Callout(text + " Run the same command again to resume.", "bad", "This run is not complete.")]
+
+
+def figures(assessment: Assessment, threshold: float | None = None) -> dict[str, Figure]:
     """The arm and the region on the left, the distribution on the right; 1200 x 520 px at 100 dpi."""
     facts = Facts(assessment, threshold)
     view = facts.side
-    with figures.style():
+    with drawing.style():
         figure = Figure(figsize=(12, 5.2))
         left, right = figure.subplots(1, 2, width_ratios=[1.08, 1])
         scene, _ = facts.scene
         spans, _ = scenes.view_spans(scene, [view], 5.0, 4.1, 4.1)
         scenes.draw_view(left, scene, view, facts.scale, scenes.dot_size(scene, [view], 5.0 / spans[0]), spans, 5.0)
-        left.set_title(f"{figures.plain(facts.a.arm.name, 30)} and the region, {view.title.lower()}")
+        left.set_title(f"{drawing.plain(facts.a.arm.name, 30)} and the region, {view.title.lower()}")
         if np.isfinite(scene.values).any():
             scenes.color_bar(figure, scene, facts.scale, [left], facts.axis_label)
         if facts.drawable:
-            figures.draw_cdf(right, facts.curves, facts.marks, facts.axis_label, f"share of {facts.noun}s below", facts.log)
+            drawing.draw_cdf(right, facts.curves, facts.marks, facts.axis_label, f"share of {facts.noun}s below", facts.log)
             right.set_title(f"P({facts.condition}) = {interval(facts.answer)}" if facts.decided else "")
-            figures.legend_below(figure, right, 4)
+            drawing.legend_below(figure, right, 4)
         else:
             what = "the index is infinite everywhere" if facts.d.reached else "no configuration found"
-            right.text(0.5, 0.5, what, ha="center", va="center", color=figures.SOFT)
+            right.text(0.5, 0.5, what, ha="center", va="center", color=drawing.SOFT)
             right.set_axis_off()
-        return figures.finished(figure)
+        return {"overview": drawing.finished(figure)}

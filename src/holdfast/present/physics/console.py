@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import number
 from holdfast.present.simulation import console as simulation
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "damping": dict(zip(names, run.damping.tolist(), strict=True)),
         "control_rate_hz": run.servos.rate,
     }
-    made: dict[str, Any] = plain(run.kinematic.to_dict() | {"physics": physics})
-    return made
+    return run.kinematic.to_dict() | {"physics": physics}
 
 
 def show(run: PhysicalRun, out: Console) -> None:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
-from holdfast.files.output import made, writing
+from holdfast.files.output import made, write_table
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
 from holdfast.present.stick_figure import projections
@@ -53,11 +53,8 @@ def to_csv(runs: Runs, file: File, k: int) -> File:
     """The samples of run k as rows."""
     law, path = runs.law, _RunReport(runs, k).path
     time = "time_cycles" if runs.cycles else "time_s"
-    header = ",".join([time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"])
-    rows = np.column_stack([path.time, path.q, path.x, path.error])
-    with writing(file, "motion") as stream:
-        np.savetxt(stream, rows, fmt="%.9g", delimiter=",", header=header, comments="")
-    return file
+    header = [time, *joint_columns(law.arm), "tool_x_m", "tool_y_m", "tool_z_m", "error"]
+    return write_table(file, "motion", header, np.column_stack([path.time, path.q, path.x, path.error]))
 
 
 class _RunReport:

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from holdfast.assessment.bins import FACTS, Counts, edges
+from holdfast.assessment.block import compile_for, evaluate, worst_cases
 from holdfast.assessment.plan import Plan, Rows
 from holdfast.engine.job import Chunk
 from holdfast.engine.store import Column
@@ -37,7 +38,7 @@ class AssessJob(PlannedJob[Plan]):
     def compiled(self) -> Plan:
         """The plan, with what its equations became."""
         plan = Plan.from_dict(self.plan, self.rows)
-        plan.compile()
+        compile_for(plan)
         if self.keep == "counts" and plan.region.kind == "joints":
             plan.index.worst_case(np.zeros((1, plan.arm.n)))
         return plan
@@ -96,4 +97,4 @@ class AssessJob(PlannedJob[Plan]):
             stop, number = min(start + step, chunk.stop), first + (start - chunk.start) // size
             drawn = None if place is None else place[: stop - start]
             samples = plan.region.samples(start, stop, number, plan.seed, plan.sampling, self.rows, drawn)
-            yield plan.evaluate(samples, number) if drawn is None else plan.worst_cases(samples)
+            yield evaluate(plan, samples, number) if drawn is None else worst_cases(plan, samples)

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.assessment.assessment import Assessment, assess, load
+from holdfast.assessment.assessment import Assessment
+from holdfast.assessment.run import assess, load
 from holdfast.errors import InputError
 from holdfast.indices.index import Index
 from holdfast.regions.region import Region

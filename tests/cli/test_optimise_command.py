@@ -1,8 +1,9 @@
-"""``holdfast configure``: the library's optimum, and objectives as text."""
+"""``holdfast optimise``: the library's optimum, and objectives as text."""
 
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -128,7 +129,7 @@ def test_what_is_wrong_with_an_objective(text, words, panda):
 
 def test_it_is_the_library(ask, panda):
     q = np.radians([float(x) for x in HOME.split()])
-    data = ask("configure", "panda", "--at", HOME, "--degrees", "--minimise", "torque:effort", "--starts", 20, "--seed", 3)
+    data = ask("optimise", "panda", "--at", HOME, "--degrees", "--minimise", "torque:effort", "--starts", 20, "--seed", 3)
     torque = sus.torque(panda, "effort")
     expected = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20)
     (row,) = data["poses"]
@@ -141,6 +142,10 @@ def test_it_is_the_library(ask, panda):
     np.testing.assert_array_equal([x["after"] for x in row["measures"]["torque"].values()], torque.by_joint(found))
     np.testing.assert_array_equal([x["before"] for x in row["measures"]["torque"].values()], torque.by_joint(q))
     assert (row["starts"], row["agreeing"], row["status"]) == (expected.starts, expected.agreeing, "ok")
+    clear = hf.clearance.Clearance.by_default(panda)
+    same = hf.optimise(panda, panda.forward_kinematics(q), torque, seed=3, starts=20, clearance=clear, initial=q)
+    assert json.loads(json.dumps(same.to_dict())) == data
+    assert same.describe()[0].endswith(f"{torque(q):.3f} before, {float(same.value):.3f} after.")
 
 
 def test_a_pose_of_a_urdf_file_as_numbers(ask):
@@ -149,7 +154,7 @@ def test_a_pose_of_a_urdf_file_as_numbers(ask):
     pose = oracles.pose(Rotation.from_euler("ZYX", [30, -20, 170], degrees=True).as_matrix(), [0.4, 0.1, 0.3])
     found = []
     for text, wish in (("0.4,0.1,0.3,170,-20,30", "--minimise"), ("0.4 0.1 0.3 170 -20 30", "--maximise")):
-        data = ask("configure", URDF, "--pose", text, wish, "torque:joint2", "--starts", 8)
+        data = ask("optimise", URDF, "--pose", text, wish, "torque:joint2", "--starts", 8)
         (row,) = data["poses"]
         np.testing.assert_allclose(row["pose"], pose, atol=1e-15)
         np.testing.assert_allclose(arm.forward_kinematics(list(row["q"].values())), pose, atol=1e-5)
@@ -166,7 +171,7 @@ def test_poses_from_a_file_and_results_to_one(ask, cli, tmp_path, panda, rng):
     quaternions = Rotation.from_matrix(poses[:, :3, :3]).as_quat()
     rows = [*np.concatenate([poses[:, :3, 3], quaternions], axis=1), np.array([9.0, 0, 0, 0, 0, 0, 1])]
     file.write_text("x,y,z,qx,qy,qz,qw\n" + "".join(",".join(map(repr, row.tolist())) + "\n" for row in rows))
-    arguments = ("configure", "panda", "--poses", file, "--minimise", "0.1*swing-angle + torque:joint4", "--starts", 8)
+    arguments = ("optimise", "panda", "--poses", file, "--minimise", "0.1*swing-angle + torque:joint4", "--starts", 8)
     data = ask(*arguments, "--csv", out)
     assert [row["status"] for row in data["poses"]] == ["ok", "ok", "ok", "not_found"]
     assert data["poses"][3]["value"] is None
@@ -187,9 +192,16 @@ def test_poses_from_a_file_and_results_to_one(ask, cli, tmp_path, panda, rng):
         assert part in words, part
 
 
+def test_configurations_to_compare_with_are_as_many_as_poses(panda):
+    poses = panda.forward_kinematics(np.zeros((2, 7)))
+    for wrong in (np.zeros(7), np.zeros((3, 7))):
+        with pytest.raises(hf.InputError, match="give one configuration of each pose"):
+            hf.optimise(panda, poses, sus.torque(panda), starts=1, initial=wrong)
+
+
 def test_a_person_reads_joints_in_rad_and_degrees(cli):
     code, out, err = cli(
-        "configure", "planar-3r", "--at", "0.3 1 -0.7", "--maximise", "relative-manipulability", "--mount", "wall"
+        "optimise", "planar-3r", "--at", "0.3 1 -0.7", "--maximise", "relative-manipulability", "--mount", "wall"
     )
     words = " ".join(out.split())
     assert (code, err) == (0, "")
@@ -206,7 +218,7 @@ def test_a_person_reads_joints_in_rad_and_degrees(cli):
 
 def test_positions_need_no_orientation(ask):
     arm = arms.load("planar-3r")
-    data = ask("configure", "planar-3r", "--pose", "0.9 1.1 0", "--minimise", "torque:worst-case", "--starts", 4)
+    data = ask("optimise", "planar-3r", "--pose", "0.9 1.1 0", "--minimise", "torque:worst-case", "--starts", 4)
     found = arm.forward_kinematics(list(data["poses"][0]["q"].values()))
     np.testing.assert_allclose(found[:3, 3], [0.9, 1.1, 0], atol=1e-5)
 
@@ -239,18 +251,18 @@ def test_positions_need_no_orientation(ask):
     ],
 )
 def test_bad_input_is_one_sentence(arguments, words, refused):
-    assert words in refused("configure", "panda", *arguments)
+    assert words in refused("optimise", "panda", *arguments)
 
 
 def test_a_file_without_poses(refused, tmp_path):
     file = tmp_path / "poses.csv"
     file.write_text("x,y,z\n")
-    assert "holds no poses" in refused("configure", "panda", "--poses", file, "--minimise", "torque")
+    assert "holds no poses" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
     file.write_text("x,y,z,qx,qy,qz,qw\n0,0,1,0,0,0,2\n")
-    assert "row 1: the quaternion" in refused("configure", "panda", "--poses", file, "--minimise", "torque")
+    assert "row 1: the quaternion" in refused("optimise", "panda", "--poses", file, "--minimise", "torque")
 
 
 def test_the_list_of_commands_names_what_is_needed(cli):
     _, out, _ = cli("--help")
     assert "(needs the extra 'physics')" in " ".join(out.replace("│", " ").split())
-    assert "configure" in out
+    assert "optimise" in out

@@ -12,10 +12,11 @@ from holdfast.report.figures import Curve
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.words import as_given, counted, interval, number
 
+TITLE = "What choosing configurations gains"
 _MOST_DOTS = 20_000
 
 
-def gain(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """Before and after, if the run was optimised; Abdi et al. 2012, Figs. 5 to 7."""
     best = f.a.optimised
     if best is None or not best.reached:

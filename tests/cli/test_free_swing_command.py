@@ -1,23 +1,29 @@
-"""``holdfast swing``: what it prints, writes and draws."""
+"""``holdfast free-swing``: what it prints, writes and draws."""
 
 from __future__ import annotations
 
+import html
 import json
+import sys
+from pathlib import Path
 
 import matplotlib.image
 import numpy as np
 import pytest
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from wellformed import check
+
 import holdfast as hf
 
-CALL = ["swing", "planar-3r", "--q", "10 20 30", "--degrees", "--joint", "2", "--damping", "8"]
+CALL = ["free-swing", "planar-3r", "--q", "10 20 30", "--degrees", "--joint", "2", "--damping", "8"]
 Q = np.radians([10.0, 20, 30])
 
 
 def test_help_has_an_example(cli):
-    code, out, _ = cli("swing", "--help")
+    code, out, _ = cli("free-swing", "--help")
     assert code == 0
-    assert "Example: holdfast swing" in " ".join(out.split())
+    assert "Example: holdfast free-swing" in " ".join(out.split())
 
 
 def test_json_is_the_library_s_answer(cli):
@@ -49,7 +55,7 @@ def test_a_motion_that_does_not_end_is_said_to_move_and_null_in_json(cli):
 
 
 def test_a_sliding_joint_is_told_in_metres(cli):
-    code, out, _ = cli("swing", "ur5-rail", "--q", "1 0 -90 90 -45 -90 0", "--degrees", "--joint", "rail")
+    code, out, _ = cli("free-swing", "ur5-rail", "--q", "1 0 -90 90 -45 -90 0", "--degrees", "--joint", "rail")
     assert code == 0
     assert "does not move" in out
     assert "0 m/s^2" in out
@@ -72,9 +78,9 @@ def test_the_motion_goes_to_a_file_and_a_picture(cli, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["swing", "pa10-7dof", "--q", "0 0 0 0 0 0 0", "--joint", "4"], "it has no inertial data"),
-        (["swing", "planar-3r", "--q", "0 0 0", "--joint", "4"], "joint 4 is out of range"),
-        (["swing", "planar-3r", "--q", "0 0", "--joint", "1"], "it must have 3"),
+        (["free-swing", "pa10-7dof", "--q", "0 0 0 0 0 0 0", "--joint", "4"], "it has no inertial data"),
+        (["free-swing", "planar-3r", "--q", "0 0 0", "--joint", "4"], "joint 4 is out of range"),
+        (["free-swing", "planar-3r", "--q", "0 0", "--joint", "1"], "it must have 3"),
         ([*CALL, "--brake", "-1"], "brake_after holds -1"),
         ([*CALL, "--duration", "-1"], "duration is -1 s"),
         ([*CALL, "--csv", "/nowhere/motion.csv"], "cannot write motion"),
@@ -86,3 +92,14 @@ def test_what_is_wrong_is_one_sentence(cli, arguments, sentence):
     assert (code, out) == (2, "")
     assert sentence in err
     assert err.count("\n") == 1
+
+
+def test_the_page_says_and_shows_what_happened(tmp_path):
+    swing = hf.free_swing(hf.arms.load("planar-3r"), Q, 1, damping=8.0)
+    files = swing.save(tmp_path / "out", command="holdfast free-swing")
+    assert [file.name for file in files] == ["swing.png", "report.html"]
+    page = files[1].read_text(encoding="utf-8")
+    check(page)
+    assert "<h1>Free swing</h1>" in page
+    assert all(html.escape(line) in page for line in swing.describe())
+    assert page.count("<svg") == 1

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import zyx_angles
 from holdfast.present.assessment.facts import Facts, Rows
-from holdfast.present.assessment.worst_section import failure_labels
 from holdfast.probability.distribution import Distribution
 from holdfast.regions.region import Region
 from holdfast.report import figures, maps
@@ -15,12 +14,13 @@ from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.report.scenes import View
 from holdfast.words import counted, fixed, number
 
+TITLE = "The worst {noun}s, and where tolerance is low"
 Array = NDArray[np.float64]
 
 _LEAST_FOR_MAP = 200
 
 
-def places(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """The worst poses, and where in the region tolerance is low."""
     rows = f.rows
     if rows is None and not f.d.reached:
@@ -64,7 +64,7 @@ def places(f: Facts) -> list[Block]:
 def _worst_table(f: Facts, d: Distribution, rows: Rows, name: str) -> Table:
     some = np.flatnonzero(rows.reached)
     order = np.argsort(rows.value[some] if f.larger else -rows.value[some], kind="stable")
-    labels = failure_labels(f)
+    labels = f.failure_labels
     chosen = some[order[:10]]
     angles = np.rad2deg(_angles(rows.rotation[chosen], f.a.region))
     cells = []

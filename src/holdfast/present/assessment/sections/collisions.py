@@ -11,10 +11,11 @@ from holdfast.present.assessment.facts import Facts
 from holdfast.report.page import Block, Callout, Table, Text
 from holdfast.words import counted, percent, share
 
+TITLE = "Does the arm run through itself?"
 _MOST_NAMED = 6  # pairs that are not checked, by name
 
 
-def collisions(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """How often the arm runs through itself; that nobody looked, if the run chose configurations without looking."""
     found, clearance = f.a.collisions, f.a.plan.clearance
     if found is None or clearance is None:

@@ -1,24 +1,29 @@
-"""Pictures of a recovery: the arm on its way, and what is left of the workspace."""
+"""Pictures of a recovery: the arm on its way, and what is left of the workspace; its page and its folder."""
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.errors import InputError
-from holdfast.present.assessment.survival_section import before_and_after_figure
-from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, style
-from holdfast.report.scenes import Scale, Scene, View, color_bar, dot_size, draw_view, view_spans
+from holdfast.files.output import put
+from holdfast.present.recovery.console import checks
+from holdfast.present.results import shown
+from holdfast.report import page
+from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, save_png, style
+from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view, sides, view_spans
+from holdfast.words import capitalised
 
 if TYPE_CHECKING:
     from holdfast.recovery.recovery import Recovery
 
 Array = NDArray[np.float64]
 
-_DOTS = 160  # of the hand's way
+_DOTS = 160  # of the tool's path
 _BETWEEN = 4  # ghosts of the arm on its way
 
 
@@ -29,16 +34,34 @@ def _on_the_way(q: Array, count: int) -> Array:
     return np.stack([np.interp(at, steps, column) for column in q.T], axis=1)
 
 
-def _views(extent: Array) -> list[View]:
-    size = np.diff(extent, axis=0)[0]
-    flat = size < 1e-6 * max(float(size.max()), 1e-6)
-    side = View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
-    found = [v for v in (side, View(0, 1, "Top view")) if not (flat[v.right] or flat[v.up])]
-    return found or [View(0, 2 if flat[1] else 1, "View")]
+def figures(recovery: Recovery) -> dict[str, Figure]:
+    """The arm on its way, from the side and from above, and maps of what is left of the workspace, if that was asked for."""
+    return {"motion": _motion(recovery), **({} if recovery.left is None else recovery.left.figures())}
 
 
-def scene_figure(recovery: Recovery) -> Figure:
-    """The arm where it stands, on its way and where it ends, with the way of the hand coloured by its share."""
+def write(recovery: Recovery, path: Path, command: str = "") -> Path:
+    """The page: what came of it first, then why, the pictures, and what a replay of the motion found."""
+    asked, verdict, *rest = recovery.describe()
+    found = [page.Text(capitalised(line)) for line in rest]
+    checked = (
+        [page.Section("What a replay by other code says", [page.Text(capitalised(x)) for x in checks(recovery)])]
+        if len(recovery.q)
+        else []
+    )
+    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, command))]
+    return page.write(page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, asked), path)
+
+
+def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
+    """recovery.json, motion.png, waypoints.csv if there is a motion, left.png if that was asked for, and report.html."""
+    (file,) = put(folder, {"recovery.json": json.dumps(recovery.to_dict(), indent=2) + "\n"})
+    motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in figures(recovery).items()]
+    waypoints = [recovery.to_csv(folder / "waypoints.csv")] if len(recovery.q) else []
+    return [file, motion, *waypoints, *left, write(recovery, folder / "report.html", command)]
+
+
+def _motion(recovery: Recovery) -> Figure:
+    """The arm where it is, on its way and where it ends, with the path of the tool coloured from its start to its end."""
     arm = recovery.arm
     moving = len(recovery.q) > 1
     way = _on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
@@ -49,7 +72,7 @@ def scene_figure(recovery: Recovery) -> Figure:
     reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     box = np.array([reach.min(axis=0), reach.max(axis=0)])
     scene = Scene(points, np.linspace(0, 100, len(points)), np.zeros((0, 3)), final, final[1:-1], arm.prismatic, box)
-    views = _views(scene.extent)
+    views = sides(scene.extent)
     scene = Scene(scene.points, scene.values, scene.missing, scene.chain, scene.nodes, scene.square)
     wide = Scene(reach, np.zeros(len(reach)), points, final)
     scale = Scale(0.0, 100.0)
@@ -65,21 +88,21 @@ def scene_figure(recovery: Recovery) -> Figure:
                 axes.plot(*ghost[:, pick].T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if k == 0 else None)
             if moving:
                 axes.plot(
-                    *start[:, pick].T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it stands"
+                    *start[:, pick].T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
                 )
             draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
             locked = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
             last = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
             axes.plot(*locked[:, pick].T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
             axes.plot(*last[:, pick].T, "X", color=ORANGE, markersize=8, zorder=3.6)
-            axes.plot([], [], color="#1b1f24", linewidth=2.8, label="where it ends" if moving else "where it stands and stays")
+            axes.plot([], [], color="#1b1f24", linewidth=2.8, label="where it ends" if moving else "where it is and stays")
             if recovery.goal_pose is not None:
                 place = recovery.goal_pose[:3, 3][pick]
-                axes.plot(*place, "*", color=SKY, markeredgecolor=SOFT, markersize=13, zorder=3.4, label="goal of the hand")
+                axes.plot(*place, "*", color=SKY, markeredgecolor=SOFT, markersize=13, zorder=3.4, label="goal of the tool")
             axes.set_xlim(middle[view.right] - spans[0] / 2, middle[view.right] + spans[0] / 2)
             axes.set_ylim(middle[view.up] - spans[1] / 2, middle[view.up] + spans[1] / 2)
         if moving:
-            color_bar(figure, scene, scale, list(panels), "share of the hand's way, %")
+            color_bar(figure, scene, scale, list(panels), "fraction of the tool's path, %")
         legend_below(figure, panels[0], 5)
         figure.suptitle(plain(_title(recovery), 110), fontsize=10, x=0.01, ha="left")
         return finished(figure)
@@ -89,13 +112,3 @@ def _title(recovery: Recovery) -> str:
     if len(recovery.q) < 2:
         return f"{recovery.arm.name}: {recovery.ending.name}, no motion"
     return f"{recovery.arm.name}: {recovery.ending.name}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"
-
-
-def left_figure(recovery: Recovery) -> Figure:
-    """Maps of the share of targets reached by the healthy and by the failed arm."""
-    left = recovery.left
-    if left is None or not left.healthy.any():
-        raise InputError("there is no map: what is left of the workspace was not asked for, or nothing was reached before")
-    low, high = left.position.min(axis=0), left.position.max(axis=0)
-    view = _views(np.array([low, high]))[0]
-    return before_and_after_figure(left.position, left.healthy, left.locked, view, ", ".join(recovery.locked))

@@ -1,4 +1,4 @@
-"""Which failure is the worst, and which joint deserves to be kept from failing."""
+"""Which failure is the worst, how often, and what it leaves."""
 
 from __future__ import annotations
 
@@ -7,20 +7,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.assessment.upgrade import Upgrade
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures
 from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.words import as_given, number, percent
 
-Array = NDArray[np.float64]
-
+TITLE = "Which failure is the worst"
 _MOST_ROWS = 40
 
 
-def worst_failures(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """Which failure is the worst, how often."""
-    names, counts = failure_labels(f), f.a.worst_counts
+    names, counts = f.failure_labels, f.a.worst_counts
     if not f.d.reached:
         return []
     blocks: list[Block] = []
@@ -45,12 +43,6 @@ def worst_failures(f: Facts) -> list[Block]:
         blocks.append(Text(f"Every {f.noun} reached is singular, so no failure is worse than another."))
     blocks.append(_failure_table(f, names, counts))
     return blocks
-
-
-def failure_labels(f: Facts) -> list[str]:
-    """Numbers from 1 and names: ``4 elbow``, ``2+4 shoulder+elbow``."""
-    pairs = zip(f.index.failures, f.index.failure_names, strict=True)
-    return [f"{'+'.join(str(k + 1) for k in s)}  {name}" for s, name in pairs]
 
 
 def _failure_table(f: Facts, names: list[str], counts: NDArray[Any]) -> Block:
@@ -87,53 +79,3 @@ def _failure_table(f: Facts, names: list[str], counts: NDArray[Any]) -> Block:
     caption = f"The {f.index.name} after each failure, over {int(f.rows.reached.sum()):,} {f.reached}"
     caption += ", at the configurations found; after: at the best configurations." if f.a.optimised is not None else "."
     return Table(cells, head, frozenset(range(1, len(head))), caption=caption, wide=True)
-
-
-def upgrades(f: Facts) -> list[Block]:
-    """Which joint deserves the redundant motor or brake."""
-    if not f.d.reached or not f.decided:
-        return []
-    if f.rows is None:
-        return [Text("The poses of this run were not kept, so the report cannot say which joint deserves it.")]
-    ranked = f.a.upgrades(f.threshold)
-    if not ranked:
-        return []
-    best = {u.joint: u for u in f.a.upgrades(f.threshold, optimised=True)} if f.a.optimised is not None else {}
-    first = ranked[0]
-    if first.gain > 0:
-        text = (
-            f"{first.joint}: if it could never fail, P({f.condition}) would rise from {first.before:.3f} to {first.after:.3f}."
-        )
-    else:
-        text = f"None by itself: if any one joint could never fail, P({f.condition}) would still be {first.before:.3f}."
-    number_of = {name: k + 1 for k, name in enumerate(f.a.arm.joint_names)}
-    rows = []
-    for u in ranked[:_MOST_ROWS]:
-        row = [f"{number_of[u.joint]}  {u.joint}", f"{u.after:.3f}", paired(u)]
-        if u.joint in best:
-            row += [f"{best[u.joint].after:.3f}", paired(best[u.joint])]
-        rows.append(row)
-    head = ["If this never fails", f"P({f.condition})", "gain, 95 % interval"]
-    caption = f"Now: {first.before:.3f}"
-    note = (
-        "Suppose that one joint cannot fail, thanks to a redundant motor or brake: the worst case is then over the failures in "
-        f"which it has no part, at the same {f.noun}s and configurations. The intervals of the gains are paired: a gain is the "
-        f"share of all {f.d.samples:,} {f.noun}s that fail now and would not then."
-    )
-    if best:
-        head += ["after optimisation", "gain, 95 % interval"]
-        caption += f"; after optimisation {next(iter(best.values())).before:.3f}"
-        note += (
-            " After optimisation: at the configurations chosen for all failures; choosing again for those that are left would "
-            "gain more."
-        )
-    return [
-        Text(text),
-        Table(rows, head, frozenset(range(1, len(head))), caption=caption + ".", wide=True),
-        Text(note, quiet=True),
-    ]
-
-
-def paired(u: Upgrade) -> str:
-    """A gain with its interval."""
-    return f"{u.gain:+.3f} ({u.low:.3f} to {u.high:.3f})" if u.gain else f"0 (up to {u.high:.3f})"

@@ -13,12 +13,13 @@ from holdfast.report.page import Block, Picture, Table, Text
 from holdfast.report.scenes import View
 from holdfast.words import as_given, fixed, interval, percent
 
+TITLE = "What survives a locked joint"
 Array = NDArray[np.float64]
 
 _LEAST_FOR_MAP = 200
 
 
-def survival(f: Facts) -> list[Block]:
+def blocks(f: Facts) -> list[Block]:
     """Share of the region that each lock leaves, if the run asked for it."""
     survivors = f.a.survivors
     if survivors is None or not f.d.samples:

@@ -1,0 +1,156 @@
+"""Draw poses in a region, solve, evaluate, count: in memory or chunk by chunk into a folder."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.arm.task import Task, as_task
+from holdfast.assessment.assessment import Assessment
+from holdfast.assessment.block import compile_for
+from holdfast.assessment.plan import Plan, Rows, make_plan
+from holdfast.assessment.rows import Progress, Tally, blocks, fill, provenance, stored
+from holdfast.clearance.clearance import Clearance
+from holdfast.engine.store import Store
+from holdfast.errors import InputError, StoreError
+from holdfast.indices.index import Index, by_name
+from holdfast.notice import says
+from holdfast.regions.region import Region, Sampling
+
+_KEEP = 2_000_000  # rows held in memory unless asked otherwise
+
+
+@checked
+@says("assessing poses")
+def assess(
+    arm: Arm,
+    region: Region,
+    index: Index | str = "relative-manipulability",
+    poses: int | None = None,
+    seed: int = 0,
+    sampling: Sampling = "random",
+    restarts: int = 100,
+    store: str | Path | None = None,
+    keep: bool | None = None,
+    progress: Progress | None = None,
+    task: str | Task | Sequence[str] | None = None,
+    optimise: bool = False,
+    after_lock: bool = False,
+    locked: Mapping[str | int, float] | None = None,
+    clearance: Clearance | bool | None = None,
+    margin: float = 0.0,
+) -> Assessment:
+    """The distribution of an index over a region.
+
+    Each pose is solved by inverse kinematics from random starts; the configuration found is evaluated as it is (the
+    paper's non-optimised sample) and, if asked for, the best configuration of the pose as well (the optimised sample).
+    A region of joints is evaluated directly.
+
+    Args:
+        arm: The arm.
+        region: Which poses, or configurations.
+        index: An index of that arm, or its name.
+        poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
+        seed: The same seed gives the same result, whatever the number of threads or chunks.
+        sampling: ``random``, or ``sobol`` (scrambled; a power of two of poses is best).
+        restarts: Random starts per pose before it counts as not reached.
+        store: Folder for the results, written chunk by chunk; an existing folder of the same run is continued.
+        keep: Hold every row in memory. Default: if there are no more than two million and there is no store.
+        progress: Called with (poses done, poses in all).
+        task: Of the index, ``pose`` if not given. An index that is given has its own, and this must be the same.
+        optimise: Also find the best configuration of each pose; see :func:`holdfast.optimise`.
+        after_lock: Also find which poses can still be reached once each joint has locked; see :meth:`Assessment.survival`.
+        locked: ``{joint: value}``, rad or m, by name or index from 0, where these joints lock. The others lock where they were
+            at another pose if ``after_lock``, and are left out if not.
+        clearance: Of the arm from itself. The best configurations keep it, and how many would not is counted. True: capsules
+            of an assumed radius along the links (:meth:`holdfast.Capsules.along`); False: the arm may run through itself.
+            Default: True when optimising, but for an arm that moves in a plane, whose links lie beside each other.
+        margin: Smallest clearance of the best configurations, m.
+
+    Raises:
+        InputError: Options out of range, or an index of another arm or task, or a clearance of another arm.
+        TaskError: The arm is not redundant for the task, or the index cannot be optimised.
+        StoreError: The folder cannot be used; nothing committed is lost.
+        KeyboardInterrupt: Passed on after the chunk in hand; committed chunks stay, and the same call resumes.
+
+    Source: Abdi et al. 2012, sections IV and V.
+    """
+    if isinstance(index, str):
+        index = by_name(index, arm, "pose" if task is None else task)
+    elif task is not None:
+        own, other = index.task, as_task(arm, task)
+        if not own.same_rows(other) or (isinstance(task, Task) and own.length != other.length):
+            raise InputError(
+                f"the index is for task {own.describe()}, asked for is {other.describe()}; make it with the task to assess, or "
+                "leave task out"
+            )
+    plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin)
+    begin = time.monotonic()
+    keep = (store is None and plan.poses <= _KEEP) if keep is None else keep
+    folder = None if store is None else plan.create(Path(store))
+    compile_for(plan)
+    tally = Tally(plan)
+    kept: list[Rows] = []
+
+    def take(rows: Rows) -> None:
+        tally.add(rows)
+        if keep:
+            kept.append(rows)
+
+    if folder is None:
+        for start, rows in blocks(plan, 0, plan.poses):
+            take(rows)
+            if progress is not None:
+                progress(start + len(rows["status"]), plan.poses)
+    else:
+        with folder.writing():
+            was_complete = folder.complete
+            fill(folder, plan, progress)
+            if not was_complete:
+                spent = folder.notes.get("seconds") or 0.0
+                folder.note(**provenance(spent + time.monotonic() - begin))
+        for rows in stored(folder, plan):
+            take(rows)
+    merged = {name: np.concatenate([r[name] for r in kept]) for name in kept[0]} if kept else None
+    return _finished(plan, tally, folder, time.monotonic() - begin, True, merged)
+
+
+@checked
+def load(path: str | Path) -> Assessment:
+    """The assessment in a results folder; of a run that was stopped, what is there.
+
+    Raises:
+        StoreError: Not a results folder of an assessment, or damaged.
+    """
+    store = Store.open(path)
+    if store.plan.get("kind") != "assess":
+        raise StoreError(f"'{path}' is not an assessment; give the folder that `holdfast assess --out` wrote")
+    plan = Plan.stored(store, store.rows)
+    tally = Tally(plan)
+    for rows in stored(store, plan):
+        tally.add(rows)
+    return _finished(plan, tally, store, store.notes.get("seconds"), store.complete, None)
+
+
+def _finished(
+    plan: Plan, tally: Tally, store: Store | None, seconds: float | None, complete: bool, rows: Rows | None
+) -> Assessment:
+    best = tally.optimised
+    return Assessment(
+        plan,
+        tally.found.finish(),
+        tally.found.worst,
+        None if best is None else best.finish(),
+        None if best is None else best.worst,
+        tally.survivors,
+        tally.collisions,
+        store,
+        seconds,
+        complete,
+        rows,
+    )

@@ -1,0 +1,89 @@
+"""``holdfast tolerant-workspace``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+
+import holdfast as hf
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    HoldOption,
+    JsonOption,
+    PlotOption,
+    SeedOption,
+    TipOption,
+    read_arm,
+    read_joint,
+    read_numbers,
+    read_task,
+)
+from holdfast.errors import InputError
+from holdfast.present.results import drawn, printed
+
+if TYPE_CHECKING:
+    from holdfast.arm.model import Arm
+
+
+def command(
+    arm: ArmArgument,
+    task: Annotated[
+        str | None,
+        typer.Option("--task", help="planar, position, or with turns (see --rotation). Default: planar or position."),
+    ] = None,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--limit",
+            help="JOINT=LOW,HIGH: artificial limits, deg (sliding: m). May be given again. Default: the arm's own.",
+            show_default=False,
+        ),
+    ] = None,
+    optimise: Annotated[
+        bool, typer.Option("--optimise", help="Look for the artificial limits that make the region largest.")
+    ] = False,
+    rotation: Annotated[
+        str | None,
+        typer.Option("--rotation", help="Of the hand, for tasks with turns: roll,pitch,yaw, deg.", show_default=False),
+    ] = None,
+    points: Annotated[int, typer.Option("--points", help="In the sample (not for planar arms of three joints).")] = 1000,
+    angles: Annotated[int, typer.Option("--angles", help="Locked values per joint that are tried.")] = 24,
+    seed: SeedOption = 0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    plot: PlotOption = None,
+    json_: JsonOption = False,
+) -> None:
+    """Every point that the arm reaches before and after any single joint locks, under artificial joint limits.
+
+    Example: holdfast tolerant-workspace planar-3r --optimise --plot region.png
+    """
+    from holdfast.arm.task import plane_normal
+    from holdfast.arm.urdf import rpy_rotation
+
+    model = read_arm(arm, base, tip, hold)
+    rows = read_task(task, arm, model) if task else "planar" if plane_normal(model) is not None else "position"
+    limits = {read_joint(model, text.partition("=")[0]): _limit(model, text) for text in limit or []}
+    turn = None
+    if rotation is not None:
+        values = read_numbers("--rotation", rotation, "roll,pitch,yaw (degrees)")
+        if values.size != 3 or not np.isfinite(values).all():
+            raise InputError(f"--rotation has {values.size} numbers; give roll,pitch,yaw in degrees")
+        turn = rpy_rotation(np.deg2rad(values).tolist())
+    region = hf.tolerant_workspace(
+        model, rows, limits or None, optimise=optimise, rotation=turn, points=points, angles=angles, seed=seed
+    )
+    printed(region, json_, [] if plot is None else [drawn(region, plot)])
+
+
+def _limit(arm: Arm, text: str) -> tuple[float, float]:
+    joint, _, values = text.partition("=")
+    numbers = read_numbers(f"--limit '{text}'", values, "JOINT=LOW,HIGH")
+    if numbers.size != 2:
+        raise InputError(f"--limit '{text}' has {numbers.size} numbers after =; give the lower and the upper limit")
+    factor = arm.joints[read_joint(arm, joint)].shown[0]
+    return float(numbers[0] / factor), float(numbers[1] / factor)

@@ -1,0 +1,1 @@
+"""Arms, as people read them."""

@@ -1,0 +1,78 @@
+"""A comparison of assessments in numbers and words."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from holdfast.present.assessment.console import Thresholds, numbers
+from holdfast.present.printing import number, plain
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from holdfast.assessment.comparison import Comparison
+
+
+def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path | None = None) -> dict[str, Any]:
+    """Every candidate as an assessment alone, and the table."""
+    optimised = all(a.optimised is not None for a in comparison.assessments)
+    each = zip(comparison.names, comparison.tools, comparison.assessments, strict=True)
+    wanted = thresholds or [comparison.threshold]
+    found: dict[str, Any] = plain(
+        {
+            "candidates": [{"name": n, "tool": t, **numbers(a, wanted)} for n, t, a in each],
+            "comparison": {
+                "threshold": comparison.threshold,
+                "table": comparison.table,
+                "ranking": comparison.ranking(),
+                "optimised_ranking": comparison.ranking(optimised=True) if optimised else None,
+                "notes": comparison.notes,
+                "report": None if report is None else str(report),
+            },
+        }
+    )
+    return found
+
+
+def show(comparison: Comparison, out: Console, thresholds: Thresholds = None, report: Path | None = None) -> None:
+    """What differs, the table, and which joint deserves most."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    del thresholds, report
+    first = comparison.assessments[0]
+    out.print(f"{escape(first.region.name)}: {escape(first.region.describe())}", soft_wrap=True)
+    out.print(f"{first.distribution.samples} poses of each candidate; worst-case {escape(first.index.name)}", soft_wrap=True)
+    for note in comparison.notes:
+        out.print(f"[yellow]{escape(note)}[/]", soft_wrap=True)
+    rows = comparison.table
+    optimised = any(r["optimised_probability"] is not None for r in rows)
+    survival = any(r["expected_survival"] is not None for r in rows)
+    sign = "at least" if first.index.better == "larger" else "at most"
+    samples = ("", "optimised_")[: 1 + optimised]
+    titles = ["candidate", "task", "reached", f"{sign} {comparison.threshold:g}", "95 % interval"]
+    titles += ["optimised", "95 % interval"] * optimised + ["median", *["optimised"] * optimised]
+    numbers = Table(*titles, *["left after a lock"] * survival, box=None, pad_edge=False)
+    titles = ["candidate", "worst failure", *["optimised"] * optimised, "single point of failure", "protect first", "gain"]
+    joints = Table(*titles, box=None, pad_edge=False)
+    for r in rows:
+        cells = [escape(r["name"]), escape(r["task"]), _cell(r["reached"])]
+        for b in samples:
+            low, high = _cell(r[f"{b}probability_low"]), _cell(r[f"{b}probability_high"])
+            cells += [_cell(r[f"{b}probability"]), f"{low} to {high}"]
+        cells += ["none" if r[f"{b}median"] is None else number(r[f"{b}median"], 3) for b in samples]
+        numbers.add_row(*cells, *[_cell(r["expected_survival"])] * survival)
+        worst = [
+            "none" if not r[f"{b}worst_joint"] else f"{r[f'{b}worst_joint']} ({r[f'{b}worst_share']:.0%})" for b in samples
+        ]
+        names = [*worst, ", ".join(r["single_points_of_failure"]) or "none", r["upgrade"] or "none"]
+        gain = "" if r["upgrade"] is None else f"{r['upgrade_gain']:+.3f}"
+        joints.add_row(escape(r["name"]), *map(escape, names), gain)
+    out.print(numbers)
+    out.print(joints)
+    out.print("protect first: the joint that gains most if it never fails, by a redundant motor or brake", soft_wrap=True)
+
+
+def _cell(x: float | None) -> str:
+    return "none" if x is None else f"{x:.3f}"

@@ -1,0 +1,43 @@
+"""The arm and the region, from the side and from above."""
+
+from __future__ import annotations
+
+from holdfast.present.assessment.facts import Facts
+from holdfast.report import figures, scenes
+from holdfast.report.page import Block, Picture
+from holdfast.words import counted
+
+TITLE = "The arm and the region"
+
+
+def blocks(f: Facts) -> list[Block]:
+    """The arm and the region, from the side and from above."""
+    scene, drawn = f.scene
+    d = f.d
+    dots = f"{f.noun} drawn" if f.a.region.kind != "joints" else "tool position of a configuration drawn"
+    legend = [("base", "base"), ("joint", "joints, numbered from the base"), ("tool", "tool")]
+    if f.a.arm.prismatic.any():
+        legend.insert(2, ("slide", "sliding joint"))
+    if len(scene.points):
+        legend.append(("dot", dots))
+    if len(scene.missing):
+        legend.append(("cross", "no configuration found"))
+    if scene.box is not None:
+        legend.append(("box", "positions of the region"))
+    image = figures.svg(
+        scenes.view_figure(scene, f.views, f.scale, f.axis_label, legend),
+        "views",
+        f"The arm and the {f.noun}s of the region, by index",
+    )
+    text = f"The arm is drawn {f.representative[1]}."
+    if not drawn and d.samples:
+        text += f" The {f.noun}s of this run were not kept, so none are drawn."
+    elif drawn < d.samples:
+        text += f" Of {d.samples:,} {f.noun}s a random {drawn:,} are drawn"
+    elif drawn:
+        text += f" All {counted(drawn, f.noun)} are drawn"
+    if drawn:
+        text += "; colour is the index." if len(scene.points) else "."
+    if drawn and d.infinite:
+        text += " Infinite values have the darkest colour."
+    return [Picture(image, text)]

@@ -1,0 +1,107 @@
+"""A free swing: its numbers, its words and its figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from holdfast.present.printing import number
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
+    from holdfast.physics.swing import FreeSwing
+
+_CLOSE_UP = 1.5  # times the last brake time
+
+
+def to_dict(swing: FreeSwing) -> dict[str, Any]:
+    """What happened, and where the tool is when the brakes act."""
+    failed = swing.arm.joints[swing.joint]
+    unit = failed.unit
+    return {
+        **swing.arm.entry(),
+        "joint": failed.name,
+        "q": dict(zip(swing.arm.joint_names, swing.q, strict=True)),
+        "unit": unit,
+        "damping": swing.damping,
+        "outcome": swing.outcome,
+        "settled": swing.settled,
+        f"rest_{unit}": swing.rest_angle,
+        f"peak_{unit}": swing.peak,
+        f"initial_acceleration_{unit}_s2": swing.initial_acceleration,
+        "simulated_s": swing.time[-1],
+        "drops": [
+            {
+                "brake_after_ms": d.after_ms,
+                f"moved_{unit}": d.angle,
+                f"speed_{unit}_s": d.speed,
+                "tool_drop_m": d.drop,
+                "tool_distance_m": d.distance,
+            }
+            for d in swing.drops
+        ],
+    }
+
+
+def show(swing: FreeSwing, out: Console) -> None:
+    """How it ended, and a table of the brake times."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    failed = swing.arm.joints[swing.joint]
+    factor, shown = failed.shown
+    unit = failed.unit
+
+    def amount(value: float) -> str:
+        return f"{number(value)} m" if unit == "m" else f"{number(np.degrees(value))} deg ({number(value)} rad)"
+
+    for line in swing.describe()[:2]:
+        out.print(escape(line), soft_wrap=True)
+    facts = Table.grid(padding=(0, 2))
+    if swing.settled:
+        facts.add_row("at the end, from its start", f"[bold]{amount(swing.rest_angle)}[/]")
+    facts.add_row("farthest it got", amount(swing.peak))
+    facts.add_row("acceleration at first", f"{number(swing.initial_acceleration)} {unit}/s^2")
+    facts.add_row("friction", f"{number(swing.damping)} {'N s/m' if unit == 'm' else 'N m s/rad'}")
+    facts.add_row("simulated", f"{number(swing.time[-1])} s")
+    out.print(facts)
+    if swing.drops:
+        table = Table("brakes act after", "joint has moved", "at", "tool has dropped", "and moved", box=None, pad_edge=False)
+        for d in swing.drops:
+            table.add_row(
+                f"{d.after_ms:g} ms",
+                f"{number(factor * d.angle)} {shown}",
+                f"{number(factor * d.speed)} {shown}/s",
+                f"{number(1000 * d.drop)} mm",
+                f"{number(1000 * d.distance)} mm",
+            )
+        out.print(table)
+
+
+def figures(swing: FreeSwing) -> dict[str, Figure]:
+    """The joint and the height of the tool over time, and a close-up of the time until the brakes act."""
+    from holdfast.report.motions import Panel, motion_figure
+
+    failed = swing.arm.joints[swing.joint]
+    factor, unit = failed.shown
+    pull = float(np.linalg.norm(swing.arm.gravity)) or 1.0
+    height = -(swing.tool_position - swing.tool_position[0]) @ swing.arm.gravity / pull
+    level = (factor * swing.rest_angle, "where it ends") if swing.settled else None
+    panels = [
+        Panel(swing.time, factor * swing.angle, f"joint has moved, {unit}", f"Joint {failed.name}", level),
+        Panel(swing.time, height, "tool height above its start, m", "Tool"),
+    ]
+    last = max((d.after_ms for d in swing.drops), default=0.0) / 1000
+    if last > 0 and swing.outcome != "balanced":
+        early = swing.time <= max(_CLOSE_UP * last, swing.time[1])
+        moments = tuple(
+            (d.after_ms / 1000, -1000 * d.drop, f"{d.after_ms:g} ms: {0.0 - 1000 * d.drop:.3g} mm") for d in swing.drops
+        )
+        label = "tool height above its start, mm"
+        panels.append(Panel(swing.time[early], 1000 * height[early], label, "Tool, when brakes act", None, moments))
+    friction = f"{swing.damping:.3g} {'N s/m' if failed.prismatic else 'N m s/rad'}"
+    caption = f"{swing.arm.name}: free swing of {failed.name}, all other joints held, friction {friction}, MuJoCo"
+    return {"swing": motion_figure(panels, caption)}

@@ -1,0 +1,32 @@
+"""What a replay of waypoints found, in numbers and words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from holdfast.words import capitalised
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from holdfast.recovery.waypoints import WaypointCheck
+
+
+def to_dict(check: WaypointCheck) -> dict[str, Any]:
+    """What is kept and what is not, and where the end effector ends."""
+    return {
+        "ok": check.ok,
+        "waypoints": len(check.q),
+        "configurations_looked_at": check.looked_at,
+        "beyond_limits": check.beyond_limits,
+        "locks_moved": check.locks_moved,
+        "least_clearance_m": check.least_clearance,
+        "margin_m": check.margin,
+        "hand_at_end": check.poses[-1],
+    }
+
+
+def show(check: WaypointCheck, out: Console) -> None:
+    """The sentences."""
+    for line in check.describe():
+        out.print(capitalised(line), markup=False, soft_wrap=True)

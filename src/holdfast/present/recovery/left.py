@@ -1,0 +1,36 @@
+"""What is left of the workspace: numbers, and maps."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from holdfast.recovery.remainder import WhatIsLeft
+
+
+def to_dict(left: WhatIsLeft) -> dict[str, Any]:
+    """How many targets were reached before, and how many still are."""
+    fractions = {"share_left": left.left, "share_of_region": left.of_region, "healthy_share_of_region": left.healthy_of_region}
+    return {
+        "what": left.region,
+        "rows": left.rows,
+        "targets": len(left.healthy),
+        "reached_healthy": left.healthy.sum(),
+        "still_reached": left.locked.sum(),
+        **{name: None if found is None else asdict(found) for name, found in fractions.items()},
+        "starts": left.starts,
+    }
+
+
+def figures(left: WhatIsLeft) -> dict[str, Figure]:
+    """Maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm reaches none."""
+    from holdfast.present.assessment.sections.survival import before_and_after_figure
+    from holdfast.report.scenes import sides
+
+    if not left.healthy.any():
+        return {}
+    view = sides(left.position)[0]
+    return {"left": before_and_after_figure(left.position, left.healthy, left.locked, view, ", ".join(left.joints))}

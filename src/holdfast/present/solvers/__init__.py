@@ -1,0 +1,1 @@
+"""Configurations of poses, as people read them."""

@@ -1,0 +1,207 @@
+"""The best configurations of poses in numbers and words."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.files.output import writing
+from holdfast.files.spreadsheet import cell
+from holdfast.indices.index import Index
+from holdfast.indices.objective import Objective, Opposite, WeightedSum
+from holdfast.indices.susceptibility.measure import Susceptibility
+from holdfast.present.arm.console import print_outside, shown_position
+from holdfast.present.clearance.shape import shape_summary, shape_text
+from holdfast.present.printing import number, plain
+from holdfast.solvers.optima import Optima
+from holdfast.status import Status
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+Array = NDArray[np.float64]
+
+MANY = 0.5  # fraction of starts that agree, below which more starts are worth it
+
+
+def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
+    """All poses by name; ``asked`` is the objective as it was written."""
+    found, names = optima.rows, optima.arm.joint_names
+    value_before, before, worse = found.value_before, found.before, found.worse
+    apart, apart_after = found.apart(found.before), found.apart(found.q)
+    measures = list(_measures(found))
+
+    def by_joint(values: Array) -> dict[str, Any]:
+        return dict(zip(names, values.tolist(), strict=True))
+
+    def row(k: int) -> dict[str, Any]:
+        return {
+            "pose": found.poses[k],
+            "status": _name(found.status[k]),
+            "value_before": value_before[k],
+            "value": found.value[k],
+            "worse_than_given": worse[k],
+            "q_before": by_joint(before[k]),
+            "q": by_joint(found.q[k]),
+            "clearance_before_m": apart[k],
+            "clearance_m": apart_after[k],
+            "blocked": found.blocked[k] if found.clearance is not None else None,
+            "starts": found.starts[k],
+            "agreeing": found.agreeing[k],
+            "position_error_m": found.position_error[k],
+            "rotation_error_rad": found.rotation_error[k],
+            "measures": {
+                label: {
+                    name: {"unit": unit, "before": old[k, i], "after": new[k, i]}
+                    for i, (name, unit) in enumerate(zip(names, units, strict=True))
+                }
+                for label, units, old, new in measures
+            },
+        }
+
+    data = {
+        **optima.arm.entry(),
+        "objective": asked or _wish(optima),
+        "better": optima.objective.better,
+        "unit": optima.objective.unit,
+        "task": optima.task.name,
+        "before": "found" if optima.initial is None else "given",
+        "seed": optima.seed,
+        "clearance": None if optima.clearance is None else shape_summary(optima.clearance, optima.margin),
+        "poses": [row(k) for k in range(len(found.poses))],
+    }
+    made: dict[str, Any] = plain(data)
+    return made
+
+
+def show(optima: Optima, out: Console, asked: str = "") -> None:
+    """One pose joint by joint, or a line for each."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    found = optima.rows
+    value_before = found.value_before
+    unit = "" if optima.objective.unit in ("1", "mixed") else f" {escape(optima.objective.unit)}"
+    first = "first configuration found" if optima.initial is None else "configuration given"
+    head = f"{asked or _wish(optima)}, arm {optima.arm.title}, task {optima.task.describe()}"
+    out.print(escape(head), soft_wrap=True)
+    if len(found.poses) == 1:
+        _show_one(found, out, first, unit)
+    else:
+        table = Table("pose", f"before{unit}", f"after{unit}", "starts agreeing", "", box=None, pad_edge=False)
+        for k, status in enumerate(found.status):
+            agreeing = "" if np.isnan(found.agreeing[k]) else f"{found.agreeing[k]:.0%} of {found.starts[k]}"
+            ended = "" if status == Status.OK else _name(status).replace("_", " ")
+            table.add_row(str(k + 1), number(value_before[k], 6), number(found.value[k], 6), agreeing, ended)
+        out.print(table)
+        out.print(f"before: the {first}; configurations go to --csv FILE or --json", soft_wrap=True)
+    _show_clearance(found, out)
+    for status in sorted({int(s) for s in found.status if s != Status.OK}):
+        out.print(f"[yellow]{_name(status).replace('_', ' ')}: {Status(status).sentence}[/]", soft_wrap=True)
+    if optima.initial is not None and found.worse.any():
+        which = "" if len(found.poses) == 1 else f" of {int(found.worse.sum())} poses"
+        out.print(f"[yellow]The configuration given{which} is better than any found; give more --starts.[/]", soft_wrap=True)
+
+
+def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    before = found.before[0]
+    out.print(
+        f"[bold]{number(found.value[0], 6)}{unit}[/], {found.objective.better} wanted; "
+        f"{number(found.value_before[0], 6)} before (the {first})",
+        soft_wrap=True,
+    )
+    measures = list(_measures(found))
+    columns = [f"{escape(label)} before" if k == 0 else "after" for label, *_ in measures for k in (0, 1)]
+    table = Table("joint", "before", "after", *columns, box=None, pad_edge=False)
+    for i, joint in enumerate(found.arm.joints):
+        cells = [shown_position(x[i], joint.unit) for x in (before, found.q[0])]
+        cells += [_measure(x[0, i], units[i]) for _, units, *both in measures for x in both]
+        table.add_row(escape(joint.name), *cells)
+    out.print(table)
+    print_outside(found.arm, before, out, " before")
+    agreeing = found.agreeing[0]
+    advice = "" if agreeing >= MANY else "; there are many optima: more --starts may find a better one"
+    out.print(
+        f"{found.starts[0]} starts met the pose; of those followed to the end {agreeing:.0%} agree{advice}", soft_wrap=True
+    )
+    if found.status[0] == Status.OK:
+        out.print(f"pose met to {found.position_error[0]:.1e} m and {found.rotation_error[0]:.1e} rad", soft_wrap=True)
+
+
+def _show_clearance(found: Optima, out: Console) -> None:
+    """What keeps the arm from running through itself, and where it would have."""
+    from rich.markup import escape
+
+    from holdfast.clearance.clearance import too_close
+
+    if found.clearance is None:
+        return
+    before, after = found.apart(found.before), found.apart(found.q)
+    close, blocked = too_close(found.margin), int(found.blocked.sum())
+    if len(before) == 1:
+        apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
+        text = f"clearance of the arm from itself: {apart}"
+        text += f"; a better configuration {close} and was not taken" if blocked else ""
+    else:
+        counts = [int((x < found.margin).sum()) for x in (before, after)]
+        text = f"the arm {close} in {counts[0]} of {len(before)} configurations before, in {counts[1] or 'none'} after"
+        text += f"; at {blocked} poses a better configuration does and was not taken" if blocked else ""
+    out.print(escape(f"{text} ({shape_text(found.clearance, found.margin)})"), soft_wrap=True)
+
+
+def to_csv(optima: Optima, path: Path) -> Path:
+    """The configurations as rows."""
+    found = optima.rows
+    names = [f"{joint.name}_{joint.unit}" for joint in found.arm.joints]
+    columns = ["pose", "status", "value_before", "value", "starts", "agreeing", "position_error_m", "rotation_error_rad"]
+    facts = (found.value_before, found.value, found.starts, found.agreeing, found.position_error, found.rotation_error)
+    rows = np.column_stack([*facts, found.q])
+    with writing(path, "configurations") as file:
+        table = csv.writer(file)
+        table.writerow(map(cell, columns + names))
+        for k, row in enumerate(rows):
+            table.writerow([k + 1, _name(found.status[k]), *[f"{x:.12g}" for x in row]])
+    return path
+
+
+def _name(status: Any) -> str:
+    return Status(int(status)).name.lower()
+
+
+def _wish(optima: Optima) -> str:
+    """What is wanted, as the command line says it."""
+    objective = optima.objective
+    verb = "maximise" if objective.better == "larger" else "minimise"
+    return f"{verb} {getattr(objective, 'label', objective.name)}"
+
+
+def _measures(found: Optima) -> Iterator[tuple[str, tuple[str, ...], Array, Array]]:
+    """Of every summand: its name, the unit of each joint, and what each joint has before and after, (N, n)."""
+    named: dict[str, tuple[Index | Susceptibility, tuple[str, ...]]] = {}
+    for measure in _summands(found.objective):
+        if isinstance(measure, Susceptibility):
+            named[measure.slug] = measure, measure.joint_unit
+        elif isinstance(measure, Index):
+            named[measure.label] = measure, (measure.unit,) * found.arm.n
+    for label, (measure, units) in named.items():
+        yield label, units, measure.by_joint(found.before), measure.by_joint(found.q)
+
+
+def _summands(objective: Objective) -> list[Objective]:
+    if isinstance(objective, Opposite):
+        return _summands(objective.objective)
+    return [o for _, o in objective.terms] if isinstance(objective, WeightedSum) else [objective]
+
+
+def _measure(value: float, unit: str) -> str:
+    if unit == "rad":
+        return shown_position(value, unit)
+    return number(value) + ("" if unit == "1" else f" {unit}")

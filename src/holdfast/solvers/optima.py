@@ -1,0 +1,216 @@
+"""The best configurations of given poses, side by side with those that an arm has there now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import checked
+from holdfast.arm.model import Arm
+from holdfast.arm.poses import check_poses
+from holdfast.arm.task import Task, as_task
+from holdfast.errors import HoldfastError, InputError
+from holdfast.indices.objective import Objective
+from holdfast.kernels.threads import in_pool, pool, thread_count
+from holdfast.notice import Count, says
+from holdfast.result import Result
+from holdfast.solvers.optimum import Optimum, default_starts, objective_ascent
+from holdfast.status import Status
+from holdfast.words import counted, number
+
+if TYPE_CHECKING:
+    from holdfast.clearance.clearance import Clearance
+
+Array = NDArray[np.float64]
+
+_BLOCK = 512  # poses worked on together by one thread; no result depends on it
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Optima(Optimum, Result):
+    """What :func:`optimise` found for N poses, or for one (then without the leading N), and what was asked.
+
+    Attributes:
+        objective: By which configurations were chosen.
+        task: The rows of the pose that are kept.
+        poses: (N, 4, 4) in the world.
+        initial: (N, n) configurations of the poses that were given to compare with, or None.
+        clearance: What keeps the links apart, or None.
+        margin: Smallest clearance, m.
+        seed: Of the starts.
+    """
+
+    objective: Objective
+    task: Task
+    poses: Array
+    initial: Array | None
+    clearance: Clearance | None
+    margin: float
+    seed: int
+
+    @property
+    def arm(self) -> Arm:
+        """The arm."""
+        return self.objective.arm
+
+    @property
+    def rows(self) -> Optima:
+        """Itself with the leading N, also of one pose."""
+        if self.q.ndim == 2:
+            return self
+        arrays = {each.name: getattr(self, each.name)[None] for each in fields(Optimum)}
+        initial = None if self.initial is None else self.initial[None]
+        return replace(self, **arrays, poses=self.poses[None], initial=initial)
+
+    @property
+    def before(self) -> Array:
+        """(N, n) the configurations given, or the first that were found; NaN where none was."""
+        return np.where(self.success[..., None], self.start_q, np.nan) if self.initial is None else self.initial
+
+    @property
+    def value_before(self) -> Array:
+        """(N,) of the objective at :attr:`before`."""
+        return self.start_value if self.initial is None else self.objective(self.initial)
+
+    def apart(self, q: Array) -> Array:
+        """(N,) clearance of the arm from itself, m, at q (N, n); NaN where it is not looked at."""
+        return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
+
+    @property
+    def worse(self) -> NDArray[np.bool_]:
+        """(N,) True where the configuration given is better than the one found, and as clear."""
+        lost = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
+        better = lost > 1e-9 * np.abs(self.value)
+        return np.asarray(better & ~(self.apart(self.before) < self.margin))
+
+    def describe(self) -> list[str]:
+        """Where the best configurations bring the objective; of several poses the median of those reached."""
+        some, unit = np.atleast_1d(self.success), "" if self.objective.unit in ("1", "mixed") else f" {self.objective.unit}"
+        values = [np.atleast_1d(x)[some] for x in (self.value_before, self.value)]
+        before, after = (f"{number(float(np.median(x)))}{unit}" if x.size else "none" for x in values)
+        what = f"{self.objective.name} of {self.arm.title}, {self.objective.better} is better"
+        reached = f"{counted(int(some.sum()), 'pose')} of {some.size} reached, " if some.size > 1 else ""
+        return [f"{what}: {reached}{before} before, {after} after.", f"Task {self.task.describe()}."]
+
+    def require_any(self) -> Optima:
+        """Itself, unless no pose has a configuration.
+
+        Raises:
+            HoldfastError: None has; the message says what to try.
+        """
+        if self.success.any():
+            return self
+        first = Status(int(self.status.flat[0])) if self.status.size else Status.NOT_FOUND
+        advice = first.sentence
+        if first == Status.INFEASIBLE and self.clearance is not None:
+            from holdfast.clearance.clearance import too_close
+
+            advice = (
+                f"the arm {too_close(self.margin)} in each that was found (capsules: "
+                f"{self.clearance.capsules.describe(self.arm)}): choose another pose, give the real shape by --capsules or a "
+                "smaller --margin, or let it by --no-clearance"
+            )
+        raise HoldfastError(f"no configuration of {'the pose' if self.status.size == 1 else 'any pose'}: {advice}")
+
+    def to_csv(self, file: str | Path) -> Path:
+        """Write the configurations as rows, with values before and after.
+
+        Raises:
+            StoreError: It cannot be written.
+        """
+        written: Path = self._presented("to_csv", Path(file))
+        return written
+
+
+@checked
+@says("optimising configurations")
+def optimise(
+    arm: Arm,
+    poses: ArrayLike,
+    objective: Objective,
+    *,
+    seed: int = 0,
+    starts: int | None = None,
+    restarts: int = 100,
+    tolerance: float = 1e-6,
+    task: str | Task | Sequence[str] | None = None,
+    clearance: Clearance | None = None,
+    margin: float = 0.0,
+    initial: ArrayLike | None = None,
+) -> Optima:
+    """The configuration of each pose that is best under an objective, within the joint limits.
+
+    Args:
+        arm: The arm.
+        poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met.
+        objective: An index, a susceptibility or a weighted sum of them; it knows whether larger or smaller is better.
+        seed: The same seed gives the same result, whatever the number of threads and of other poses behind.
+        starts: Random starts per pose; more find better optima (the problem has many). Default: 128, or 32 for a
+            redundancy of 2 or more. Where fewer than half of them reach the pose, up to seven times as many follow.
+        restarts: Random starts of inverse kinematics before a pose counts as not found.
+        tolerance: Largest pose error, m and rad.
+        task: Rows of the pose to keep. Default: those of the objective, or ``pose`` if it is not of a task.
+        clearance: Keep the links of the arm apart; not looked at if not given.
+        margin: Smallest clearance, m.
+        initial: (n,) or (N, n), rad and m: configurations that the arm has at these poses, to compare with; they change no
+            result. Default: the first that inverse kinematics finds.
+
+    Returns:
+        :class:`Optima`. Their value is never worse than that of the first configuration found, unless that one runs the
+        arm through itself.
+
+    Raises:
+        InputError: Poses that are not 4x4 transforms, options out of range, or an objective or clearance of another arm.
+        TaskError: A task other than the objective's, or an objective that cannot be optimised.
+
+    Source: Abdi et al. 2012, eq. (11), (12).
+    """
+    targets = check_poses(poses)
+    given = None if initial is None else arm.check_configurations(initial)
+    if given is not None and given.shape[:-1] != np.shape(poses)[:-2]:
+        raise InputError(f"initial has shape {given.shape}, poses have {np.shape(poses)}; give one configuration of each pose")
+    for what, other in (("objective", objective.arm), ("clearance", arm if clearance is None else clearance.arm)):
+        if other.fingerprint != arm.fingerprint:
+            raise InputError(f"the {what} belongs to '{other.name}', not to '{arm.name}'; make it with the same arm")
+    for name, value in (("starts", starts), ("restarts", restarts)):
+        if value is not None and value < 1:
+            raise InputError(f"{name} is {value}; it must be 1 or more")
+    if not 0 < tolerance <= 1:
+        raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
+    if not np.isfinite(margin):
+        raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
+    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
+    within = ascent.engine.within(tolerance)
+    most = default_starts(arm, ascent.task) if starts is None else starts
+    blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
+
+    def work(number: int) -> Optimum:
+        part = targets[blocks[number]]
+        first, others = np.random.SeedSequence(seed, spawn_key=(number,)).spawn(2)
+        reach = ascent.engine.solve(part, first, restarts, within)
+        found = ascent.solve(part, reach, others, most, within)
+        tell(len(part))
+        return found
+
+    with Count("poses", len(targets), whole=len(blocks) > 4 * thread_count()) as tell:
+        if len(blocks) == 1 or in_pool() or thread_count() == 1:
+            parts = [work(k) for k in range(len(blocks))]
+        else:
+            parts = list(pool().map(work, range(len(blocks))))
+    single = np.ndim(poses) == 2
+    arrays = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Optimum)}
+    return Optima(
+        **{name: value[0] if single else value for name, value in arrays.items()},
+        objective=objective,
+        task=ascent.task,
+        poses=targets[0] if single else targets,
+        initial=given,
+        clearance=clearance,
+        margin=margin,
+        seed=seed,
+    )
