@@ -148,6 +148,13 @@ def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int
     With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
     joint space; else up to ``count`` random ones of each place. Places out of reach have none.
 
+    Args:
+        arm: The arm; limits of joints that may make a whole turn do not count.
+        task: What of a place matters.
+        places: (P, 4, 4) poses of the end effector in the base frame.
+        count: Configurations of a curve, or at most of a place.
+        seed: Of the random starts.
+
     Source: Goel et al. 2005, section on the analysis of a workspace.
     """
     arm = arm.without_idle_limits

@@ -112,7 +112,10 @@ def best_path_over(
     cost: Literal["mean", "max"] = "mean",
     motion: float = 1e-2,
 ) -> FibrePath:
-    """As :func:`best_path` for manifolds that are there already, so that several objectives can share them."""
+    """As :func:`best_path` for the manifolds of its poses that are there already (:func:`fibres`, ``follow=True``).
+
+    So several objectives can share them.
+    """
     if cost not in ("mean", "max"):
         raise InputError(f"cost is '{cost}'; use 'mean' or 'max'")
     if not (np.isfinite(motion) and motion >= 0):
