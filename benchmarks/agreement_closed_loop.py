@@ -331,7 +331,7 @@ def held(family: Family, rows: list[int], **options: Any) -> Any:
     from holdfast import simulate
 
     c = cases(family)
-    return simulate(law_of(family), c.q0[rows], c.target[rows], c.lock[rows], **options)
+    return simulate(law_of(family), c.q0[rows], c.target[rows], locked=c.lock[rows], **options)
 
 
 @dataclass(frozen=True)
@@ -388,7 +388,7 @@ def look(family: Family, k: int, row: dict[str, Any]) -> list[str]:
     near = c.q0[k] + 1e-8 * g.normal(size=(20, c.q0.shape[1]))
     from holdfast import simulate
 
-    others = simulate(law_of(family), near, c.target[k], np.tile(c.lock[k], (20, 1)))
+    others = simulate(law_of(family), near, c.target[k], locked=np.tile(c.lock[k], (20, 1)))
     around = ", ".join(f"{count} {name}" for name, count in others.counts().items() if count)
     path = runs.path(0, 4000)
     least = min(smallest(family, q) for q in path.q)

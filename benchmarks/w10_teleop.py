@@ -171,7 +171,7 @@ def experiment(chosen: argparse.Namespace) -> str:
         harness.progress(f"W10: experiment {seed + 1}")
         with tempfile.TemporaryDirectory() as folder:
             start = time.perf_counter()
-            records = simulate_experiment(Path(folder) / "study", protocol, people, seed)
+            records = simulate_experiment(Path(folder) / "study", protocol, people, seed=seed)
             times.append(time.perf_counter() - start)
             with records:
                 again.append(harness.seconds(lambda r=records: replay(r)))

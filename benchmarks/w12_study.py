@@ -49,7 +49,7 @@ def timed(folder: Path, asked, runner, stop=None, part=(1, 1)) -> np.ndarray:
     """Seconds by the clock, of the processor for this thread, and taken by others on the machine."""
     from holdfast.engine import Study
 
-    s = Study.create(folder, asked.name, asked.seed, asked.cells, asked.text)
+    s = Study.create(folder, asked.name, asked.seed, cells=asked.cells, source=asked.text)
     begin = now()
     s.run(asked.cells, runner, stop=stop or (lambda: False), part=part)
     return now() - begin
@@ -139,7 +139,7 @@ def status(folder: Path, chunks: int) -> float:
     from holdfast.engine import Study
 
     asked = study(folder, chunks, 1)
-    s = Study.create(folder / "many", asked.name, asked.seed, asked.cells, asked.text)
+    s = Study.create(folder / "many", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     s.folder(0).mkdir(parents=True)
     done = [f"{k} {'ab' * 16} 40000 1 0".encode() for k in range(chunks)]  # a checksum, bytes, seconds, and the machine
     (s.folder(0) / "done.journal").write_bytes(b"".join(b"%s %08x\n" % (text, zlib.crc32(text)) for text in done))

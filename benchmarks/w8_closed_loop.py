@@ -31,7 +31,7 @@ def holdfast(**options: object) -> Function:
     law = Pseudoinverse(arms.load("planar-3r"), "planar", GAIN)
 
     def run(rows: np.ndarray) -> np.ndarray:
-        return simulate(law, rows[:, :3], rows[:, 6:], rows[:, 3:6].argmin(axis=1), time_limit=TIME, **options).q_final
+        return simulate(law, rows[:, :3], rows[:, 6:], locked=rows[:, 3:6].argmin(axis=1), time_limit=TIME, **options).q_final
 
     return run
 

@@ -36,9 +36,9 @@ def trial(records: Records, code: str, rng: np.random.Generator, cycles: int = 6
     """The next trial of a subject, given up; its number."""
     todo = Session(records, code).next()
     assert todo is not None
-    number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+    number = records.begin_trial(code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task)
     q, time = rng.normal(size=(cycles + 1, 3)), np.arange(cycles) / 6
-    records.append(number, 0, time, rng.normal(size=(cycles, 2)), q[:-1])
+    records.append(number, 0, time, velocity=rng.normal(size=(cycles, 2)), q=q[:-1])
     if end is not None:
         records.finish(number, end, q[-1])
         if todo.kind == Kind.TRIAL:
@@ -59,7 +59,7 @@ def study(folder: Path) -> None:
             trial(records, codes[0], rng)
         trial(records, codes[0], rng, end=End.ARRIVED)
         trial(records, codes[0], rng, cycles=150)
-        records.event("dropped-frames", codes[0], 1, 3, {"count": 3})
+        records.event("dropped-frames", codes[0], 1, k=3, data={"count": 3})
         records.event("paused", data={"by": "experimenter"})
         records.set_last_seq(codes[0], 41, 4711)
         trial(records, codes[1], rng, end=None)  # broken off by the next

@@ -435,7 +435,7 @@ def kinds(root: Path) -> dict[str, Kind]:
     hf.assess(planar, hf.Region.around(planar), poses=8, seed=1, store=run, task="planar")
     (root / "study.yaml").write_bytes(b"poses: 8\nchunk: 4\narms: [planar-3r]\nassess: {}\n")
     asked = read_study(root / "study.yaml")
-    whole = study.Study.create(root / "study", asked.name, asked.seed, asked.cells, asked.text)
+    whole = study.Study.create(root / "study", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     whole.run(asked.cells, Threads(1))
     plan = {"seed": 1, "vary": ["a1"]}
     (root / "before").mkdir()

@@ -53,10 +53,10 @@ def random_arm(
             if letter == "P":
                 low, high = low / 4, high / 4
         kind = {"R": "revolute", "C": "continuous", "P": "prismatic"}[letter]
-        joints.append(hf.Joint(f"j{k}", kind, random_pose(rng, 0.4), rng.normal(size=3), low, high))
+        joints.append(hf.Joint(f"j{k}", kind, random_pose(rng, 0.4), axis=rng.normal(size=3), lower=low, upper=high))
     return hf.Arm(
-        f"random-{types}",
-        tuple(joints),
+        name=f"random-{types}",
+        joints=tuple(joints),
         base=random_pose(rng, 1.0) if base else np.eye(4),
         tool=random_pose(rng, 0.3),
     )
@@ -67,7 +67,7 @@ def random_link(rng: np.random.Generator, name: str | None = None) -> hf.Link:
     moments = rng.uniform(0.01, 0.1, 3)
     turn = Rotation.random(random_state=rng).as_matrix()
     inertia = turn @ np.diag(moments.sum() - moments) @ turn.T
-    return hf.Link(rng.uniform(0.3, 3.0), rng.uniform(-0.3, 0.3, 3), inertia, name)
+    return hf.Link(rng.uniform(0.3, 3.0), rng.uniform(-0.3, 0.3, 3), inertia, name=name)
 
 
 def with_bodies(arm: hf.Arm, rng: np.random.Generator, payload: bool = False, armature: bool = False) -> hf.Arm:
@@ -88,9 +88,9 @@ def planar_arm(rng: np.random.Generator, n: int, sliding: Sequence[int] = (), ti
     for k in range(n):
         turn = pose(Rotation.from_euler("z", rng.uniform(-np.pi, np.pi)).as_matrix(), [rng.uniform(0.4, 1.0), 0, 0])
         axis = [1.0, 0.5, 0.0] if k in sliding else [0.0, 0.0, rng.choice([-1.0, 1.0])]
-        joints.append(hf.Joint(f"j{k}", "prismatic" if k in sliding else "revolute", turn, np.array(axis)))
+        joints.append(hf.Joint(f"j{k}", "prismatic" if k in sliding else "revolute", turn, axis=np.array(axis)))
     tool = pose(None, [rng.uniform(0.4, 1.0), 0, 0])
-    return hf.Arm(f"planar-{n}", tuple(joints), base=random_pose(rng) if tilted else np.eye(4), tool=tool)
+    return hf.Arm(name=f"planar-{n}", joints=tuple(joints), base=random_pose(rng) if tilted else np.eye(4), tool=tool)
 
 
 def alternating_arm(rng: np.random.Generator, n: int) -> hf.Arm:
@@ -511,4 +511,4 @@ def example(registry: Registry, name: str, arm: hf.Arm, task="pose") -> str:
 
 def index_of(name: str, arm: hf.Arm, task="pose", failures="single", length: float | None = None) -> hf.indices.Index:
     """A registered index, with the settings of its example where it cannot do without."""
-    return hf.indices.by_name(example(INDICES, name, arm, task), arm, task, failures, length)
+    return hf.indices.by_name(example(INDICES, name, arm, task), arm, task, failures=failures, length=length)

@@ -44,7 +44,7 @@ def test_half_a_turn_is_not_reached(pa10_7):
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_nan_leaves_the_bits_of_its_neighbours(op, bad):
     x = ca.SX.sym("x")
-    k = Kernel(op, [x], [ca.vertcat(ca.sin(x), ca.cos(x)) if op == "sincos" else ca.tan(x)], "llvm")
+    k = Kernel(op, [x], [ca.vertcat(ca.sin(x), ca.cos(x)) if op == "sincos" else ca.tan(x)], backend="llvm")
     a = np.random.default_rng(0).uniform(-4, 4, (20000, k.lanes))
     clean = k(a.ravel()).reshape(20000, k.lanes, -1)
     a[:, 3] = bad
@@ -54,16 +54,16 @@ def test_nan_leaves_the_bits_of_its_neighbours(op, bad):
 
 def test_casadi_backend_takes_infinity_without_a_warning():
     x = ca.SX.sym("x", 2)
-    got = Kernel("k", [x], [x[0] + x[1]], "casadi")(np.array([[1.0, 2], [np.inf, 0], [np.inf, -np.inf]]))
+    got = Kernel("k", [x], [x[0] + x[1]], backend="casadi")(np.array([[1.0, 2], [np.inf, 0], [np.inf, -np.inf]]))
     np.testing.assert_array_equal(np.isnan(got), [False, True, True])
-    loop = Loop("l", x[0], [x[1]], (x[0] + x[1] / x[0]) / 2, ca.fabs(x[0] ** 2 - x[1]), "casadi")
+    loop = Loop("l", x[0], [x[1]], next_state=(x[0] + x[1] / x[0]) / 2, residual=ca.fabs(x[0] ** 2 - x[1]), backend="casadi")
     assert not loop.run(np.zeros((1, 1)), np.ones((1, 1)), 1e-9, 5).done.any()
 
 
 @pytest.mark.parametrize("backend", ["llvm", "casadi"])
 def test_no_rows(backend, pa10):
     x, a = ca.SX.sym("x", 2), ca.SX.sym("a", 2, 3)
-    one, two = Kernel("k", [x, a], [x[0] * a, x], backend)(np.zeros((0, 2)), np.zeros((0, 2, 3)))
+    one, two = Kernel("k", [x, a], [x[0] * a, x], backend=backend)(np.zeros((0, 2)), np.zeros((0, 2, 3)))
     assert (one.shape, two.shape) == ((0, 2, 3), (0, 2))
 
 

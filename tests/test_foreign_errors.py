@@ -164,7 +164,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         ),
         "Task": (hf.Task, {"name": "t", "rows": np.eye(6)[:2], "frame": "base", "length": 1.0}),
         "Servos": (
-            lambda **o: hf.simulate_physics(law, q, target, (), hf.Servos(**o), 0.01),
+            lambda **o: hf.simulate_physics(law, q, target, locked=(), servos=hf.Servos(**o), time_limit=0.01),
             {"bandwidth": 10.0, "ratio": 1.0, "rate": 500.0}
             | {"compensation": 1.0, "stiffness": None, "damping": None, "step": 0.001},
         ),

@@ -278,7 +278,7 @@ def along(arm, x):
 
 def best_path(arm, x):
     poses = along(arm, x).pose(np.linspace(0, 1, 3))
-    return hf.solvers.best_path(arm, poses, lambda q: q[:, 0] ** 2, "planar", starts=4)
+    return hf.solvers.best_path(arm, poses, lambda q: q[:, 0] ** 2, task="planar", starts=4)
 
 
 CALLS = {
@@ -292,12 +292,12 @@ CALLS = {
     "simulating the basins": lambda arm, law, x: hf.basins(law, [1.5, 1.5], 1, at=1.0, starts=4),
     "simulating failures": lambda arm, law, x: hf.convergence_map(law, 1, 2, configurations=1),
     "looking for the ranges of the joints": lambda arm, law, x: hf.joint_bounds(arm, [1.5, 1.5], "planar", starts=4),
-    "planning the way back": lambda arm, law, x: hf.recover(arm, "joint2", x, "home", samples=20),
+    "planning the way back": lambda arm, law, x: hf.recover(arm, "joint2", x, goal="home", samples=20),
     "optimising configurations": lambda arm, law, x: hf.optimise(arm, arm.forward_kinematics(x), wish(arm), starts=3),
     "following the path": lambda arm, law, x: hf.follow(arm, along(arm, x), maximise=wish(arm), q=x, samples=5),
     "looking for the best path": lambda arm, law, x: best_path(arm, x),
     "looking for configurations with a locked joint": lambda arm, law, x: hf.reachable_when_locked(
-        arm, [1.5, 1.5], "joint1", [0.5], "planar"
+        arm, [1.5, 1.5], "joint1", at=[0.5], task="planar"
     ),
     "measuring the failure-tolerant workspace": lambda arm, law, x: tolerant(arm),
     "simulating the physics": lambda arm, law, x: hf.simulate_physics(law, x, [1.5, 1.5], time_limit=1.0),

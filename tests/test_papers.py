@@ -176,7 +176,7 @@ def test_the_study_on_real_arms_writes_what_it_counts_and_goes_on_where_it_stopp
     assert text == "\n".join(lines)
     drawn = hf.point_to_point(arm, 6, seed=study.SEED)
     for law in few:
-        runs = [hf.simulate(law, drawn.q0, drawn.target, [k], time_limit=60.0) for k in range(7)]
+        runs = [hf.simulate(law, drawn.q0, drawn.target, locked=[k], time_limit=60.0) for k in range(7)]
         arrived = np.mean([r.outcome == "converged" for r in runs])
         (row,) = (line for line in lines if line.startswith(f"| panda, position | {law.label} | {100 * arrived:.1f} ("))
         assert len(row.split("|")) == 12

@@ -81,7 +81,7 @@ def test_sinks_folds_and_lines_of_the_three_joints():
 
 
 def test_starts_on_either_side_of_the_boundary_end_at_different_solutions():
-    found = hf.basins(three_links.law(), three_links.TARGET, 1, np.deg2rad(45), grid=12)
+    found = hf.basins(three_links.law(), three_links.TARGET, 1, at=np.deg2rad(45), grid=12)
     assert found.converged.value == 1
     assert rest_points.split_by(found) > 0.9
     assert len(rest_points.basin_table(found)) == 4

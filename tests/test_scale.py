@@ -29,7 +29,7 @@ def scaled(arm, size):
     """A copy of an arm of turning joints."""
 
     joints = tuple(replace(j, origin=resized(j.origin, size)) for j in arm.joints)
-    return hf.Arm(arm.name, joints, base=resized(arm.base, size), tool=resized(arm.tool, size))
+    return hf.Arm(name=arm.name, joints=joints, base=resized(arm.base, size), tool=resized(arm.tool, size))
 
 
 def resized(targets, size):
@@ -59,7 +59,7 @@ def test_the_unit_is_a_power_of_two_near_the_arm_s_links_end_to_end(bent, size):
     unit = arm.length_unit
     assert np.log2(unit) == np.round(np.log2(unit))
     assert 2**-0.5 <= unit / whole <= 2**0.5
-    assert hf.Arm("point", (hf.Joint("a", "continuous", np.eye(4), [0, 0, 1]),)).length_unit == 1.0
+    assert hf.Arm(name="point", joints=(hf.Joint("a", "continuous", np.eye(4), axis=[0, 0, 1]),)).length_unit == 1.0
 
 
 def cases(rng, arm, task, count):
@@ -74,7 +74,7 @@ def test_motions(bent, generator, task, size):
     arm = bent if task == "position" else oracles.random_arm(generator("scaled seven"), types="C" * 7)
     q0, target, locked = cases(generator(f"scaled {task}"), arm, task, 12)
     own, other = (
-        simulate(Pseudoinverse(a, task), q0, resized(target, s), locked, time_limit=60.0)
+        simulate(Pseudoinverse(a, task), q0, resized(target, s), locked=locked, time_limit=60.0)
         for a, s in ((arm, 1.0), (scaled(arm, size), size))
     )
     assert (own.code == Outcome.CONVERGED).any()
@@ -107,7 +107,9 @@ def planar(arm, size):
 def test_cycles_and_the_least_error(links, rng, size):
     q0, x = rng.uniform(-2, 2, (6, 3)), rng.uniform(-4, 4, (6, 2))
     own, other = (
-        simulate(Pseudoinverse(scaled(links, s), "planar", speed_limit=0.05 * s), q0, x * s, [0], cycles=True, radius=0.1 * s)
+        simulate(
+            Pseudoinverse(scaled(links, s), "planar", speed_limit=0.05 * s), q0, x * s, locked=[0], cycles=True, radius=0.1 * s
+        )
         for s in (1.0, size)
     )
     np.testing.assert_array_equal(own.code, other.code)
@@ -200,7 +202,7 @@ def test_the_way_back_keeps_its_rows_as_exactly(bent, generator, size):
     """The joint stands where it is, so its rows can all be met, and are, as exactly by an arm of any size."""
     arm, q = scaled(bent, size), generator("scaled recovery").uniform(-2, 2, 4)
     goal = arm.forward_kinematics(np.where(np.arange(4) == 1, q, q + 0.4))
-    found = hf.recover(arm, 1, q, goal, task="position", samples=0, clearance=False)
+    found = hf.recover(arm, 1, q, goal=goal, task="position", samples=0, clearance=False)
     assert found.ok
     missed = np.linalg.norm(oracles.forward(arm, found.q[-1:])[0, :3, 3] - goal[:3, 3])
     assert missed <= 2e-6 * min(2 * size, 1)

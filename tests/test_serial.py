@@ -52,21 +52,33 @@ def test_random_arms(rng):
 
 def test_everything_an_arm_can_have(mixed8, rng):
     joints = [
-        hf.Joint(j.name, j.type, j.origin, j.axis, j.lower, j.upper, velocity=1.5, effort=20.0, friction=0.1, armature=0.02)
+        hf.Joint(
+            j.name,
+            j.type,
+            j.origin,
+            axis=j.axis,
+            lower=j.lower,
+            upper=j.upper,
+            velocity=1.5,
+            effort=20.0,
+            friction=0.1,
+            armature=0.02,
+        )
         for j in mixed8.joints
     ]
     links = [
-        hf.Link(1.0 + k, rng.normal(size=3), np.diag([0.1, 0.2, 0.15 + k]) if k != 3 else np.eye(3), f"l{k}") for k in range(8)
+        hf.Link(1.0 + k, rng.normal(size=3), np.diag([0.1, 0.2, 0.15 + k]) if k != 3 else np.eye(3), name=f"l{k}")
+        for k in range(8)
     ]
     links[5] = None
     arm = hf.Arm(
-        "all",
-        tuple(joints),
-        tuple(links),
+        name="all",
+        joints=tuple(joints),
+        links=tuple(links),
         base=mixed8.base,
         tool=mixed8.tool,
         gravity=np.array([0.1, 0, -9.8]),
-        payload=hf.Link(2.0, np.array([0, 0, 0.1]), 0.01 * np.eye(3), "drill"),
+        payload=hf.Link(2.0, np.array([0, 0, 0.1]), 0.01 * np.eye(3), name="drill"),
         source="made here, µ",
     )
     same(arm, through_json(arm))

@@ -77,7 +77,7 @@ def test_a_study(folder, told):
 def test_a_study_is_resumed(folder):
     asked, study = read(folder / "small.yaml"), Study.open(folder / "study")
     before = unchanged(study.path)
-    study.check_same(Study.create(folder / "again", asked.name, asked.seed, asked.cells, asked.text))
+    study.check_same(Study.create(folder / "again", asked.name, asked.seed, cells=asked.cells, source=asked.text))
     assert study.run(asked.cells, Threads(1)) == {}
     assert unchanged(study.path) == before
 

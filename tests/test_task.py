@@ -87,13 +87,13 @@ def test_planar_arms_are_found_also_in_tilted_planes(sliding, tilted, rng):
 def test_arms_that_leave_the_plane_are_not_planar(rng, pa10):
     assert plane_normal(pa10) is None
     base = oracles.planar_arm(rng, 3)
-    tip = hf.Joint("up", "prismatic", np.eye(4), np.array([0.0, 0.0, 1.0]))
-    lifting = hf.Arm("lifting", (*base.joints, tip), base=base.base)
+    tip = hf.Joint("up", "prismatic", np.eye(4), axis=np.array([0.0, 0.0, 1.0]))
+    lifting = hf.Arm(name="lifting", joints=(*base.joints, tip), base=base.base)
     assert plane_normal(lifting) is None
-    gantry = hf.Arm("gantry", tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), np.eye(3)[k]) for k in range(2)))
+    gantry = hf.Arm(name="gantry", joints=tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), axis=np.eye(3)[k]) for k in range(2)))
     assert plane_normal(gantry) is None
     bent = oracles.pose(Rotation.from_euler("x", 1e-6).as_matrix())
-    tilted = hf.Arm("bent", (*base.joints, hf.Joint("j", "revolute", bent, np.array([0.0, 0.0, 1.0]))))
+    tilted = hf.Arm(name="bent", joints=(*base.joints, hf.Joint("j", "revolute", bent, axis=np.array([0.0, 0.0, 1.0]))))
     assert plane_normal(tilted) is None
     for name in ("planar", "planar-pose"):
         with pytest.raises(TaskError, match=f"'lifting' does not move in a plane, so it has no task '{name}'"):

@@ -203,13 +203,15 @@ def figure_1_2(run: hf.Assessment, path_1: Path, path_2: Path) -> None:
     chain = arm.frames(hf.arms.about("pa10-9dof").home)[:, :3, 3]
     center, size = np.array(run.region.center[:3]), np.array(run.region.size[:3])
     box = np.array([center - size / 2, center + size / 2])
-    scene = Scene(position[reached], value[reached], position[~reached], chain, chain[1:-1], arm.prismatic, box)
+    scene = Scene(
+        position[reached], value[reached], position[~reached], chain=chain, nodes=chain[1:-1], square=arm.prismatic, box=box
+    )
     legend = [("base", "base"), ("joint", "joints"), ("tool", "tool"), ("dot", f"{reached.sum()} poses reached")]
     legend += [("cross", f"{(~reached).sum()} not reached"), ("box", "positions of the region")]
     label = "worst-case relative manipulability (no unit)"
     for k, axis, where, path in ((1, 2, "side", path_1), (2, 1, "top", path_2)):
         title = f"Fig. {k} of Abdi et al. 2012 made again: {where} view, {run.poses} random poses"
-        figure = view_figure(scene, [View(0, axis, title)], Scale.of(value[reached]), label, legend)
+        figure = view_figure(scene, [View(0, axis, title)], Scale.of(value[reached]), label=label, legend=legend)
         with style():
             figure.savefig(path, dpi=110, bbox_inches="tight")
 

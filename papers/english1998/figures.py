@@ -124,7 +124,7 @@ def figure_7(planar: Planar, motion: hf.Trajectory, border: float, path: Path) -
             draw_arm(left, planar.joints(here))
             left.set(aspect="equal", xlim=(-1.2, 2.4), ylim=(-1.6, 1.5), ylabel="y, m")
             first = _turned(here[0])
-            for component in self_motion(planar.arm, pose(x, y), "planar", 0.01).components:
+            for component in self_motion(planar.arm, pose(x, y), "planar", spacing=0.01).components:
                 angle, value = _turned(component.q[:, 0]), planar.swing(component.q)
                 angle = np.where(np.abs(np.diff(angle, append=angle[-1])) > 3, np.nan, angle)
                 right.plot(angle, value, color=BLUE, linewidth=1.6)

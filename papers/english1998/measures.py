@@ -88,7 +88,7 @@ def compare(name: str) -> Study:
         best = hf.optimise(arm, poses, measure, seed=SEED)
         best.require_ok()
         chosen[label] = best.q
-    curves = [f.q for f in fibres(arm, poses, "pose", 0.05, SEED)]
+    curves = [f.q for f in fibres(arm, poses, "pose", spacing=0.05, seed=SEED)]
     chosen["the last column itself, among all configurations"] = np.array([q[fallen(swing, q).argmin()] for q in curves])
     outcomes = [Outcome(label, outcome(arm, acceleration, swing, q)) for label, q in chosen.items()]
     least = np.array([np.abs(swing.by_joint(q)).min(axis=0) for q in curves])

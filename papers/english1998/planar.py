@@ -96,7 +96,7 @@ class Extremes:
 def extremes(planar: Planar, measure: Susceptibility, x: float, y: float) -> Extremes:
     """Fig. 4 for any measure and point."""
     q = [hf.optimise(planar.arm, pose(x, y), m, seed=SEED, task="planar").q for m in (measure, measure.reversed())]
-    every = measure(self_motion(planar.arm, pose(x, y), "planar", 0.01).q)
+    every = measure(self_motion(planar.arm, pose(x, y), "planar", spacing=0.01).q)
     return Extremes(q[0], q[1], (float(measure(q[0])), float(measure(q[1]))), (float(every.min()), float(every.max())))
 
 
@@ -114,7 +114,7 @@ def global_answer(
 ) -> Global:
     """Dynamic programming over all configurations of ``count`` poses of the motion, joints up to each of the rates, rad/s."""
     few = np.linspace(0, len(motion.time) - 1, count).astype(int)
-    curves = fibres(planar.arm, motion.poses[few], "planar", 0.02, SEED)
+    curves = fibres(planar.arm, motion.poses[few], "planar", spacing=0.02, seed=SEED)
     step = DURATION / (count - 1)
     found = {rate: best_path_over(planar.arm, curves, measure, rate_limit=rate * step) for rate in rates}
     any_of_them = found[rates[0]].global_value

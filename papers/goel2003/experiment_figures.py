@@ -57,7 +57,7 @@ def _bank(s: Study, made: TaskBank, cells: Binning) -> Figure:
     chosen = np.array(rows, dtype=np.int64)
     np.testing.assert_array_equal(made.tasks.q0[chosen], s.protocol.tasks.q0[: len(chosen)])
     plain = chosen[: len(s.protocol.tasks) - 2]
-    return bank_figure(made, cells, plain, chosen[len(plain) :])
+    return bank_figure(made, cells, plain, special=chosen[len(plain) :])
 
 
 def _difficulty(a: Analysis) -> Figure:

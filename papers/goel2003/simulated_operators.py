@@ -63,7 +63,7 @@ def study() -> Study:
     protocol = read_protocol()
     with (
         tempfile.TemporaryDirectory() as folder,
-        simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, SEED) as records,
+        simulate_experiment(Path(folder) / "study", protocol, SUBJECTS, seed=SEED) as records,
     ):
         again = replay(records)
         table, machine = trial_table(records), computer_table(protocol)

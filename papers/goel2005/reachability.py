@@ -88,7 +88,9 @@ def boxes() -> Claim:
     # Joint 2 on the arc of the one manifold, joint 3 on that of the other.
     columns = [rng.uniform(float(a), float(b), BETWEEN) for a, b in ((-np.pi, np.pi), (low, high), (lower, upper))]
     q = np.stack(columns, axis=1)
-    found = [hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), k, q[:, k], task="planar").success for k in range(3)]
+    found = [
+        hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), k, at=q[:, k], task="planar").success for k in range(3)
+    ]
     return Claim(
         "5, pseudocode: B_xd, the union of the bounding boxes of all self-motion manifolds of x_d",
         "the part of a trajectory inside it is that from which the target stays in reach",

@@ -189,7 +189,7 @@ SHARES = (0.51, 0.49)  # of 4000 samples, the specification's
 
 def figure_8(path: Path) -> tuple[Basins, float]:
     """Basins, and for how much of the boundary starts on either side end at different solutions."""
-    found = hf.basins(law(), TARGET, 1, np.deg2rad(LOCKED_8), grid=GRID)
+    found = hf.basins(law(), TARGET, 1, at=np.deg2rad(LOCKED_8), grid=GRID)
     save_png(found.figures()["basins"], path, dpi=110)
     return found, split_by(found)
 
@@ -207,7 +207,7 @@ def split_by(found: Basins, beside_it: float = 0.02) -> float:
     side[:, [0, 2]] = beside_it * np.concatenate(across)
     ends = []
     for sign in (1, -1):
-        ends.append(hf.basins(law(), TARGET, 1, np.deg2rad(LOCKED_8), starts=centre + sign * side).end)
+        ends.append(hf.basins(law(), TARGET, 1, at=np.deg2rad(LOCKED_8), starts=centre + sign * side).end)
     return float(np.mean(ends[0] != ends[1]))
 
 

@@ -57,7 +57,7 @@ def runs(setting: Setting) -> list[Row]:
     """All runs of one setting; motions are the same for all settings of an arm."""
     hf.set_threads(1)
     arm, home = hf.arms.load(setting.arm), np.array(hf.arms.about(setting.arm).home)
-    law = hf.control.pseudoinverse(arm, setting.task, setting.gain, setting.speed)
+    law = hf.control.pseudoinverse(arm, setting.task, setting.gain, speed_limit=setting.speed)
     rng = np.random.default_rng(SEED)
     servos = hf.Servos(bandwidth=setting.bandwidth, rate=RATE)
     rows = []
@@ -65,7 +65,9 @@ def runs(setting: Setting) -> list[Row]:
         start = np.clip(home + rng.uniform(-SPREAD, SPREAD, arm.n), arm.lower, arm.upper)
         pose = arm.forward_kinematics(np.clip(start + rng.uniform(-SPREAD, SPREAD, arm.n), arm.lower, arm.upper))
         for joint in range(arm.n):
-            rows.append(row(hf.simulate_physics(law, start, pose, [joint], servos, setting.limit), joint))
+            rows.append(
+                row(hf.simulate_physics(law, start, pose, locked=[joint], servos=servos, time_limit=setting.limit), joint)
+            )
     return rows
 
 

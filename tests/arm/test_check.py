@@ -15,12 +15,12 @@ from holdfast.arm.model import Arm
 from holdfast.arm.soundness import check, require_inertia
 from holdfast.errors import ArmError
 
-JOINT = Joint("elbow", "revolute", np.eye(4), np.array([0, 0, 1.0]), -1, 1, velocity=2, effort=3)
-LINK = Link(1.0, np.zeros(3), np.diag([1.0, 1.0, 1.5]), "forearm")
+JOINT = Joint("elbow", "revolute", np.eye(4), axis=np.array([0, 0, 1.0]), lower=-1, upper=1, velocity=2, effort=3)
+LINK = Link(1.0, np.zeros(3), np.diag([1.0, 1.0, 1.5]), name="forearm")
 
 
 def arm(joint: Joint = JOINT, link: Link | None = LINK, payload: Link | None = None) -> Arm:
-    return Arm("bot", (joint,), (link,), payload=payload)
+    return Arm(name="bot", joints=(joint,), links=(link,), payload=payload)
 
 
 def messages(a: Arm) -> list[str]:
@@ -64,7 +64,7 @@ def turned(moments: tuple[float, float, float]) -> np.ndarray:
 LINKS: list[tuple[Link | None, str]] = [
     (None, "warning: link after joint 'elbow': it has no inertial data; give mass, centre of mass and inertia"),
     (
-        Link(0.0, np.zeros(3), np.eye(3), "forearm"),
+        Link(0.0, np.zeros(3), np.eye(3), name="forearm"),
         "error: link 'forearm': its mass is 0 kg; a moving link needs a mass above 0",
     ),
     (
@@ -72,11 +72,11 @@ LINKS: list[tuple[Link | None, str]] = [
         "error: link after joint 'elbow': its inertia has the principal moment -0.5 kg m^2; all three must be 0 or more",
     ),
     (
-        Link(1.0, np.zeros(3), turned((1, 1, 2.1)), "forearm"),
+        Link(1.0, np.zeros(3), turned((1, 1, 2.1)), name="forearm"),
         "error: link 'forearm': its principal moments 1, 1 and 2.1 kg m^2 break the triangle inequality",
     ),
     (
-        Link(1.0, np.zeros(3), np.zeros((3, 3)), "forearm"),
+        Link(1.0, np.zeros(3), np.zeros((3, 3)), name="forearm"),
         "error: link 'forearm': it has a mass of 1 kg and no inertia; give its moments in kg m^2",
     ),
 ]
@@ -97,7 +97,7 @@ def test_thin_rods_and_flat_plates_are_sound() -> None:
 
 
 def test_the_payload_is_checked_too() -> None:
-    bad = Link(1.0, np.zeros(3), np.diag([1.0, 1.0, 3.0]), "box")
+    bad = Link(1.0, np.zeros(3), np.diag([1.0, 1.0, 3.0]), name="box")
     assert messages(arm(payload=bad))[0].startswith("error: payload: its principal moments")
     with pytest.raises(ArmError, match="arm 'bot', payload: its principal moments"):
         require_inertia(arm(payload=bad))

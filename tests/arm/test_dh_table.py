@@ -57,10 +57,10 @@ def test_parallel_crossing_and_common_axes_move_the_same(seed: int) -> None:
             Rotation.from_euler("xyz", rng.integers(-1, 3, 3) * 90, degrees=True).as_matrix(), rng.integers(-1, 2, 3) * 0.3
         )
         axis = np.eye(3)[rng.integers(3)] * rng.choice([-1, 1])
-        joints.append(hf.Joint(f"j{k}", str(rng.choice(["continuous", "prismatic"])), origin, axis))
+        joints.append(hf.Joint(f"j{k}", str(rng.choice(["continuous", "prismatic"])), origin, axis=axis))
     turned = [replace(joints[0], origin=oracles.random_pose(rng) @ joints[0].origin), *joints[1:]]
     for chain in (joints, turned):
-        same(hf.Arm("grid", tuple(chain), base=oracles.random_pose(rng), tool=oracles.random_pose(rng)), rng)
+        same(hf.Arm(name="grid", joints=tuple(chain), base=oracles.random_pose(rng), tool=oracles.random_pose(rng)), rng)
 
 
 @settings(max_examples=40)
@@ -119,8 +119,8 @@ def test_urdf_arms_agree_with_pinocchio(name: str, tip: str, rng: np.random.Gene
 @pytest.mark.parametrize("about", ["x", "y"])
 def test_axes_parallel_but_for_a_rounded_pi_count_as_parallel(about: str, rng: np.random.Generator) -> None:
     turn = oracles.pose(Rotation.from_euler(about, 3.14159).as_matrix(), (0.4, 0.1, 0.0))
-    joints = tuple(hf.Joint(f"j{k}", "continuous", turn, np.array([0.0, 0, 1])) for k in range(3))
-    arm = hf.Arm("rounded", joints, tool=oracles.pose(position=(0.3, 0, 0)))
+    joints = tuple(hf.Joint(f"j{k}", "continuous", turn, axis=np.array([0.0, 0, 1])) for k in range(3))
+    arm = hf.Arm(name="rounded", joints=joints, tool=oracles.pose(position=(0.3, 0, 0)))
     rows = dh_table(arm).rows
     assert [r.alpha for r in rows[:2]] == pytest.approx([np.pi, np.pi], abs=1e-5)
     assert max(abs(r.d) for r in rows) < 1

@@ -90,7 +90,7 @@ def test_power_is_the_rate_of_energy(rng):
             made = oracles.frames(arm, q[None])
             total = 0.5 * sum(j.armature * v**2 for j, v in zip(arm.joints, qd, strict=True))
             for k, body in [*enumerate(arm.links), (arm.n - 1, arm.payload)]:
-                slide = hf.Arm("part", arm.joints[: k + 1], base=arm.base, tool=oracles.pose(None, body.com))
+                slide = hf.Arm(name="part", joints=arm.joints[: k + 1], base=arm.base, tool=oracles.pose(None, body.com))
                 turn, twist = made[k + 1][0][:3, :3], oracles.jacobian(slide, q[None, : k + 1])[0] @ qd[: k + 1]
                 inertia = turn @ body.inertia @ turn.T
                 centre = (made[k + 1][0] @ [*body.com, 1])[:3]
@@ -107,12 +107,16 @@ def test_power_is_the_rate_of_energy(rng):
 
 def test_a_pendulum_and_a_lift_by_hand():
     point = hf.Link(2.0, np.array([0.5, 0, 0]), np.zeros((3, 3)))
-    pendulum = hf.Arm("pendulum", (hf.Joint("a", "revolute", np.eye(4), [0, -1, 0], friction=0.4, armature=0.1),), (point,))
+    pendulum = hf.Arm(
+        name="pendulum",
+        joints=(hf.Joint("a", "revolute", np.eye(4), axis=[0, -1, 0], friction=0.4, armature=0.1),),
+        links=(point,),
+    )
     q, qd, qdd = 0.3, 1.5, -2.0
     expected = (2 * 0.25 + 0.1) * qdd + 0.4 * qd + 2 * 9.81 * 0.5 * np.cos(q)
     close(pendulum.inverse_dynamics([q], [qd], [qdd]), [expected])
     close(pendulum.inverse_dynamics([[q]] * 3, [qd], [[qdd]] * 3), [[expected]] * 3)
-    lift = hf.Arm("lift", (hf.Joint("a", "prismatic", np.eye(4), [0, 0, 1]),), (point,))
+    lift = hf.Arm(name="lift", joints=(hf.Joint("a", "prismatic", np.eye(4), axis=[0, 0, 1]),), links=(point,))
     close(lift.inverse_dynamics([0.7], [3.0], [1.5]), [2 * (9.81 + 1.5)])
 
 

@@ -30,7 +30,7 @@ def random_pose(rng: np.random.Generator) -> np.ndarray:
 def random_link(rng: np.random.Generator, name: str | None = None) -> Link:
     points = rng.normal(size=(3, 5))
     spread = points @ points.T
-    return Link(rng.uniform(0.1, 3), rng.normal(size=3), np.trace(spread) * np.eye(3) - spread, name)
+    return Link(rng.uniform(0.1, 3), rng.normal(size=3), np.trace(spread) * np.eye(3) - spread, name=name)
 
 
 def as_pin(link: Link) -> pin.Inertia:
@@ -65,31 +65,34 @@ def test_massless_bodies_join() -> None:
 
 AXIS = np.array([0, 0, 1.0])
 BAD: list[tuple[Any, str]] = [
-    (lambda: Joint("j", "ball", np.eye(4), AXIS), "joint 'j' has type 'ball'; use revolute, continuous or prismatic"),
-    (lambda: Joint("j", "revolute", np.eye(3), AXIS), "origin of joint 'j' must be a 4x4 array of finite numbers"),
-    (lambda: Joint("j", "revolute", 2 * np.eye(4), AXIS), "origin of joint 'j': its upper left 3x3 block is not a rotation"),
-    (lambda: Joint("j", "revolute", np.diag([1, 1, -1, 1]), AXIS), "is not a rotation"),
-    (lambda: Joint("j", "revolute", np.diag([1, 1, 1, 2]), AXIS), "origin of joint 'j': its last row is"),
-    (lambda: Joint("j", "revolute", np.full((4, 4), np.nan), AXIS), "must be a 4x4 array of finite numbers"),
-    (lambda: Joint("j", "revolute", np.eye(4), np.zeros(3)), "axis of joint 'j' is"),
-    (lambda: Joint("j", "revolute", np.eye(4), np.ones(2)), "it must be 3 finite numbers below 1e12, not all 0"),
-    (lambda: Joint("j", "revolute", np.eye(4), np.array([np.nan, 0, 1])), "axis of joint 'j' is"),
+    (lambda: Joint("j", "ball", np.eye(4), axis=AXIS), "joint 'j' has type 'ball'; use revolute, continuous or prismatic"),
+    (lambda: Joint("j", "revolute", np.eye(3), axis=AXIS), "origin of joint 'j' must be a 4x4 array of finite numbers"),
     (
-        lambda: Joint("j", "revolute", np.eye(4), AXIS, 1, -1),
+        lambda: Joint("j", "revolute", 2 * np.eye(4), axis=AXIS),
+        "origin of joint 'j': its upper left 3x3 block is not a rotation",
+    ),
+    (lambda: Joint("j", "revolute", np.diag([1, 1, -1, 1]), axis=AXIS), "is not a rotation"),
+    (lambda: Joint("j", "revolute", np.diag([1, 1, 1, 2]), axis=AXIS), "origin of joint 'j': its last row is"),
+    (lambda: Joint("j", "revolute", np.full((4, 4), np.nan), axis=AXIS), "must be a 4x4 array of finite numbers"),
+    (lambda: Joint("j", "revolute", np.eye(4), axis=np.zeros(3)), "axis of joint 'j' is"),
+    (lambda: Joint("j", "revolute", np.eye(4), axis=np.ones(2)), "it must be 3 finite numbers below 1e12, not all 0"),
+    (lambda: Joint("j", "revolute", np.eye(4), axis=np.array([np.nan, 0, 1])), "axis of joint 'j' is"),
+    (
+        lambda: Joint("j", "revolute", np.eye(4), axis=AXIS, lower=1, upper=-1),
         "limits of joint 'j' are upside down: lower 1 is above upper -1; swap them",
     ),
-    (lambda: Link(1.0, np.zeros(2), np.eye(3), "l"), "link 'l': com has shape (2,) and inertia (3, 3); they must be"),
+    (lambda: Link(1.0, np.zeros(2), np.eye(3), name="l"), "link 'l': com has shape (2,) and inertia (3, 3); they must be"),
     (lambda: Link(1.0, np.zeros(3), np.eye(2)), "link: com has shape (3,) and inertia (2, 2); they must be (3,) and (3, 3)"),
-    (lambda: Link(np.nan, np.zeros(3), np.eye(3), "l"), "link 'l': mass, com and inertia must be finite numbers"),
-    (lambda: Link(-1.0, np.zeros(3), np.eye(3), "l"), "link 'l': mass is -1 kg; it must be 0 or more"),
-    (lambda: Link(1.0, np.zeros(3), np.triu(np.ones((3, 3))), "l"), "link 'l': the inertia matrix is not symmetric"),
-    (lambda: Arm("a", ()), "arm 'a' has no joints; it needs at least one"),
+    (lambda: Link(np.nan, np.zeros(3), np.eye(3), name="l"), "link 'l': mass, com and inertia must be finite numbers"),
+    (lambda: Link(-1.0, np.zeros(3), np.eye(3), name="l"), "link 'l': mass is -1 kg; it must be 0 or more"),
+    (lambda: Link(1.0, np.zeros(3), np.triu(np.ones((3, 3))), name="l"), "link 'l': the inertia matrix is not symmetric"),
+    (lambda: Arm(name="a", joints=()), "arm 'a' has no joints; it needs at least one"),
     (
         lambda: Arm.from_dh([DH(1, 0, name="x"), DH(1, 0, name="x")]),
         "the joint name 'x' is used more than once; names must be unique",
     ),
     (
-        lambda: Arm("a", (Joint("j", "revolute", np.eye(4), AXIS),), (None, None)),
+        lambda: Arm(name="a", joints=(Joint("j", "revolute", np.eye(4), axis=AXIS),), links=(None, None)),
         "arm 'a' has 1 joints and 2 links; it needs one",
     ),
     (lambda: Arm.from_dh([DH(1, 0)], gravity=(0, 0)), "gravity must be 3 finite numbers, m/s^2"),

@@ -196,7 +196,7 @@ def test_massless_links_and_points_pass_but_impossible_inertias_do_not(rng):
     close(fine.gravity_torque(q), np.einsum("ia,ia->i", z, np.cross(first[0], -fine.gravity)))
     close(fine.inertia_diagonal(q), np.einsum("ia,iab,ib->i", z, second[0], z))
     for moments, words in (([1.0, 1.0, 3.0], "triangle"), ([-1.0, 1.0, 1.0], "principal moment")):
-        bad = hf.Link(1.0, np.zeros(3), np.diag(moments), "odd")
+        bad = hf.Link(1.0, np.zeros(3), np.diag(moments), name="odd")
         for wrong, subject in (
             (replace(arm, links=(*arm.links[:2], bad)), "link 'odd'"),
             (replace(arm, payload=bad), "payload"),

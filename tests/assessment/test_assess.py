@@ -282,7 +282,7 @@ def test_condition_numbers_are_better_when_smaller(pa10):
 
 def test_tasks_failures_and_mixed_joints(mixed8):
     region = Region.joints(np.full(8, -1.0), np.full(8, 1.0))
-    index = by_name("minimum-singular-value", mixed8, "position", "pairs", 0.5)
+    index = by_name("minimum-singular-value", mixed8, "position", failures="pairs", length=0.5)
     run = assess(mixed8, region, index, poses=200)
     rows = columns(run)
     j = oracles.task_jacobian(mixed8, rows["q"], "position", length=0.5)
@@ -384,7 +384,7 @@ def test_save_and_load(paper, tmp_path):
 
 def test_save_and_load_of_mixed_arms_with_tasks_of_their_own(mixed8, tmp_path):
     region = Region.joints(np.full(8, -1.0), np.full(8, 1.0))
-    index = by_name("manipulability", mixed8, ["vx", "wz"], [["j1", "j2"], ["j5"]], 0.3)
+    index = by_name("manipulability", mixed8, ["vx", "wz"], failures=[["j1", "j2"], ["j5"]], length=0.3)
     run = assess(mixed8, region, index, poses=64)
     run.save(tmp_path / "run")
     back = load(tmp_path / "run")

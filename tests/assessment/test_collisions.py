@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 
 import numpy as np
@@ -163,7 +164,7 @@ def test_a_lost_column_is_named(name, run, tmp_path):
 def test_where_capsules_come_from():
     arm = arms.load("panda")
     assumed, own = Capsules.along(arm), Capsules.along(arm, 0.05)
-    other = Capsules((Capsule(-1, (0, 0, 0), (0, 0, 0.3), 0.1), *own.parts[1:]))
+    other = Capsules((Capsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), *own.parts[1:]))
     assert [c.assumed(arm) for c in (assumed, own, other)] == [True, False, False]
     assert [c.radius_along(arm) for c in (assumed, own, other)] == [assumed.parts[0].radius, 0.05, None]
     assert assumed.describe(arm) == "assumed radius 0.0711 m along each link"
@@ -221,14 +222,16 @@ def test_an_assumed_shape_is_called_one(arm, tmp_path):
 )
 def test_the_command_makes_the_same_run(optimise, capsules, margin, words):
     arm = arms.load("panda")
-    own = Capsules((Capsule(-1, (0, 0, 0), (0, 0, 0.3), 0.1), Capsule(6, (0, 0, 0.1), (0, 0, 0.1), 0.07)), ((0, 2),))
+    own = Capsules(
+        (Capsule(-1, (0, 0, 0), (0, 0, 0.3), radius=0.1), Capsule(6, (0, 0, 0.1), (0, 0, 0.1), radius=0.07)), ((0, 2),)
+    )
     shape = {"own": own, "default": Capsules.along(arm), None: None}.get(capsules) or (
         None if capsules is None else Capsules.along(arm, capsules)
     )
     clearance = False if shape is None else Clearance(arm, shape)
     index = hf.indices.relative_manipulability(arm)
     plan = make_plan(arm, CLOSE, index, 10, 0, "random", 100, optimise, False, None, clearance, margin)
-    a = hf.Assessment(plan, *[None] * 9)  # type: ignore[arg-type]
+    a = hf.Assessment(**dict.fromkeys((f.name for f in dataclasses.fields(hf.Assessment) if f.init), None) | {"plan": plan})
     command, _ = command_line(a)
     options = " ".join(command.replace("\\\n", " ").split()).partition("--restarts 100")[2].replace("--optimise", "").strip()
     assert options == words

@@ -290,7 +290,7 @@ def collect(values, better, bound, most, parts=13, unreached=0, singular=0):
 def test_collector_is_exact_while_it_can_be(rng):
     values = rng.permutation(sample(rng, "larger"))
     d = collect(values, "larger", 0.6, most=300, unreached=2, singular=1)
-    exact = Distribution.of(values, "larger", 26, 13)
+    exact = Distribution.of(values, "larger", 26, singular=13)
     np.testing.assert_array_equal(d.values, exact.values)
     assert (d.samples, d.unreached, d.singular, d.infinite) == (326, 26, 13, 0)
 

@@ -64,9 +64,9 @@ def test_known_arms(name, task, fatal):
 
 def test_a_random_arm_has_none_until_it_loses_its_redundancy(rng):
     seven = oracles.random_arm(rng, types="RRRPRRR")
-    assert structure(seven, "pose") == Structure("pose", 1, (), False)
+    assert structure(seven, "pose") == Structure(task="pose", redundancy=1, fatal=(), never=False)
     six = seven.__class__("six", seven.joints[:6])
-    assert structure(six, "pose") == Structure("pose", 0, tuple(range(6)), False)
+    assert structure(six, "pose") == Structure(task="pose", redundancy=0, fatal=tuple(range(6)), never=False)
     assert structure(six, ["vx", "vy", "wz"]).survives
 
 

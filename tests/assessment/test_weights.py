@@ -45,8 +45,8 @@ def test_whole_weights_are_repetitions(found, lost, better, only, data):
     values, w = (np.array(x, dtype=float) for x in zip(*found, strict=True))
     if not w.sum():
         return
-    d = Distribution.of(values, better, len(lost), 1, w, lost)
-    again = Distribution.of(np.repeat(values, w.astype(int)), better, sum(lost), 1)
+    d = Distribution.of(values, better, len(lost), singular=1, weights=w, unreached_weights=lost)
+    again = Distribution.of(np.repeat(values, w.astype(int)), better, sum(lost), singular=1)
     h = np.r_[0, values[np.isfinite(values)], 0.15, 0.7]
     np.testing.assert_array_equal(d.cdf(h, only), again.cdf(h, only))
     p = np.r_[0, 1, data.draw(st.lists(st.floats(0, 1), max_size=6)), np.arange(1, 8) / 8]
@@ -65,7 +65,7 @@ def test_whole_weights_are_repetitions(found, lost, better, only, data):
 def test_equal_weights_are_none(rng, weight):
     values = np.r_[rng.random(500), np.zeros(20)]
     plain = Distribution.of(values, "larger", unreached=80)
-    d = Distribution.of(values, "larger", 80, 0, np.full(520, weight), np.full(80, weight))
+    d = Distribution.of(values, "larger", 80, singular=0, weights=np.full(520, weight), unreached_weights=np.full(80, weight))
     h, p = rng.random(50), np.r_[np.arange(1, 601) / 600, rng.random(50)]
     for only in (False, True):
         np.testing.assert_allclose(d.cdf(h, only), plain.cdf(h, only), rtol=1e-12)

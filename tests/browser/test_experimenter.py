@@ -25,7 +25,7 @@ def led(serve, tmp_path_factory):
         few,
         substeps=1,
         training=Training(at_least=40, in_a_row=1, limit=500.0, most=100, distance=0.4),
-        scenarios=tuple(Scenario(k + 1, law, failed, options) for k, (law, failed, options) in enumerate(laws)),
+        scenarios=tuple(Scenario(k + 1, law, failed, options=options) for k, (law, failed, options) in enumerate(laws)),
         subjects=4,
     )
     simulate_experiment(folder, short, 3, seed=1).close()

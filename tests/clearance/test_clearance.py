@@ -22,7 +22,7 @@ def random_capsules(arm, rng, count=7):
     parts = []
     for link in sorted(rng.integers(-1, arm.n, count)):
         start, step = rng.uniform(-0.3, 0.3, 3), rng.uniform(-0.3, 0.3, 3) * (rng.random() > 0.25)
-        parts.append(Capsule(int(link), start, start + step, rng.uniform(0.01, 0.1)))
+        parts.append(Capsule(int(link), start, start + step, radius=rng.uniform(0.01, 0.1)))
     return Capsules(tuple(parts))
 
 
@@ -221,9 +221,9 @@ def test_what_a_person_ignores(panda):
 def test_capsules_of_one_link_are_numbered():
     arm = arms.load("planar-3r")
     parts = (
-        Capsule(0, (0, 0, 0), (0.4, 0, 0), 0.1),
-        Capsule(0, (0.5, 0, 0), (1, 0, 0), 0.1),
-        Capsule(2, (0, 0, 0), (1, 0, 0), 0.1),
+        Capsule(0, (0, 0, 0), (0.4, 0, 0), radius=0.1),
+        Capsule(0, (0.5, 0, 0), (1, 0, 0), radius=0.1),
+        Capsule(2, (0, 0, 0), (1, 0, 0), radius=0.1),
     )
     made = Clearance(arm, Capsules(parts))
     assert made.pair_names == ["joint1 (1) & joint3", "joint1 (2) & joint3"]
@@ -251,7 +251,7 @@ def test_nan_stays_in_its_row(panda, rng):
         assert len(ask(q[:0])) == 0
 
 
-@pytest.mark.parametrize("parts", [(), (Capsule(0, (0, 0, 0), (0, 0, 1), 0.1),)])
+@pytest.mark.parametrize("parts", [(), (Capsule(0, (0, 0, 0), (0, 0, 1), radius=0.1),)])
 def test_an_arm_without_a_pair_is_never_in_its_own_way(panda, parts):
     ours = Clearance(panda.arm, Capsules(parts))
     q = np.zeros((3, 7))

@@ -72,10 +72,10 @@ def test_a_joint_by_its_name_before_its_number(rng):
     """An arm that counts its joints from 0 in their names: names win."""
     arm = oracles.with_bodies(oracles.random_arm(rng, types="RRRR"), rng)
     joints = tuple(
-        hf.Joint(name, j.type, j.origin, j.axis)
+        hf.Joint(name, j.type, j.origin, axis=j.axis)
         for name, j in zip(("joint0", "joint1", "left-elbow", "tip"), arm.joints, strict=True)
     )
-    arm = hf.Arm("named", joints, arm.links)
+    arm = hf.Arm(name="named", joints=joints, links=arm.links)
     q = oracles.inside(arm, rng, 3)
     for text, joint in (("joint1", 1), ("joint2", 1), ("left-elbow", 2), ("joint4", 3), ("tip", 3)):
         same(read_objective(arm, "--minimise", f"torque:{text}", "position"), sus.torque(arm, np.eye(4)[joint]), q)

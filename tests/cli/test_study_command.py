@@ -48,7 +48,7 @@ def folder(tmp_path_factory):
     path = place / "small.yaml"
     path.write_text(TEXT)
     asked = read(path)
-    study = Study.create(place / "out", asked.name, asked.seed, asked.cells, asked.text)
+    study = Study.create(place / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     set_threads(2)
     try:
         assert study.run(asked.cells, Threads(2, pool())) == {}
@@ -114,7 +114,7 @@ def test_a_cell_is_the_assessment_of_the_same_options(folder, tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text("{poses: 1100, chunk: 1024, seed: 5, arms: [planar-3r], assess: {restarts: 5}}")
     asked = read(path)
-    study = Study.create(tmp_path / "out", asked.name, asked.seed, asked.cells, asked.text)
+    study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     study.run(asked.cells, Threads(1))
     arm = hf.arms.load("planar-3r")
     run = hf.assess(arm, default_region("planar-3r", arm), task="planar", poses=1100, seed=5, restarts=5)
@@ -129,21 +129,21 @@ def test_a_cell_is_the_assessment_of_the_same_options(folder, tmp_path):
 @pytest.mark.parametrize("sampling", ["random", "sobol"])
 def test_samples_do_not_depend_on_where_chunks_end(sampling):
     region = Region.box([0, 0, 1], 0.5, rpy_size=1.0)
-    blocks = region.blocks(0, 7, sampling, 3000)
+    blocks = region.blocks(0, 7, sampling, count=3000)
     first, second = next(blocks), next(blocks)
-    np.testing.assert_array_equal(region.samples(0, 1024, 0, 7, sampling, 3000), first)
-    np.testing.assert_array_equal(region.samples(1024, 1500, 1, 7, sampling, 3000), second[:476])
+    np.testing.assert_array_equal(region.samples(0, 1024, 0, seed=7, sampling=sampling, count=3000), first)
+    np.testing.assert_array_equal(region.samples(1024, 1500, 1, seed=7, sampling=sampling, count=3000), second[:476])
     if sampling == "sobol":
-        np.testing.assert_array_equal(region.samples(1000, 1024, 5, 7, sampling, 3000), first[1000:])
+        np.testing.assert_array_equal(region.samples(1000, 1024, 5, seed=7, sampling=sampling, count=3000), first[1000:])
 
 
 @pytest.mark.parametrize("sampling", ["random", "sobol"])
 def test_samples_of_a_box_may_be_of_many_blocks(sampling):
     region = Region.joints([-1, -2, 0], [1, 2, 0.5])
-    blocks = region.blocks(2, 7, sampling, 10**6)
+    blocks = region.blocks(2, 7, sampling, count=10**6)
     whole = np.concatenate([next(blocks), next(blocks)])
     start, place = 2 * region.block, np.full((region.block + 99, 3), np.nan)
-    found = region.samples(start, start + len(place), 2, 7, sampling, 10**6, place)
+    found = region.samples(start, start + len(place), 2, seed=7, sampling=sampling, count=10**6, out=place)
     np.testing.assert_array_equal(found, whole[: len(place)])
     np.testing.assert_array_equal(place, found)
 
@@ -155,7 +155,7 @@ def both_ways(folder, size, block):
         path = folder / f"{keep}.yaml"
         path.write_text(f"{{{size}, seed: 5, arms: [planar-3r], assess: {{{block}, keep: {keep}}}}}")
         asked = read(path)
-        study = Study.create(folder / keep, asked.name, asked.seed, asked.cells, asked.text)
+        study = Study.create(folder / keep, asked.name, asked.seed, cells=asked.cells, source=asked.text)
         study.run(asked.cells, Threads(1))
         found.append([assessed(study, k) for k in range(len(asked.cells))])
     return found
@@ -316,7 +316,7 @@ def test_other_thresholds_need_no_new_chunk(ask, file, folder, tmp_path):
 
 def test_an_unfinished_study_reports_what_is_there(ask, refused, file, tmp_path):
     asked = read(file)
-    study = Study.create(tmp_path / "out", asked.name, asked.seed, asked.cells, asked.text)
+    study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert "nothing of" in refused("study", "report", study.path)
     study.run(asked.cells, Threads(1), stop=lambda: len(bits(study.path)) > 1)
     ask("study", "report", study.path)

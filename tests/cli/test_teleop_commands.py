@@ -113,7 +113,7 @@ def test_figure_names_what_has_no_place(rng):
     bank = task_bank(arms.load("planar-3r"), 6, seed=1)
     lost = replace(bank, cpm=bank.cpm.copy(), end=bank.end.copy())
     lost.cpm[2, 4], lost.end[2, 4] = np.nan, 1
-    figure = bank_figure(lost, binning(lost), np.array([0, 9]), np.array([11, 4]))
+    figure = bank_figure(lost, binning(lost), np.array([0, 9]), special=np.array([11, 4]))
     axes = figure.axes[0]
     assert {t.get_text() for t in axes.texts} >= {"1", "2", "3"}
     assert "4" not in {t.get_text() for t in axes.texts}

@@ -13,7 +13,7 @@ CALL = ["trade-off", "planar-3r", "--samples", "200", "--allowed", "0 0.25 0.5",
 
 def test_json_is_what_the_library_says(ask):
     data = ask(*CALL)
-    curve = hf.control.trade_off(hf.arms.load("planar-3r"), "planar", 200, [0, 0.25, 0.5], 3)
+    curve = hf.control.trade_off(hf.arms.load("planar-3r"), "planar", 200, allowed=[0, 0.25, 0.5], seed=3)
     assert (data["task"], data["samples"], data["seed"]) == ("planar", 200, 3)
     assert data["pre_failure_error"] == [0, 0.25, 0.5]
     np.testing.assert_array_equal(data["gain"]["q50"], np.median(curve.gain, axis=0))

@@ -97,7 +97,7 @@ def test_nothing_happens_on_a_quiet_stretch(planar, torque):
 def test_a_start_that_is_not_the_best_is_told(planar, torque, across):
     best = hf.follow(planar, across(1.8, -1.8), minimise=torque, task="planar", samples=51).q[0]
     poses = planar.forward_kinematics(best)
-    other = hf.solve_ik(planar, poses[None].repeat(20, 0), 3, "planar").q
+    other = hf.solve_ik(planar, poses[None].repeat(20, 0), 3, task="planar").q
     away = other[np.abs(other - best).max(axis=1).argmax()]
     t = hf.follow(planar, across(1.8, -1.8), minimise=torque, task="planar", q=away, rate_cap=3.0)
     first = [e for e in t.events if e.start < 0.1]

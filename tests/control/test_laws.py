@@ -28,7 +28,7 @@ def laws_of(arm, task, rng):
 def cases(mixed5, generator):
     """Laws of an arm with a sliding joint for a linear and an angular row of the tool with a length, and samples."""
     rng = generator("laws")
-    task = hf.Task("half", np.eye(6)[[0, 4]], "tool", LENGTH)
+    task = hf.Task("half", np.eye(6)[[0, 4]], "tool", length=LENGTH)
     q, v = oracles.inside(mixed5, rng, 60), rng.normal(size=(60, 2))
     scale = np.array([1 / LENGTH, 1])
     j = oracles.task_jacobian(mixed5, q, ["vx", "wy"], "tool", LENGTH)

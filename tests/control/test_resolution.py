@@ -61,7 +61,7 @@ def particular_and_null(j, v):
 @pytest.mark.parametrize("case", ["panda", "flat", "sum"])
 def test_gradient_projection_is_the_formula(cases, case, rng):
     arm, task, objective = cases[case]
-    law = GradientProjection(arm, objective, GAIN, task, period=None)
+    law = GradientProjection(arm, objective, GAIN, task=task, period=None)
     q, j, twist = states(arm, law.task, rng, 20)
     particular, null = particular_and_null(j, twist @ law.task.rows.T)
     slope = np.array([oracles.slope(objective, x) for x in q])
@@ -79,14 +79,14 @@ def test_gradient_projection_is_the_formula(cases, case, rng):
 
 def test_an_objective_wanted_the_other_way_moves_the_other_way(cases, rng):
     arm, task, objective = cases["flat"]
-    law, back = (GradientProjection(arm, o, GAIN, task, period=None) for o in (objective, Opposite(objective)))
+    law, back = (GradientProjection(arm, o, GAIN, task=task, period=None) for o in (objective, Opposite(objective)))
     q, _, _ = states(arm, law.task, rng, 5)
     np.testing.assert_allclose(law.rates(q, np.zeros(6)[None].repeat(5, 0)).rates, -back.rates(q, np.zeros((5, 6))).rates)
 
 
 def test_one_twist_serves_many_configurations(cases, rng):
     arm, task, objective = cases["flat"]
-    law = GradientProjection(arm, objective, GAIN, task, period=None)
+    law = GradientProjection(arm, objective, GAIN, task=task, period=None)
     q, _, twist = states(arm, law.task, rng, 3)
     together = law.rates(q, twist[0])
     assert together.rates.shape == (3, arm.n)
@@ -98,7 +98,7 @@ def test_one_twist_serves_many_configurations(cases, rng):
 def test_extended_jacobian_keeps_the_slope_along_the_self_motion(generator, rng):
     arm = without_limits(hf.arms.load("planar-3r"))
     objective = susceptibility.torque(arm, "worst-case")
-    law = ExtendedJacobian(arm, objective, 5.0, "planar", period=None)
+    law = ExtendedJacobian(arm, objective, 5.0, task="planar", period=None)
     q, _, twist = states(arm, law.task, rng, 30)
     rates = law.rates(q, twist).rates
     near = np.linalg.norm(rates, axis=1) < 20  # of an algorithmic singularity differences say little
@@ -122,7 +122,7 @@ def test_augmented_jacobian_closes_in_on_its_value(cases, case, rng):
     arm, task, objective = cases[case]
     q0 = rng.uniform(-1, 1, arm.n)
     wanted = float(objective(q0))
-    law = AugmentedJacobian(arm, objective, wanted, 3.0, task, period=None)
+    law = AugmentedJacobian(arm, objective, wanted, gain=3.0, task=task, period=None)
     q, j, twist = states(arm, law.task, rng, 20)
     rates = law.rates(q, twist).rates
     slope = np.array([oracles.slope(objective, x) for x in q])
@@ -136,12 +136,12 @@ def test_augmented_jacobian_closes_in_on_its_value(cases, case, rng):
 
 def test_the_cap_takes_from_the_self_motion_alone(cases, rng):
     arm, task, objective = cases["flat"]
-    free = GradientProjection(arm, objective, GAIN, task, period=None)
+    free = GradientProjection(arm, objective, GAIN, task=task, period=None)
     q, j, twist = states(arm, free.task, rng, 200)
     v = twist @ free.task.rows.T
     particular, _ = particular_and_null(j, v)
     cap = float(np.median(np.linalg.norm(particular, axis=1)))
-    found = GradientProjection(arm, objective, GAIN, task, cap, None).rates(q, twist)
+    found = GradientProjection(arm, objective, GAIN, task=task, rate_cap=cap, period=None).rates(q, twist)
     np.testing.assert_allclose(np.einsum("nij,nj->ni", j, found.rates), v, atol=1e-7)
     own = free.rates(q, twist).rates - particular
     task_alone, norm = np.linalg.norm(particular, axis=1), np.linalg.norm(found.rates, axis=1)
@@ -164,7 +164,7 @@ def bounded(flat):
 
 def test_limits_hold_within_a_period_and_self_motion_makes_room(bounded, rng):
     arm, period = bounded
-    law = GradientProjection(arm, susceptibility.torque(arm), GAIN, "planar", None, period)
+    law = GradientProjection(arm, susceptibility.torque(arm), GAIN, task="planar", rate_cap=None, period=period)
     count = 400
     q = rng.uniform(arm.lower, arm.upper, (count, arm.n))
     near = rng.random((count, arm.n)) < 0.3  # many joints close to a limit
@@ -200,7 +200,7 @@ def _feasible(j, v, low, high) -> bool:
 
 def test_a_joint_that_starts_outside_its_limits_is_brought_back(bounded, rng):
     arm, period = bounded
-    law = GradientProjection(arm, susceptibility.torque(arm), GAIN, "planar", None, period)
+    law = GradientProjection(arm, susceptibility.torque(arm), GAIN, task="planar", rate_cap=None, period=period)
     q = rng.uniform(-0.5, 0.5, arm.n)
     q[1] = arm.upper[1] + 0.01
     found = law.rates(q, 0.1 * rng.normal(size=6))
@@ -209,7 +209,9 @@ def test_a_joint_that_starts_outside_its_limits_is_brought_back(bounded, rng):
 
 
 def test_rates_stay_bounded_near_a_singularity(panda, rng):
-    law = GradientProjection(panda, susceptibility.torque(panda, "effort"), 1.0, "pose", None, None, 0.05)
+    law = GradientProjection(
+        panda, susceptibility.torque(panda, "effort"), 1.0, task="pose", rate_cap=None, period=None, damping=0.05
+    )
     away = 10 ** rng.uniform(-12, -1, (300, 1))
     q = away * rng.uniform(-1, 1, (300, 7))  # stretched upwards: singular
     found = law.rates(q, rng.normal(size=(300, 6)))
@@ -222,7 +224,7 @@ def test_rates_stay_bounded_near_a_singularity(panda, rng):
 
 def test_nan_stays_in_its_row(cases, rng):
     arm, task, objective = cases["flat"]
-    law = GradientProjection(arm, objective, GAIN, task, 2.0, None)
+    law = GradientProjection(arm, objective, GAIN, task=task, rate_cap=2.0, period=None)
     q, _, twist = states(arm, law.task, rng, 4)
     clean = law.rates(q, twist)
     q[1, 2], twist[2, 0] = np.nan, np.nan
@@ -247,16 +249,16 @@ def test_bad_input_is_answered_in_a_sentence(cases, panda):
         with pytest.raises(hf.InputError, match=what):
             GradientProjection(arm, objective, task=task, **kind)
     with pytest.raises(hf.InputError, match="gain is 0; it must be above 0"):
-        ExtendedJacobian(arm, objective, 0.0, task)
+        ExtendedJacobian(arm, objective, 0.0, task=task)
     with pytest.raises(hf.InputError, match="wanted value is nan"):
-        AugmentedJacobian(arm, objective, np.nan, 1.0, task)
+        AugmentedJacobian(arm, objective, np.nan, gain=1.0, task=task)
     with pytest.raises(hf.InputError, match="make it with the same arm"):
         GradientProjection(panda, objective, task=task)
     with pytest.raises(hf.TaskError, match="no self-motion to use"):
         GradientProjection(arm, objective, task="pose")
     with pytest.raises(hf.TaskError, match="is defined for the task"):
         GradientProjection(panda, RelativeManipulability(panda, "position"), task="pose")
-    law = GradientProjection(arm, objective, GAIN, task, period=None)
+    law = GradientProjection(arm, objective, GAIN, task=task, period=None)
     for q, twist in (
         (np.zeros(arm.n), np.zeros(5)),
         (np.zeros((2, arm.n)), np.zeros((3, 6))),

@@ -33,7 +33,7 @@ def test_against_brute_force(moving, rng):
     for _ in range(20):
         rows = rng.integers(30, size=3)
         state, bound = (q[rows], qd[rows], qdd[rows]), 10 ** rng.uniform(-2, 2, 4)
-        found = slow_enough(arm, *state, bound)
+        found = slow_enough(arm, q[rows], qd[rows], qdd=qdd[rows], bound=bound)
         k = found.time_scale
         assert excess(arm, *state, bound, k)[found.worst_time_index, found.worst_joint] == pytest.approx(1, rel=1e-6)
         for slower in (1, 1.0001, 1.01, 1.1, 2, 10, 100):
@@ -58,23 +58,23 @@ def test_every_sign_of_friction_and_inertia(rng):
 
 def test_stretching_a_motion_divides_its_scale(moving):
     arm, q, qd, qdd = moving
-    k = slow_enough(arm, q, qd, qdd, 5.0).time_scale
-    slowed = slow_enough(arm, q, qd / (2 * k), qdd / (2 * k) ** 2, 5.0)
+    k = slow_enough(arm, q, qd, qdd=qdd, bound=5.0).time_scale
+    slowed = slow_enough(arm, q, qd / (2 * k), qdd=qdd / (2 * k) ** 2, bound=5.0)
     assert slowed.time_scale == pytest.approx(0.5)
     assert slowed.satisfied
-    assert not slow_enough(arm, q, 2 * qd / k, qdd * (2 / k) ** 2, [5.0] * 4).satisfied
+    assert not slow_enough(arm, q, 2 * qd / k, qdd=qdd * (2 / k) ** 2, bound=[5.0] * 4).satisfied
 
 
 def test_a_motion_at_rest_and_joints_without_load(moving):
     arm, q, qd, _ = moving
-    still = slow_enough(arm, q, 0 * qd, 0 * qd, 0.0)
+    still = slow_enough(arm, q, 0 * qd, qdd=0 * qd, bound=0.0)
     assert (still.time_scale, still.satisfied) == (0, True)
-    assert slow_enough(arm, q, qd, qd, np.inf).time_scale == 0
+    assert slow_enough(arm, q, qd, qdd=qd, bound=np.inf).time_scale == 0
     # Its last joint turns steadily about the axis on which its rod lies: no torque, so no bound is too tight.
     rod = hf.Link(1.0, np.array([0, 0, 0.5]), np.diag([0.1, 0.1, 0.0]))
-    joints = (hf.Joint("lift", "prismatic", np.eye(4), [0, 0, 1]), hf.Joint("spin", "revolute", np.eye(4), [0, 0, 1]))
-    lift = hf.Arm("lift", joints, (rod, rod))
-    found = slow_enough(lift, [0.0, 0.0], [0.0, 1.0], [8.0, 0.0], [1.0, 0.0])
+    joints = (hf.Joint("lift", "prismatic", np.eye(4), axis=[0, 0, 1]), hf.Joint("spin", "revolute", np.eye(4), axis=[0, 0, 1]))
+    lift = hf.Arm(name="lift", joints=joints, links=(rod, rod))
+    found = slow_enough(lift, [0.0, 0.0], [0.0, 1.0], qdd=[8.0, 0.0], bound=[1.0, 0.0])
     assert found.time_scale == pytest.approx(4)  # 2 kg times 8 m/s^2 over 1 N
     assert (found.worst_joint, found.worst_time_index) == (0, 0)
 
@@ -95,4 +95,4 @@ def test_bad_input():
         ((q, q[:2], q, 1.0), "has 2 rows"),
     ):
         with pytest.raises(hf.InputError, match=words):
-            slow_enough(arm, *arguments)
+            slow_enough(arm, *arguments[:2], **dict(zip(("qdd", "bound"), arguments[2:], strict=True)))

@@ -63,7 +63,7 @@ def test_a_hand_off_its_path_is_the_first_thing_said(stopped):
 def test_slowness_by_joint(calm):
     found = calm.slowness(2.0)
     assert len(found) == 3
-    whole = hf.motion.slow_enough(calm.arm, calm.q, calm.qd, calm.qdd, 2.0)
+    whole = hf.motion.slow_enough(calm.arm, calm.q, calm.qd, qdd=calm.qdd, bound=2.0)
     assert max(s.time_scale for s in found) == whole.time_scale
     gravity = calm.arm.gravity_torque(calm.q)
     for k, s in enumerate(found):

@@ -46,7 +46,7 @@ def test_every_case_is_a_simulation_of_its_own(compared, laws, motions):
         for failure in compared.failures:
             case = compared.case(law.label, failure)
             locked = [] if failure == "healthy" else [failure]
-            alone = hf.simulate(law, motions.q0, motions.target, locked, time_limit=LIMIT)
+            alone = hf.simulate(law, motions.q0, motions.target, locked=locked, time_limit=LIMIT)
             np.testing.assert_array_equal(case.code, alone.code)
             np.testing.assert_array_equal(case.error, alone.error)
             np.testing.assert_array_equal(case.past_limits, alone.limits_passed.any(axis=1))

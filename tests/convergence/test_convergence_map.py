@@ -28,7 +28,7 @@ def goal(spatial):
 
 @pytest.fixture(scope="module")
 def sampled(spatial, goal):
-    return hf.convergence_map(pseudoinverse(spatial, "position"), goal, 12, 4, seed=3)
+    return hf.convergence_map(pseudoinverse(spatial, "position"), goal, 12, configurations=4, seed=3)
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +109,7 @@ def test_reach_with_a_joint_locked_is_that_of_two_links(flat):
 
 def test_seeds(spatial):
     law = pseudoinverse(spatial, "position")
-    a, b, c = (hf.convergence_map(law, 2, 4, 2, seed=s, time_limit=20.0) for s in (1, 1, 2))
+    a, b, c = (hf.convergence_map(law, 2, 4, configurations=2, seed=s, time_limit=20.0) for s in (1, 1, 2))
     assert np.array_equal(a.q0, b.q0)
     assert np.array_equal(a.code, b.code)
     assert not np.array_equal(a.q0, c.q0)
@@ -117,7 +117,7 @@ def test_seeds(spatial):
 
 def test_one_spare_joint_takes_points_of_the_traced_curves(flat, rng):
     law = flat.law
-    m = hf.convergence_map(law, [0.9, 0.4], [[1.0, 0.5], [0.2, 0.3]], 6, time_limit=30.0)
+    m = hf.convergence_map(law, [0.9, 0.4], [[1.0, 0.5], [0.2, 0.3]], configurations=6, time_limit=30.0)
     assert m.known.all()
     there = law.arm.forward_kinematics(m.q0.reshape(-1, 3))[:, :2, 3]
     assert there == pytest.approx(np.repeat([[1.0, 0.5], [0.2, 0.3]], 6, axis=0), abs=1e-8)
@@ -126,11 +126,11 @@ def test_one_spare_joint_takes_points_of_the_traced_curves(flat, rng):
 
 def test_places_out_of_reach_are_left_out(spatial, goal):
     law = pseudoinverse(spatial, "position")
-    m = hf.convergence_map(law, goal, np.stack([goal[:3, 3], [50.0, 0, 0]]), 2, time_limit=20.0)
+    m = hf.convergence_map(law, goal, np.stack([goal[:3, 3], [50.0, 0, 0]]), configurations=2, time_limit=20.0)
     assert list(m.known.any(axis=1)) == [True, False]
     assert (m.code[1] == 255).all()
     assert np.isnan(m.values()[1]).all()
-    far = hf.convergence_map(law, goal, [[50.0, 0, 0]], 2)
+    far = hf.convergence_map(law, goal, [[50.0, 0, 0]], configurations=2)
     with pytest.raises(hf.InputError, match="within reach"):
         far.shares()
 

@@ -19,7 +19,7 @@ def test_each_target_is_a_workspace_of_its_own(three, tmp_path):
     starts = np.array([[2.0, -1.4], [0.7, 2.1], [-2.0, 0.5]])
     found = hf.target_measures(three, goals, starts, configurations=6, points=2, cells=40)
     for k in (0, 1):
-        one = hf.workspace(three, goals[k], starts, 6, 2, cells=40)
+        one = hf.workspace(three, goals[k], starts, configurations=6, points=2, cells=40)
         for name, values in one.measures.items():
             known = np.ma.masked_invalid(values)
             np.testing.assert_allclose(found.measures[name][k], known.mean(axis=0).filled(np.nan))

@@ -196,7 +196,7 @@ def test_laws_that_differ_in_a_late_digit_are_two_runs(tmp_path):
     arm, options = hf.arms.load("planar-3r"), {"starts": [[1.2, 1.3]], "configurations": 1, "points": 0, "cells": 4}
 
     def run(damping, gain=1.0):
-        law = hf.control.damped(arm, damping, "planar", gain)
+        law = hf.control.damped(arm, damping, "planar", gain=gain)
         return hf.workspace(law, [1.5, 1.5], store=tmp_path / "run", **options)
 
     first = run(0.1)

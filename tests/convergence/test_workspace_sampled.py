@@ -32,7 +32,7 @@ def goal(spatial):
 @pytest.fixture(scope="module")
 def sampled(spatial, goal):
     # As many failures as cells: every cell inside is looked at.
-    return hf.workspace(spatial, goal, 6, 3, CELLS, cells=CELLS, seed=4)
+    return hf.workspace(spatial, goal, 6, configurations=3, points=CELLS, cells=CELLS, seed=4)
 
 
 def test_spatial_arms_are_sampled_unasked(sampled):
@@ -60,7 +60,7 @@ def test_a_spatial_arm_beside_plain_simulations(sampled, spatial, goal):
     for j in range(arm.n):
         values = q[..., j].ravel()
         held = np.clip(values, arm.lower[j], arm.upper[j])
-        found = hf.reachable_when_locked(arm, goal, j, held, law.task, restarts=60).success
+        found = hf.reachable_when_locked(arm, goal, j, at=held, task=law.task, restarts=60).success
         inside[..., j] = (found & (held == values)).reshape(q.shape[:2])
         runs = hf.simulate(law, q.reshape(-1, arm.n), goal, locked=[j], time_limit=2000.0, tolerance=1e-8)
         slow = np.where(runs.error < 0.05, 1.0, np.nan)  # those beside a solution count, others are left out
@@ -90,10 +90,16 @@ def test_a_spatial_arm_beside_plain_simulations(sampled, spatial, goal):
 def test_a_planar_arm_by_sampling_beside_the_exact_analysis(three, rng):
     """F of the whole way: what arrives is then as uneven as what stays in reach."""
     options = {"points": 2, "cells": 30, "relative_to": "whole"}
-    exact = hf.workspace(three, [1.5, 1.5], "grid:12", 8, **options)
+    exact = hf.workspace(three, [1.5, 1.5], "grid:12", configurations=8, **options)
     chosen = rng.permutation(len(exact.places))[:50]
     part = hf.workspace(
-        three, [1.5, 1.5], exact.places.poses[chosen], 6, method="sampled", seed=int(rng.integers(1 << 30)), **options
+        three,
+        [1.5, 1.5],
+        exact.places.poses[chosen],
+        configurations=6,
+        method="sampled",
+        seed=int(rng.integers(1 << 30)),
+        **options,
     )
     assert (part.configurations <= 6).all()
     truth, sure, found = exact.means(), part.intervals(0.9999), part.means()

@@ -33,7 +33,7 @@ def family3(space3) -> Family:
 @pytest.fixture(scope="session")
 def poses3(planar3) -> np.ndarray:
     region = hf.Region.around(planar3)
-    return region.poses(region.samples(0, 24, 0, 3, "random", 24))
+    return region.poses(region.samples(0, 24, 0, seed=3, sampling="random", count=24))
 
 
 @pytest.fixture(scope="session")

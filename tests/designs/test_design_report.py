@@ -131,7 +131,7 @@ def test_poses_that_only_the_best_design_loses_are_said(found, rng):
 def test_files_of_a_list_of_poses(found, rng, tmp_path):
     poses = np.tile(np.eye(4), (5, 1, 1))
     poses[:, :2, 3] = rng.uniform(0.5, 1.5, (5, 2))
-    listed = replace(found, region=hf.Region("poses", (), (), "a job", listed=PoseList.of(poses)))
+    listed = replace(found, region=hf.Region("poses", (), (), name="a job", listed=PoseList.of(poses)))
     names = {f.name for f in listed.save(tmp_path / "out")}
     assert names == {"report.html", "best-arm.yaml", "designs.csv", "region.yaml", "poses.csv"}
     again = hf.Region.load(tmp_path / "out" / "region.yaml")

@@ -107,7 +107,7 @@ def test_what_text_means(text: str, lower: float, upper: float, unit: str, rng: 
 def test_limits_of_sliding_joints_are_lengths_however_they_are_given(rng: np.random.Generator) -> None:
     for vary in ({"upper5": (0.3, 0.6)}, ["upper5=300..600mm"], [Parameter("upper5", 0.3, 0.6)]):
         space = design_space(five(rng), vary)
-        assert space.parameters == (Parameter("upper5", 0.3, 0.6, "m"),)
+        assert space.parameters == (Parameter("upper5", 0.3, 0.6, unit="m"),)
         assert design_space(five(rng), space) is space
 
 
@@ -194,7 +194,7 @@ def test_masses_of_other_shapes_are_left_out() -> None:
 
 def test_masses_stay_where_the_links_keep_their_shape(rng: np.random.Generator) -> None:
     """The torques of the given arm, read from its URDF file with other frames, are those of a design with other limits."""
-    panda = hf.arms.load("panda").with_payload(hf.Link(1.5, np.array([0.02, 0, 0.1]), 0.01 * np.eye(3), "part"))
+    panda = hf.arms.load("panda").with_payload(hf.Link(1.5, np.array([0.02, 0, 0.1]), 0.01 * np.eye(3), name="part"))
     limits = design_space(panda, {"upper4": (-1.0, 0.0)}).arm_of([-0.5])
     q, qd, qdd = rng.uniform(-1, 1, (3, 7))
     np.testing.assert_allclose(limits.inverse_dynamics(q, qd, qdd), panda.inverse_dynamics(q, qd, qdd), rtol=1e-9, atol=1e-9)

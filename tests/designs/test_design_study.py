@@ -41,7 +41,7 @@ def study(tmp_path_factory):
     (place / "bench.yaml").write_text(REGION)
     (place / "links.yaml").write_text(TEXT)
     asked = read(place / "links.yaml")
-    made = Study.create(place / "out", asked.name, asked.seed, asked.cells, asked.text)
+    made = Study.create(place / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     assert made.run(asked.cells, Threads(1)) == {}
     return made
 

@@ -19,7 +19,7 @@ HERE = str(Path(__file__).parent)
 
 
 def make(folder, some=None) -> Study:
-    return Study.create(folder, "toy", 1, cells() if some is None else some)
+    return Study.create(folder, "toy", 1, cells=cells() if some is None else some)
 
 
 def bits(study: Study) -> dict[tuple[int, int], str]:

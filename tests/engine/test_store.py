@@ -20,8 +20,8 @@ from holdfast.engine import Column, Store, store
 from holdfast.errors import StoreError
 
 COLUMNS = [
-    Column("x", "float64", (("axis", 2),), "m", "where"),
-    Column("count", "int16", (), "1", "how many"),
+    Column("x", "float64", (("axis", 2),), units="m", about="where"),
+    Column("count", "int16", (), units="1", about="how many"),
     Column("status", "uint8"),
 ]
 PLAN = {"kind": "test", "seed": 3, "nested": {"a": [1, 2]}}

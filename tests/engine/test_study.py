@@ -23,7 +23,7 @@ HERE = str(Path(__file__).parent)
 
 
 def make(folder, some=None, seed=1) -> Study:
-    return Study.create(folder, "toy", seed, cells() if some is None else some)
+    return Study.create(folder, "toy", seed, cells=cells() if some is None else some)
 
 
 def bits(study: Study) -> dict[tuple[int, int], str]:
@@ -257,7 +257,7 @@ def test_a_damaged_cell_of_a_study_file_is_a_sentence(what, tmp_path):
      ("columns", [["x", "O", [], "1", ""]]), ("columns", [["x", "float64", [["a", -1]], "1", ""]]), ("done", [99])],
 )  # fmt: skip
 def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
-    store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], 10, 5)
+    store = Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10, chunk=5)
     assert store.missing == [0, 1]
     file = tmp_path / "s" / "run.json"
     file.write_text(json.dumps(json.loads(file.read_text()) | {key: value}))
@@ -266,7 +266,7 @@ def test_a_damaged_run_file_is_a_sentence(key, value, tmp_path):
 
 
 def test_chunks_of_one_row_of_a_large_run_are_no_hang(tmp_path):
-    Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], 10**9, 10**6)
+    Store.create(tmp_path / "s", {"kind": "x"}, [Column("x", "float64")], rows=10**9, chunk=10**6)
     file = tmp_path / "s" / "run.json"
     file.write_text(json.dumps(json.loads(file.read_text()) | {"chunk": 1}))
     with pytest.raises(StoreError, match="its chunk is missing or wrong"):
@@ -280,7 +280,7 @@ def test_names_that_are_too_long_are_refused(tmp_path):
         lambda: Study.open(long),
         lambda: merge(long, [make(tmp_path / "s").path]),
         lambda: Store.open(long),
-        lambda: Store.create(long, {}, [Column("x", "float64")], 10, 5),
+        lambda: Store.create(long, {}, [Column("x", "float64")], rows=10, chunk=5),
     ):
         with pytest.raises(StoreError):
             make_it()
@@ -310,7 +310,7 @@ def test_other_studies_and_foreign_folders_are_refused(tmp_path):
         (cells(1), 1, "cell 'c1' is not asked for"),
         (cells(rows=24), 1, "has rows 23, asked for is 24"),
         (cells(), 2, "its seed is 1, asked for is 2"),
-        ([Cell("c0", Toy(), {"scale": 9}, 23, 5), cells()[1]], 1, "cell 'c0' has other settings"),
+        ([Cell("c0", Toy(), {"scale": 9}, rows=23, chunk=5), cells()[1]], 1, "cell 'c0' has other settings"),
     ):
         with pytest.raises(StoreError, match=words):
             make(tmp_path / "s", some, seed)
@@ -362,7 +362,7 @@ def test_two_runs_in_one_folder_are_refused(tmp_path):
 
 
 def test_a_cell_that_refuses_does_not_stop_the_others(tmp_path):
-    some = [Cell("bad", Toy(refuses=1), {"a": 1}, 23, 5), *cells(1)]
+    some = [Cell("bad", Toy(refuses=1), {"a": 1}, rows=23, chunk=5), *cells(1)]
     study = make(tmp_path / "s", some)
     problems = study.run(some, Threads(2))
     assert list(problems) == ["bad"]
@@ -371,7 +371,7 @@ def test_a_cell_that_refuses_does_not_stop_the_others(tmp_path):
 
 
 def test_tasks_in_hand_are_bounded(tmp_path):
-    many = [Cell("many", Toy(), {"a": 1}, 300, 1)]
+    many = [Cell("many", Toy(), {"a": 1}, rows=300, chunk=1)]
     study = make(tmp_path / "s", many)
     asked = 0
 
@@ -392,7 +392,7 @@ def test_tasks_in_hand_are_bounded(tmp_path):
 
 
 def test_status_of_very_many_chunks(tmp_path):
-    many = [Cell("many", Toy(), {"a": 1}, 10_000_000, 100)]
+    many = [Cell("many", Toy(), {"a": 1}, rows=10_000_000, chunk=100)]
     study = make(tmp_path / "s", many)
     study.folder(0).mkdir(parents=True)
     one = tmp_path / "one"

@@ -20,7 +20,7 @@ class Toy:
         pass
 
     def columns(self):
-        return [Column("x", "float64", (("k", 2),), "m", "random"), Column("status", "uint8")]
+        return [Column("x", "float64", (("k", 2),), units="m", about="random"), Column("status", "uint8")]
 
     def run(self, chunk):
         if chunk.number == self.refuses:
@@ -37,4 +37,6 @@ class Toy:
 
 
 def cells(count=2, rows=23, chunk=5, **more):
-    return [Cell(f"c{k}", Toy(k + 1.0, **more), {"scale": k + 1.0}, rows, chunk, labels={"k": k}) for k in range(count)]
+    return [
+        Cell(f"c{k}", Toy(k + 1.0, **more), {"scale": k + 1.0}, rows=rows, chunk=chunk, labels={"k": k}) for k in range(count)
+    ]

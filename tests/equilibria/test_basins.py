@@ -25,7 +25,7 @@ def test_figure_8(three):
     line = found.boundaries[0][60:200:20]
     across = np.gradient(found.boundaries[0], axis=0)[60:200:20][:, [2, 1, 0]] * [1, 0, -1]
     beside = np.concatenate([line + 0.5 * across, line - 0.5 * across])
-    one, other = np.split(hf.basins(three, [1.5, 1.5], 1, RAD(45), starts=beside).end, 2)
+    one, other = np.split(hf.basins(three, [1.5, 1.5], 1, at=RAD(45), starts=beside).end, 2)
     assert (one != other).all()
 
 

@@ -55,8 +55,8 @@ def test_the_slowest_direction_is_the_smallest_singular_value(mixed7, rng):
 def test_where_the_failed_arm_cannot_move_along_it_alone():
     """Four slides, one along z: with that one locked z is lost and x is not, although the other rows are singular."""
     axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0]]
-    joints = tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), np.array(a, float)) for k, a in enumerate(axes))
-    arm, q = hf.Arm("slides", joints), np.zeros(4)
+    joints = tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), axis=np.array(a, float)) for k, a in enumerate(axes))
+    arm, q = hf.Arm(name="slides", joints=joints), np.zeros(4)
     along_z = directional_velocity(arm, [0, 0, 1], "position")
     np.testing.assert_allclose(along_z.by_joint(q), [1, 1, 0, 1], atol=1e-12)
     np.testing.assert_array_equal(along_z.gradient(q), 0)

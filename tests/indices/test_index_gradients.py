@@ -109,7 +109,7 @@ def test_a_custom_index_equals_the_built_in_one(mixed5, rng):
     q = oracles.inside(mixed5, rng, 100)
     q = q[oracles.condition(oracles.jacobian(mixed5, q)[:, :2]) < 20]
     for failures in ([0, 1, 2, 3, 4], [(0, 1), 4]):
-        own = CustomIndex(formula, mixed5, ["vx", "vy"], failures, length=0.5, name="own", unit="1")
+        own = CustomIndex(formula, mixed5, ["vx", "vy"], failures=failures, length=0.5, name="own", unit="1")
         built_in = indices.manipulability(mixed5, ["vx", "vy"], failures, length=0.5)
         np.testing.assert_allclose(own.by_joint(q), built_in.by_joint(q), rtol=1e-9, atol=1e-12)
         np.testing.assert_array_equal(own.worst_failure(q), built_in.worst_failure(q))

@@ -23,7 +23,7 @@ def index(request, mixed7):
 @pytest.fixture(scope="module", params=[*INDICES, "custom"])
 def by_pairs(request, planar4):
     if request.param == "custom":
-        return CustomIndex(ca.sumsqr, planar4, "planar", "pairs", name="custom")
+        return CustomIndex(ca.sumsqr, planar4, "planar", failures="pairs", name="custom")
     return oracles.index_of(request.param, planar4, "planar", "pairs")
 
 
@@ -69,7 +69,7 @@ def test_the_worst_failure_is_the_one_with_the_worst_value(index, rng):
 
 def test_worst_joint_names_joints_not_positions(mixed7, rng):
     q = oracles.inside(mixed7, rng, 50)
-    index = by_name("relative-manipulability", mixed7, "position", [6, 4, 2])
+    index = by_name("relative-manipulability", mixed7, "position", failures=[6, 4, 2])
     every = by_name("relative-manipulability", mixed7, "position").by_joint(q)
     np.testing.assert_array_equal(index.worst_joint(q), np.array([6, 4, 2])[every[:, [6, 4, 2]].argmin(1)])
     np.testing.assert_allclose(index.by_joint(q), every[:, [6, 4, 2]], rtol=1e-12)

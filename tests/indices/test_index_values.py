@@ -155,25 +155,25 @@ def test_laws_of_rho(case, make, rng):
     assert index.bound == pytest.approx(np.sqrt((arm.n - m) / arm.n), rel=1e-15)
     assert (index(q) <= index.bound + 1e-12).all()
     assert ((rho >= 0) & (rho <= 1 + 1e-14)).all()
-    with_bound = indices.relative_manipulability(arm, task, [0, 1], length)
+    with_bound = indices.relative_manipulability(arm, task, [0, 1], length=length)
     assert with_bound.bound is None
 
 
 def test_the_bound_is_attained_where_all_rho_are_equal():
     """Three unit sliding joints at 120 degrees in a plane: rho = sqrt(1/3) each."""
     joints = [
-        hf.Joint(f"s{k}", "prismatic", np.eye(4), np.array([np.cos(a), np.sin(a), 0]))
+        hf.Joint(f"s{k}", "prismatic", np.eye(4), axis=np.array([np.cos(a), np.sin(a), 0]))
         for k, a in enumerate(np.radians([0, 120, 240]))
     ]
-    index = indices.relative_manipulability(hf.Arm("star", tuple(joints)), ["vx", "vy"])
+    index = indices.relative_manipulability(hf.Arm(name="star", joints=tuple(joints)), ["vx", "vy"])
     assert index.bound == pytest.approx(np.sqrt(1 / 3))
     np.testing.assert_allclose(index.by_joint([0.1, 0.2, 0.3]), index.bound, rtol=1e-15)
 
 
 def sliding(directions):
     """An arm of sliding joints along (n, 3) directions: their transpose is the Jacobian of a position."""
-    joints = tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), np.array(d)) for k, d in enumerate(directions))
-    return hf.Arm("slides", joints)
+    joints = tuple(hf.Joint(f"s{k}", "prismatic", np.eye(4), axis=np.array(d)) for k, d in enumerate(directions))
+    return hf.Arm(name="slides", joints=joints)
 
 
 def test_the_bound_of_pairs_is_attained_by_the_axes_of_an_icosahedron():
@@ -308,7 +308,7 @@ def test_locking_a_joint_is_deleting_its_column(name, mixed7, rng):
         else:
             joints.append(replace(joint, origin=origin))
             pending = np.eye(4)
-    welded = hf.Arm("welded", tuple(joints), base=mixed7.base, tool=pending @ mixed7.tool)
+    welded = hf.Arm(name="welded", joints=tuple(joints), base=mixed7.base, tool=pending @ mixed7.tool)
     rest = np.delete(q, [2, 5])
     kept, whole = task.rows @ welded.jacobian(rest), task.rows @ mixed7.jacobian(q)
     assert index(q) == pytest.approx(oracles.ORACLES["index"][name](kept[None], whole[None], index)[0], rel=1e-10)

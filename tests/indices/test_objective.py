@@ -148,11 +148,11 @@ def test_reversed_finds_and_follows_the_worst(rng):
     pose = np.eye(4)
     pose[:2, 3] = 0.6, -1.9
     found = hf.optimise(arm, pose, worst, seed=1, task="planar")
-    curve = hf.solvers.self_motion(arm, pose, "planar", 0.01)
+    curve = hf.solvers.self_motion(arm, pose, "planar", spacing=0.01)
     assert float(torque(found.q)) == pytest.approx(torque(curve.q).max(), rel=1e-3)
     assert float(torque(hf.optimise(arm, pose, torque, seed=1, task="planar").q)) < 0.5 * float(torque(found.q))
     ahead = hf.paths.line([0.6, -1.9, 0], [0.3, -1.9, 0])
     motion = hf.follow(arm, hf.paths.TimedPath(ahead, hf.paths.Constant(1)), maximise=torque, task="planar", seed=1)
     assert motion.objective.better == "larger"
-    end = torque(hf.solvers.self_motion(arm, motion.poses[-1], "planar", 0.01).q)
+    end = torque(hf.solvers.self_motion(arm, motion.poses[-1], "planar", spacing=0.01).q)
     assert motion.value[-1] > end.min() + 0.8 * (end.max() - end.min())

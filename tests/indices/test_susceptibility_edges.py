@@ -20,12 +20,12 @@ POINT = np.zeros((3, 3))
 
 
 def joint(name, kind="revolute", place=(0, 0, 0), axis=(0, 1, 0), **options):
-    return hf.Joint(name, kind, oracles.pose(None, place), np.array(axis, dtype=float), **options)
+    return hf.Joint(name, kind, oracles.pose(None, place), axis=np.array(axis, dtype=float), **options)
 
 
 def two(second: hf.Link, axis=(0, 1, 0), kind="revolute", **options) -> hf.Arm:
     """A rod on a level axis that carries a second body on an axis at its end; gravity down."""
-    return hf.Arm("two", (joint("one"), joint("two", kind, (1, 0, 0), axis, **options)), (ROD, second))
+    return hf.Arm(name="two", joints=(joint("one"), joint("two", kind, (1, 0, 0), axis, **options)), links=(ROD, second))
 
 
 def flags(result):
@@ -149,9 +149,9 @@ def test_all_mass_on_the_axis_is_not_a_number_with_a_flag():
     """A point mass at the end of a slide that crosses the axis: 0/0 only when the slide is in."""
     slide = joint("slide", "prismatic", (0, 0, 0), (0, 0, 1), lower=-1, upper=1)
     arm = hf.Arm(
-        "slide",
-        (joint("one"), joint("two", place=(1, 0, 0)), slide),
-        (ROD, hf.Link(0, np.zeros(3), POINT), hf.Link(1, np.zeros(3), POINT)),
+        name="slide",
+        joints=(joint("one"), joint("two", place=(1, 0, 0)), slide),
+        links=(ROD, hf.Link(0, np.zeros(3), POINT), hf.Link(1, np.zeros(3), POINT)),
     )
     measure = sus.acceleration(arm)
     q = np.array([[0.2, 0.3, 0.0], [0.2, 0.3, 0.5], [np.nan, 0.3, 0.5]])

@@ -24,7 +24,7 @@ def build(backend):
     scalar = ca.sin(s) * ca.sumsqr(v) + ca.if_else(v[0] > v[1], a[0, 1], -a[2, 0])
     column = ca.vertcat(v[3] * a[1, 0], ca.exp(-(v[2] ** 2)), a[2, 1] / (2 + v[0] ** 2))
     wide = ca.vertcat(ca.horzcat(v[0], v[1], 7.0), ca.horzcat(v[2] * v[3], ca.atan2(v[0], v[1]), ca.sqrt(1 + v[3] ** 2)))
-    return Kernel("mixed", [s, v, a], [scalar, column, wide, ca.SX(0.5)], backend)
+    return Kernel("mixed", [s, v, a], [scalar, column, wide, ca.SX(0.5)], backend=backend)
 
 
 def formulas(s, v, a):
@@ -50,7 +50,7 @@ def kernels():
 def large():
     """110 numbers a row, so that 10007 rows make several chunks."""
     x = ca.SX.sym("x", 10)
-    return {b: Kernel("large", [x], [ca.sin(x @ x.T) + ca.cos(x) @ ca.SX.ones(1, 10)], b) for b in BACKENDS}
+    return {b: Kernel("large", [x], [ca.sin(x @ x.T) + ca.cos(x) @ ca.SX.ones(1, 10)], backend=b) for b in BACKENDS}
 
 
 def sizes(lanes):
@@ -168,7 +168,7 @@ def test_results_belong_to_the_caller(kernels, rng):
 def test_rows_of_matrices_keep_their_order(backend):
     """Row-major in, row-major out: also for a matrix with one row, whose row axis stays."""
     a, row = ca.SX.sym("a", 2, 3), ca.SX.sym("r", 1, 3)
-    k = Kernel("order", [a, row], [a.T, a * ca.vertcat(row, 10 * row), row], backend)
+    k = Kernel("order", [a, row], [a.T, a * ca.vertcat(row, 10 * row), row], backend=backend)
     value = np.arange(12.0).reshape(2, 2, 3)
     turned, scaled, same = k(value, np.array([[1.0, 2, 3]]))
     np.testing.assert_array_equal(turned, value.transpose(0, 2, 1))
@@ -179,7 +179,7 @@ def test_rows_of_matrices_keep_their_order(backend):
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_sparse_expressions_come_out_dense(backend):
     x = ca.SX.sym("x", 3)
-    np.testing.assert_array_equal(Kernel("diagonal", [x], [ca.diag(x)], backend)([1.0, 2, 3]), np.diag([1.0, 2, 3]))
+    np.testing.assert_array_equal(Kernel("diagonal", [x], [ca.diag(x)], backend=backend)([1.0, 2, 3]), np.diag([1.0, 2, 3]))
 
 
 @pytest.mark.parametrize(
@@ -211,15 +211,15 @@ def test_wrong_inputs_are_named(kernels, inputs, message):
 def test_a_missing_operation_is_named(make, name):
     x = ca.SX.sym("x")
     with pytest.raises(KernelError, match=f"kernel 'odd': instruction .* is CasADi operation {name}, which the llvm"):
-        Kernel("odd", [x], [1 + make(x * x)], "llvm")
-    value = Kernel("odd", [x], [1 + make(x * x)], "casadi")([1.5, 2.5])
+        Kernel("odd", [x], [1 + make(x * x)], backend="llvm")
+    value = Kernel("odd", [x], [1 + make(x * x)], backend="casadi")([1.5, 2.5])
     assert np.isfinite(value).all()
 
 
 def test_backends_are_chosen_by_name_and_environment(monkeypatch):
     x = ca.SX.sym("x")
     with pytest.raises(KernelError, match="backend 'cuda' is not known; use one of llvm, casadi"):
-        Kernel("k", [x], [x], "cuda")
+        Kernel("k", [x], [x], backend="cuda")
     assert default_backend() == "llvm"
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     assert Kernel("k", [x], [2 * x]).backend == "casadi"

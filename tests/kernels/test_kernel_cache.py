@@ -34,7 +34,7 @@ def compilations(monkeypatch):
 
 def build(constant=3.0, name="cached"):
     x = ca.SX.sym("x", 2)
-    return Kernel(name, [x], [ca.sin(x) * constant + x[0] * x[1]], "llvm")
+    return Kernel(name, [x], [ca.sin(x) * constant + x[0] * x[1]], backend="llvm")
 
 
 def files(folder):
@@ -65,7 +65,7 @@ def test_another_computation_is_another_entry(folder, compilations):
 
 def test_the_casadi_backend_stores_nothing(folder):
     x = ca.SX.sym("x")
-    Kernel("plain", [x], [x * x], "casadi")(2.0)
+    Kernel("plain", [x], [x * x], backend="casadi")(2.0)
     assert not folder.exists()
 
 

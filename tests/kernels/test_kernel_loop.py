@@ -16,7 +16,9 @@ def newton(backend=None):
     """State (x, y): x goes to sqrt(p0), y counts; the residual is relative."""
     s, p = ca.SX.sym("s", 2), ca.SX.sym("p", 2)
     residual = ca.fabs(s[0] * s[0] - p[0]) / p[0]
-    return Loop("newton", s, [p], ca.vertcat((s[0] + p[0] / s[0]) / 2, s[1] + p[1]), residual, backend)
+    return Loop(
+        "newton", s, [p], next_state=ca.vertcat((s[0] + p[0] / s[0]) / 2, s[1] + p[1]), residual=residual, backend=backend
+    )
 
 
 @pytest.fixture(scope="module", params=BACKENDS)
@@ -142,7 +144,7 @@ def test_matrix_parameters_are_row_major(backend, rng):
     """x -> M x for a 2x2 matrix and a shift: linear iteration, whose fixed point numpy solves for."""
     x, shift, matrix = ca.SX.sym("x", 2), ca.SX.sym("b", 2), ca.SX.sym("m", 2, 2)
     following = matrix @ x + shift
-    loop = Loop("linear", x, [shift, matrix], following, ca.norm_2(following - x), backend)
+    loop = Loop("linear", x, [shift, matrix], next_state=following, residual=ca.norm_2(following - x), backend=backend)
     m, b = rng.uniform(-0.4, 0.4, (30, 2, 2)), rng.normal(size=(30, 2))
     run = loop.run(np.zeros((30, 2)), np.concatenate([b, m.reshape(30, 4)], 1), 1e-13, 200)
     assert run.done.all()
@@ -154,7 +156,9 @@ def test_a_residual_of_the_next_state_saves_a_step(loop, most, rng):
     """Rows that take the places of others included: 9,000 are more than a worker holds."""
     s, p = ca.SX.sym("s", 2), ca.SX.sym("p", 2)
     after = ca.vertcat((s[0] + p[0] / s[0]) / 2, s[1] + p[1])
-    ahead = Loop("ahead", s, [p], after, ca.fabs(after[0] ** 2 - p[0]) / p[0], loop.step.backend, ahead=True)
+    ahead = Loop(
+        "ahead", s, [p], next_state=after, residual=ca.fabs(after[0] ** 2 - p[0]) / p[0], backend=loop.step.backend, ahead=True
+    )
     state, parameters = draw(rng, 9000 if loop.step.backend == "llvm" else 900)
     first, second = loop.run(state, parameters, TOLERANCE, most), ahead.run(state, parameters, TOLERANCE, most)
     needed = first.steps > 0  # the other one looks before it steps

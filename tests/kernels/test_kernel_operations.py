@@ -109,7 +109,7 @@ def points(rng, low, high):
 def test_operation_against_numpy(name, backend, rng):
     op, expression, formula, (low, high) = TABLE[name]
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
-    kernel = Kernel(name, [x, y], [expression(x, y)], backend)
+    kernel = Kernel(name, [x, y], [expression(x, y)], backend=backend)
     assert op is None or op in operations(kernel)
     a, b = points(rng, low, high)
     with np.errstate(all="ignore"):
@@ -126,7 +126,7 @@ def test_operation_against_numpy(name, backend, rng):
 @pytest.mark.parametrize(("low", "high"), [(1e-12, 1e-3), (1e-3, 7), (7, 1e3), (1e3, 1e8), (1e8, 9e14)])
 def test_sine_and_cosine_of_small_and_large_angles(low, high, rng):
     x = ca.SX.sym("x")
-    kernel = Kernel("sincos", [x], [ca.vertcat(ca.sin(x), ca.cos(x), ca.tan(x))], "llvm")
+    kernel = Kernel("sincos", [x], [ca.vertcat(ca.sin(x), ca.cos(x), ca.tan(x))], backend="llvm")
     a = 10 ** rng.uniform(np.log10(low), np.log10(high), 20000) * rng.choice([-1, 1], 20000)
     exact = a.astype(np.longdouble)
     error = np.abs(kernel(a) - np.stack([np.sin(exact), np.cos(exact), np.tan(exact)], axis=1))
@@ -141,7 +141,7 @@ def test_one_bad_row_does_not_change_the_bits_of_its_neighbours(name, rng):
     """Library functions may treat a whole SIMD vector differently if one of its lanes is odd: then this finds it."""
     _, expression, _, (low, high) = TABLE[name]
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
-    kernel = Kernel(name, [x, y], [ca.vertcat(expression(x, y), ca.sin(x), ca.cos(x))], "llvm")
+    kernel = Kernel(name, [x, y], [ca.vertcat(expression(x, y), ca.sin(x), ca.cos(x))], backend="llvm")
     a, b = rng.uniform(low, high, (1000, kernel.lanes)), rng.uniform(-4, 4, (1000, kernel.lanes))
     clean = kernel(a.ravel(), b.ravel()).reshape(1000, kernel.lanes, 3)
     for bad in (np.nan, np.inf, -1e300, 1e17, 40.0, 5e-324, 0.0):
@@ -161,7 +161,7 @@ def test_derivatives_of_choices_take_one_side(rng):
     """|x|, min and max differentiate into sign and choices: no half values away from the kink."""
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
     f = ca.fabs(x) + ca.fmin(x, y) ** 2 + ca.if_else(x > y, ca.sin(x), x * y)
-    kernel = Kernel("slope", [x, y], [ca.gradient(f, x)], "llvm")
+    kernel = Kernel("slope", [x, y], [ca.gradient(f, x)], backend="llvm")
     a, b = rng.uniform(-3, 3, (2, 200))
     expected = np.sign(a) + np.where(a < b, 2 * a, 0) + np.where(a > b, np.cos(a), b)
     np.testing.assert_allclose(kernel(a, b), expected, rtol=1e-14, atol=1e-15)
@@ -169,7 +169,7 @@ def test_derivatives_of_choices_take_one_side(rng):
 
 def test_the_branch_not_taken_may_be_nan(rng):
     x = ca.SX.sym("x")
-    kernel = Kernel("guarded root", [x], [ca.if_else(x > 0, ca.sqrt(x), 0.0), ca.if_else(x > 0, 1 / x, x)], "llvm")
+    kernel = Kernel("guarded root", [x], [ca.if_else(x > 0, ca.sqrt(x), 0.0), ca.if_else(x > 0, 1 / x, x)], backend="llvm")
     a = np.r_[rng.uniform(-2, 2, 50), 0.0]
     root, inverse = kernel(a)
     np.testing.assert_allclose(root, np.sqrt(np.maximum(a, 0)), rtol=1e-15)
@@ -180,4 +180,4 @@ def test_constants_keep_every_bit(rng):
     values = [0.1, 1 / 3, np.pi, 1e-17, 5e-324, 1.7976931348623157e308, -1e-300, *rng.normal(size=5)]
     x = ca.SX.sym("x")
     for backend in ("llvm", "casadi"):
-        np.testing.assert_array_equal(Kernel("constants", [x], [ca.vertcat(*values)], backend)(0.0), values)
+        np.testing.assert_array_equal(Kernel("constants", [x], [ca.vertcat(*values)], backend=backend)(0.0), values)

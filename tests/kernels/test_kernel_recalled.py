@@ -39,7 +39,7 @@ def line(slope, offset=0.0):
 def root(times):
     BUILT.append("root")
     y, p = ca.SX.sym("y"), ca.SX.sym("p")
-    return Loop("root", y, [p], (y + p / y) / 2, ca.fabs(y * y - p), times=times)
+    return Loop("root", y, [p], next_state=(y + p / y) / 2, residual=ca.fabs(y * y - p), times=times)
 
 
 @recalled_data

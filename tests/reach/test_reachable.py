@@ -18,23 +18,23 @@ def panda() -> hf.Arm:
 def test_one_angle_many_angles_and_many_targets(panda, rng):
     home = np.array(arms.about("panda").home)
     pose = panda.forward_kinematics(home)
-    one = reachable_when_locked(panda, pose, "panda_joint4", home[3])
+    one = reachable_when_locked(panda, pose, "panda_joint4", at=home[3])
     assert one.success
     assert one.q[3] == home[3]
     np.testing.assert_allclose(oracles.forward(panda, one.q[None])[0], pose, atol=2e-6)
-    far = reachable_when_locked(panda, pose, 3, np.array([home[3], -0.1]))
+    far = reachable_when_locked(panda, pose, 3, at=np.array([home[3], -0.1]))
     np.testing.assert_array_equal(far.status, [Status.OK, Status.NOT_FOUND])
     q = oracles.inside(panda, rng, 5)
     for many in (
-        reachable_when_locked(panda, panda.forward_kinematics(q), 2, q[:, 2]),
-        reachable_when_locked(panda, panda.forward_kinematics(q)[:, :3, 3], 2, 0.3, task="position"),
+        reachable_when_locked(panda, panda.forward_kinematics(q), 2, at=q[:, 2]),
+        reachable_when_locked(panda, panda.forward_kinematics(q)[:, :3, 3], 2, at=0.3, task="position"),
     ):
         assert many.q.shape == (5, 7)
-    assert reachable_when_locked(panda, panda.forward_kinematics(q), 2, q[:, 2]).success.all()
+    assert reachable_when_locked(panda, panda.forward_kinematics(q), 2, at=q[:, 2]).success.all()
 
 
 def test_nan_rows_are_marked(panda):
-    found = reachable_when_locked(panda, [0.3, 0.2, 0.5], 2, [0.1, np.nan], task="position")
+    found = reachable_when_locked(panda, [0.3, 0.2, 0.5], 2, at=[0.1, np.nan], task="position")
     np.testing.assert_array_equal(found.status, [Status.OK, Status.BAD_INPUT])
 
 

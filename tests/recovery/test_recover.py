@@ -78,7 +78,9 @@ def test_what_comes_back_is_sound_and_arrives(rng, types, locks, task):
             continue
         at, goal = ends[0], arm.forward_kinematics(ends[1])
         locked = {arm.joint_names[k]: float(at[k]) for k in joints}
-        result = hf.recover(arm, locked, at, goal, task, clearance=clearance, margin=0.002, samples=0, tries=1, seed=case)
+        result = hf.recover(
+            arm, locked, at, goal=goal, task=task, clearance=clearance, margin=0.002, samples=0, tries=1, seed=case
+        )
         assert result.ending not in (Ending.PROVED_UNREACHABLE, Ending.LOCK_ELSEWHERE, Ending.START_TOO_CLOSE), result.reason
         assert result.proof is None
         if len(result.q):
@@ -126,8 +128,8 @@ def test_a_configuration_that_the_lock_forbids_is_never_home():
 def maze(closed: bool = False) -> tuple[hf.Arm, Clearance]:
     """Three links, and a wall of the base along x: the last link must be drawn back to pass; closed, nothing passes."""
     arm = limited(three_links(), [-3.0, -2.6, -2.8], [3.0, 2.6, 2.8])
-    links = [Capsule(k, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 0.05) for k in (1, 2)]
-    wall = Capsule(-1, (0.5 if closed else 2.2, 0.0, 0.0), (3.2, 0.0, 0.0), 0.08)
+    links = [Capsule(k, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), radius=0.05) for k in (1, 2)]
+    wall = Capsule(-1, (0.5 if closed else 2.2, 0.0, 0.0), (3.2, 0.0, 0.0), radius=0.08)
     return arm, Clearance(arm, Capsules((*links, wall)))
 
 
@@ -138,7 +140,7 @@ def test_around_a_wall_that_the_straight_line_runs_through():
     arm, clearance = maze()
     assert clearance(np.stack([START, GOAL])).min() > 0.05
     assert clearance(fine(np.stack([START, GOAL]))).min() < -0.02
-    result = hf.recover(arm, {"joint2": -0.4}, START, GOAL, clearance=clearance, margin=0.01, samples=0)
+    result = hf.recover(arm, {"joint2": -0.4}, START, goal=GOAL, clearance=clearance, margin=0.01, samples=0)
     assert result.ending == Ending.HOME, result.describe()
     assert_sound(result, START, {"joint2": -0.4}, clearance)
     np.testing.assert_allclose(result.q[-1], GOAL, atol=1e-9)
@@ -175,7 +177,7 @@ def shortest_on_grid(arm: hf.Arm, clearance: Clearance, margin: float, start: np
 
 def test_behind_a_closed_wall_no_route_is_claimed():
     arm, clearance = maze(closed=True)
-    result = hf.recover(arm, ["joint2"], START, GOAL, clearance=clearance, samples=0, tries=1)
+    result = hf.recover(arm, ["joint2"], START, goal=GOAL, clearance=clearance, samples=0, tries=1)
     assert result.ending == Ending.NO_ROUTE_FOUND, result.describe()
     assert len(result.q) == 0
     assert not result.ok
@@ -186,7 +188,9 @@ def test_behind_a_closed_wall_no_route_is_claimed():
 
 def test_the_same_seed_gives_the_same_way():
     arm, clearance = maze()
-    runs = [hf.recover(arm, {"joint2": -0.4}, START, GOAL, clearance=clearance, samples=0, tries=1, seed=s) for s in (3, 3, 4)]
+    runs = [
+        hf.recover(arm, {"joint2": -0.4}, START, goal=GOAL, clearance=clearance, samples=0, tries=1, seed=s) for s in (3, 3, 4)
+    ]
     np.testing.assert_array_equal(runs[0].q, runs[1].q)
     assert runs[0].q.shape != runs[2].q.shape or (runs[0].q != runs[2].q).any()
 
@@ -196,7 +200,7 @@ def test_the_same_seed_gives_the_same_way():
 
 def test_a_joint_without_limits_takes_the_short_way_round():
     arm = three_links()
-    result = hf.recover(arm, ["joint2"], [3.0, 0.5, 0.0], [-3.0, 0.5, 0.1], samples=0)
+    result = hf.recover(arm, ["joint2"], [3.0, 0.5, 0.0], goal=[-3.0, 0.5, 0.1], samples=0)
     assert result.ok
     assert result.q[-1] == pytest.approx([2 * np.pi - 3.0, 0.5, 0.1])
     assert result.length == pytest.approx(np.hypot(2 * np.pi - 6.0, 0.1))
@@ -212,7 +216,7 @@ def test_time_is_that_of_the_slowest_joint():
     assert result.unit == "s"
     assert result.length == pytest.approx(max(0.5 / speed[0], 0.4 / speed[5]))
     with pytest.raises(hf.InputError, match="velocity limits"):
-        hf.recover(three_links(), ["joint1"], np.zeros(3), np.zeros(3), metric="time")
+        hf.recover(three_links(), ["joint1"], np.zeros(3), goal=np.zeros(3), metric="time")
 
 
 def test_weights_change_which_configuration_is_nearest():
@@ -220,8 +224,8 @@ def test_weights_change_which_configuration_is_nearest():
     arm = three_links()
     at = np.array([0.0, 0.0, 1.2])
     pose = arm.forward_kinematics([0.1, 0.0, -1.0])
-    near = hf.recover(arm, ["joint2"], at, pose, samples=0, weights=[1.0, 1.0, 5.0])
-    far = hf.recover(arm, ["joint2"], at, pose, samples=0, weights=[5.0, 1.0, 1.0])
+    near = hf.recover(arm, ["joint2"], at, goal=pose, samples=0, weights=[1.0, 1.0, 5.0])
+    far = hf.recover(arm, ["joint2"], at, goal=pose, samples=0, weights=[5.0, 1.0, 1.0])
     assert near.found == far.found == 2
     assert near.q[-1, 2] * at[2] > 0
     assert far.q[-1, 2] * at[2] < 0
@@ -235,7 +239,7 @@ def test_beyond_the_circles_it_is_proved(radius, word):
     arm, angle = three_links(), 0.8
     first = 2 * np.cos(angle / 2)  # joint1 to joint3, joint2 standing
     pose = oracles.pose(None, [radius, 0.0, 0.0])
-    result = hf.recover(arm, {"joint2": angle}, [0.0, angle, 0.3], pose, samples=0)
+    result = hf.recover(arm, {"joint2": angle}, [0.0, angle, 0.3], goal=pose, samples=0)
     assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
     assert result.proof is not None
     assert word in result.proof
@@ -274,7 +278,7 @@ def test_the_turn_about_the_tool_is_given_up_first():
     locked = ["panda_joint3", "panda_joint7"]
     moved = at + np.array([0.4, 0.3, 0.0, 0.2, -0.3, 0.2, 0.0])
     pose = arm.forward_kinematics(moved) @ oracles.pose(Rotation.from_euler("z", 0.4).as_matrix())
-    result = hf.recover(arm, locked, at, pose, samples=0)
+    result = hf.recover(arm, locked, at, goal=pose, samples=0)
     assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
     assert result.given_up is not None
     assert result.given_up.names == ("about tool z",)
@@ -285,7 +289,7 @@ def test_the_turn_about_the_tool_is_given_up_first():
     np.testing.assert_allclose(reached[:3, 2], pose[:3, 2], atol=3e-6)
     turn = Rotation.from_matrix(reached[:3, :3].T @ pose[:3, :3]).magnitude()
     assert turn == pytest.approx(result.given_up.misses[0], abs=1e-5)
-    pointing = hf.recover(arm, locked, at, pose, "pointing", samples=0)
+    pointing = hf.recover(arm, locked, at, goal=pose, task="pointing", samples=0)
     assert pointing.ending == Ending.HOME
 
 
@@ -345,7 +349,7 @@ def test_bad_input_is_one_clear_sentence(change, sentence):
 def test_what_is_left_is_the_ring(rng):
     """Links of 1 m, joint2 standing: between two circles about joint1, known exactly."""
     arm, angle = three_links(), float(rng.uniform(0.6, 2.4))
-    left = hf.recover(arm, {"joint2": angle}, [0.1, angle, 0.3], [0.0, angle, 0.2], samples=400).left
+    left = hf.recover(arm, {"joint2": angle}, [0.1, angle, 0.3], goal=[0.0, angle, 0.2], samples=400).left
     assert left is not None
     radius = np.linalg.norm(left.position[:, :2], axis=1)
     first = 2 * np.cos(angle / 2)
@@ -361,7 +365,7 @@ def test_what_is_left_is_the_ring(rng):
 def test_what_is_left_of_a_region_counts_what_the_healthy_arm_reaches():
     arm = three_links()
     region = hf.Region.box([2.5, 0.0, 0.0], [2.0, 0.2, 0.0], name="strip")
-    found = hf.recover(arm, {"joint2": 0.0}, np.zeros(3), np.zeros(3), region=region, samples=300)
+    found = hf.recover(arm, {"joint2": 0.0}, np.zeros(3), goal=np.zeros(3), region=region, samples=300)
     left = found.left
     assert left is not None
     radius = np.linalg.norm(left.position[:, :2], axis=1)
@@ -381,7 +385,7 @@ def test_the_rest_of_a_path_is_followed_and_then_home():
     at = np.array([0.3, 0.7, 0.9])
     here = arm.forward_kinematics(at)[:3, 3]
     path = hf.paths.line(here, here + np.array([-0.5, -0.4, 0.0]))
-    result = hf.recover(arm, ["joint2"], at, [0.2, 0.7, 0.1], path=path, samples=0)
+    result = hf.recover(arm, ["joint2"], at, goal=[0.2, 0.7, 0.1], path=path, samples=0)
     assert result.ok, result.describe()
     assert [leg.name for leg in result.legs] == ["along the path", "to the goal"]
     assert_sound(result, at, {"joint2": 0.7}, None)
@@ -391,7 +395,7 @@ def test_the_rest_of_a_path_is_followed_and_then_home():
     for share, q in zip(result.rest.share, result.q[along.first : along.last + 1], strict=True):
         np.testing.assert_allclose(hand(arm, q)[:3, 3], path.pose(share)[:3, 3], atol=3e-6)
     np.testing.assert_allclose(result.q[-1], [0.2, 0.7, 0.1], atol=1e-9)
-    alone = hf.recover(arm, ["joint2"], at, None, path=path, samples=0)
+    alone = hf.recover(arm, ["joint2"], at, goal=None, path=path, samples=0)
     assert alone.ok
     assert alone.goal_pose is None
 
@@ -401,7 +405,7 @@ def test_a_path_out_of_reach_is_not_finished_though_home_is_reached():
     at = np.array([0.3, 0.7, 0.9])
     here = arm.forward_kinematics(at)[:3, 3]
     path = hf.paths.line(here, here + np.array([2.5, 2.5, 0.0]))
-    result = hf.recover(arm, ["joint2"], at, [0.2, 0.7, 0.1], path=path, samples=0)
+    result = hf.recover(arm, ["joint2"], at, goal=[0.2, 0.7, 0.1], path=path, samples=0)
     assert result.ending in (Ending.PATH_UNFINISHED, Ending.HOME_WITH_ROWS_GIVEN_UP)
     assert not result.ok
     rest = result.rest
@@ -421,7 +425,7 @@ def test_a_path_is_approached_if_the_hand_is_not_on_it():
     at = np.array(hf.arms.about("panda").home)
     there = arm.forward_kinematics(at + np.array([0.3, 0.1, 0.0, 0.0, 0.1, 0.1, 0.0]))[:3, 3]
     path = hf.paths.line(there, there + np.array([-0.05, 0.1, 0.05]))
-    result = hf.recover(arm, ["panda_joint4"], at, None, path=path, samples=0)
+    result = hf.recover(arm, ["panda_joint4"], at, goal=None, path=path, samples=0)
     assert result.ok, result.describe()
     assert [leg.name for leg in result.legs] == ["to the path", "along the path"]
     assert_sound(result, at, {"panda_joint4": at[3]}, Clearance(arm))

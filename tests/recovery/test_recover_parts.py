@@ -130,7 +130,7 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     home = np.array(hf.arms.about("panda").home)
     bad = home.copy()
     bad[[1, 3]] = 2.0, -2.0  # beyond a limit, and joint 4 moves
-    replay = check_waypoints(arm, [home, bad], {"panda_joint4": float(home[3])}, Clearance(arm))
+    replay = check_waypoints(arm, [home, bad], {"panda_joint4": float(home[3])}, clearance=Clearance(arm))
     assert not replay.ok
     assert replay.beyond_limits == {"panda_joint2": pytest.approx(2.0 - arm.upper[1])}
     assert replay.locks_moved == {"panda_joint4": pytest.approx(abs(-2.0 - home[3]))}
@@ -139,7 +139,7 @@ def test_a_replay_sees_what_is_wrong_between_waypoints():
     other[[1, 3, 5]] = 0.5, -2.9, 3.6
     fine = home + np.linspace(0, 1, 4001)[:, None] * (other - home)
     clearance = Clearance(arm)
-    replay = check_waypoints(arm, [home, other], (), clearance, 0.5)
+    replay = check_waypoints(arm, [home, other], (), clearance=clearance, margin=0.5)
     assert not replay.ok
     assert replay.least_clearance == pytest.approx(clearance(fine).min(), abs=2e-3)
     assert any("NOT KEPT" in line for line in replay.describe())

@@ -33,7 +33,18 @@ def cells(points, bins):
 @pytest.mark.parametrize("median", [False, True])
 def test_whole_weights_are_so_many_poses(rng, median):
     points, values, weights = rng.random((150, 3)), rng.random(150), rng.integers(0, 5, 150)
-    shown = written(map_figure(points, {"found": values}, [SIDE], False, median, "m", 3, weights.astype(float)))
+    shown = written(
+        map_figure(
+            points,
+            {"found": values},
+            [SIDE],
+            log=False,
+            smaller_is_better=median,
+            label="m",
+            bins=3,
+            weights=weights.astype(float),
+        )
+    )
     place = cells(points, 3)
     for cell in set(place):
         mine = [k for k, c in enumerate(place) if c == cell]
@@ -47,8 +58,10 @@ def test_whole_weights_are_so_many_poses(rng, median):
 
 def test_shares_count_by_weight_and_equal_weights_change_nothing(rng):
     points, having = rng.random((90, 3)), rng.random(90) < 0.5
-    plain, equal = (written(share_figure(points, [("a", having)], SIDE, "s", 3, w)) for w in (None, np.full(90, 0.3)))
+    plain, equal = (
+        written(share_figure(points, [("a", having)], SIDE, label="s", bins=3, weights=w)) for w in (None, np.full(90, 0.3))
+    )
     assert plain == equal
-    heavy = written(share_figure(points, [("a", having)], SIDE, "s", 3, np.where(having, 1.0, 0.0)))
+    heavy = written(share_figure(points, [("a", having)], SIDE, label="s", bins=3, weights=np.where(having, 1.0, 0.0)))
     place = cells(points, 3)
     assert {c for c, t in heavy.items() if t == "1.00"} == {c for c, h in zip(place, having, strict=True) if h}

@@ -50,18 +50,46 @@ def some_figures() -> list[Figure]:
     views = [View(0, 2, "Side"), View(0, 1, "Top")]
     chain = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 1.0], [1, 0, 1]])
     scene = Scene(
-        points, values, points[:5] + 1, chain, chain[1:], np.array([True, False, False]), np.array([[0, 0, 0], [1, 1, 1.0]])
+        points,
+        values,
+        points[:5] + 1,
+        chain=chain,
+        nodes=chain[1:],
+        square=np.array([True, False, False]),
+        box=np.array([[0, 0, 0], [1, 1, 1.0]]),
     )
     return [
-        cdf_figure(curves, marks, "value", "share", "title"),
-        distribution_figure(Bin(x[::7], np.ones(7), "", "density"), curves, marks, "value", "share", ("a", "b")),
+        cdf_figure(curves, marks, "value", ylabel="share", title="title"),
+        distribution_figure(
+            Bin(x[::7], np.ones(7), "", ylabel="density"),
+            curves,
+            marks,
+            xlabel="value",
+            ylabel="share",
+            titles=("a", "b"),
+        ),
         bar_figure([NASTY, "two"], [3, 0], "times"),
         bar_figure(["none"], [0], "times"),
-        view_figure(scene, views, Scale.of(values), "value", [("dot", "point"), ("slide", "slider"), ("cross", "none")]),
-        view_figure(Scene(points[:0], values[:0], points[:0]), views[:1], Scale.of(values[:0]), "value", [("box", "box")]),
-        map_figure(points, {"found": values, "best": np.where(values < 0.1, np.nan, values + 1)}, views, False, False, "mean"),
-        map_figure(points, {"found": 10 ** (6 * values)}, views[:1], True, True, "median"),
-        map_figure(points, {"found": np.full(300, np.inf)}, views[:1], True, True, "median"),
+        view_figure(
+            scene, views, Scale.of(values), label="value", legend=[("dot", "point"), ("slide", "slider"), ("cross", "none")]
+        ),
+        view_figure(
+            Scene(points[:0], values[:0], points[:0]),
+            views[:1],
+            Scale.of(values[:0]),
+            label="value",
+            legend=[("box", "box")],
+        ),
+        map_figure(
+            points,
+            {"found": values, "best": np.where(values < 0.1, np.nan, values + 1)},
+            views,
+            log=False,
+            smaller_is_better=False,
+            label="mean",
+        ),
+        map_figure(points, {"found": 10 ** (6 * values)}, views[:1], log=True, smaller_is_better=True, label="median"),
+        map_figure(points, {"found": np.full(300, np.inf)}, views[:1], log=True, smaller_is_better=True, label="median"),
     ]
 
 
@@ -70,7 +98,7 @@ def test_a_page_of_everything() -> None:
     table = Table([[NASTY, "1"], ["b", "2"]], ["name", "number"], frozenset({1}), caption=NASTY)
     keys = Table([["key", NASTY]])
     blocks = [Text(NASTY), Callout(NASTY, "bad", NASTY), table, keys, Code(NASTY, NASTY), *pictures]
-    html = render(Page(NASTY, NASTY, [Section(NASTY, blocks)], NASTY, [Callout(NASTY)], NASTY))
+    html = render(Page(NASTY, NASTY, [Section(NASTY, blocks)], subtitle=NASTY, warnings=[Callout(NASTY)], footer=NASTY))
     assert {"svg", "table", "pre"} <= check(html).tags
     assert "&lt;script&gt;" in html
     assert 'class="number">2<' in html

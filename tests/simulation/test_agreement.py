@@ -30,7 +30,7 @@ def test_runs_end_as_an_independent_integrator_says(agreement, generator):
     for index, count in ((0, 120), (5, 80)):
         family = agreement.FAMILIES[index]
         c = agreement.cases(family, seed)
-        runs = simulate(agreement.law_of(family), c.q0[:count], c.target[:count], c.lock[:count], time_limit=LIMIT)
+        runs = simulate(agreement.law_of(family), c.q0[:count], c.target[:count], locked=c.lock[:count], time_limit=LIMIT)
         hand = agreement.rates_of(family)[1]
         for k in range(count):
             with np.errstate(all="ignore"):

@@ -228,7 +228,7 @@ def test_only_what_goes_on_is_said_to_circle(three, random_runs, monkeypatch):
 
     monkeypatch.setattr(compiled, "MOST_STEPS", 250)
     q0, x, locked, runs = random_runs
-    few = simulate(three, q0, x, locked)
+    few = simulate(three, q0, x, locked=locked)
     assert (few.reason == Reason.STEPS).any()
     moving = few.outcome == "moving"
     assert moving.any()
@@ -254,7 +254,7 @@ def random_runs(three, generator):
     q0 = rng.uniform(-np.pi, np.pi, (count, 3))
     x = 2.6 * np.sqrt(rng.uniform(0.02, 1, count))[:, None] * directions(rng, count)
     locked = rng.integers(1, 3, count)  # joint 1 locked leaves singular points that attract
-    return q0, x, locked, simulate(three, q0, x, locked)
+    return q0, x, locked, simulate(three, q0, x, locked=locked)
 
 
 def directions(rng, count):
@@ -299,7 +299,7 @@ def test_what_is_noted_on_the_way_is_that_of_scipy(three, random_runs):
         path = runs.path(k, 8001, until=20.0)
         q = found.sol(path.time).T
         np.testing.assert_allclose(path.q, q, atol=1e-7)
-        short = simulate(three, q0[k], x[k], [int(locked[k])], time_limit=20.0)
+        short = simulate(three, q0[k], x[k], locked=[int(locked[k])], time_limit=20.0)
         np.testing.assert_allclose([short.q_low, short.q_high], [q.min(axis=0), q.max(axis=0)], atol=5e-5)
         s = np.cumsum(q, axis=1)
         error = np.hypot(np.cos(s).sum(axis=1) - x[k, 0], np.sin(s).sum(axis=1) - x[k, 1])
@@ -336,7 +336,7 @@ def test_the_outcome_does_not_depend_on_tolerance(rng, joints, task):
     target = arm.forward_kinematics(q0 + rng.uniform(-0.8, 0.8, (count, joints)))
     locked = rng.integers(0, joints, count)
     law = Pseudoinverse(arm, task)
-    every = [simulate(law, q0, target, locked, tolerance=t, time_limit=40.0) for t in (1e-6, 1e-9, 1e-12)]
+    every = [simulate(law, q0, target, locked=locked, tolerance=t, time_limit=40.0) for t in (1e-6, 1e-9, 1e-12)]
     compared = 0
     for k in range(count):
         found, error, clear = spatial(arm, task, q0[k], target[k], locked[k])
@@ -355,7 +355,7 @@ def test_the_outcome_does_not_depend_on_tolerance(rng, joints, task):
 def test_fixed_steps_end_where_adaptive_ones_do(three, random_runs):
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 200)[:60]
-    fixed = simulate(three, q0[few], x[few], locked[few], method="rk4", step=0.02)
+    fixed = simulate(three, q0[few], x[few], locked=locked[few], method="rk4", step=0.02)
     smooth = np.isin(fixed.code, (Outcome.CONVERGED, Outcome.STUCK))
     assert smooth.mean() > 0.9
     assert (fixed.code[smooth] == runs.code[few][smooth]).all()
@@ -365,10 +365,10 @@ def test_fixed_steps_end_where_adaptive_ones_do(three, random_runs):
 def test_batch_is_single_and_threads_do_not_matter(three, random_runs, threads):
     q0, x, locked, runs = random_runs
     threads(1)
-    again = simulate(three, q0[:40], x[:40], locked[:40])
+    again = simulate(three, q0[:40], x[:40], locked=locked[:40])
     for name in ("q_final", "error", "closest", "path_length", "q_low", "time", "code"):
         np.testing.assert_array_equal(getattr(again, name), getattr(runs, name)[:40])
-    one = simulate(three, q0[7], x[7], [int(locked[7])])
+    one = simulate(three, q0[7], x[7], locked=[int(locked[7])])
     assert one.q_final.shape == (3,)
     assert one.code.shape == ()
     assert isinstance(str(one.outcome), str)
@@ -393,11 +393,11 @@ def test_gain_and_speed_limit_only_take_time(three, random_runs):
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 100)[:20]
     slow = Pseudoinverse(three.arm, "planar", gain=4.0, speed_limit=0.1)
-    limited = simulate(slow, q0[few], x[few], locked[few])
+    limited = simulate(slow, q0[few], x[few], locked=locked[few])
     assert (limited.code == runs.code[few]).all()
     assert np.abs(limited.x_final - runs.x_final[few]).max() < 1e-6
     assert np.abs(limited.path_length - runs.path_length[few]).max() < 1e-4
-    far = np.linalg.norm(x[few] - simulate(three, q0[few], q_target(three, q0[few]), locked[few]).x_final, axis=1) > 1
+    far = np.linalg.norm(x[few] - simulate(three, q0[few], q_target(three, q0[few]), locked=locked[few]).x_final, axis=1) > 1
     assert (limited.time[far] > 8).all()
 
 
@@ -429,7 +429,7 @@ def test_a_joint_that_locks_on_the_way(three, rng):
 def test_every_sample_of_a_path_with_locks_on_the_way_is_that_of_scipy(three, rng, method):
     """Before the first lock, between the two and after them."""
     q0, x, locks = rng.uniform([-3, 0.6, 0.6], [3, 1.6, 1.6]), rng.uniform(-1.5, 1.5, 2), [1, 0]
-    path = simulate(three, q0, x, locks, method=method, time_limit=4.0, time=[0.5, 1.2]).path(0, 47)
+    path = simulate(three, q0, x, locked=locks, method=method, time_limit=4.0, time=[0.5, 1.2]).path(0, 47)
     expected, q, ends = np.empty((47, 3)), q0, [0.0, 0.5, 1.2, 4.0]
     for k, mask in enumerate(([1, 1, 1], [1, 0, 1], [0, 0, 1])):
         found = solve_ivp(
@@ -457,23 +457,23 @@ def test_lock_times_of_each_run(three, rng, cycles):
         rng.uniform(size=(count, 3)) < 0.5, np.inf, np.floor(rng.uniform(0, 6, (count, 3))) * (1 if cycles else 0.3)
     )
     times[0], times[1] = np.inf, 0.0
-    runs = simulate(law, q0, x, times, cycles=cycles)
+    runs = simulate(law, q0, x, locked=times, cycles=cycles)
     np.testing.assert_array_equal(runs.lock_time, times)
     for k in range(count):
         joints = np.flatnonzero(np.isfinite(times[k])).tolist()
-        alone = simulate(law, q0[k], x[k], joints, cycles=cycles, time=times[k, joints])
+        alone = simulate(law, q0[k], x[k], locked=joints, cycles=cycles, time=times[k, joints])
         np.testing.assert_array_equal(runs.q_final[k], alone.q_final)
         assert (runs.code[k], runs.time[k]) == (alone.code, alone.time)
     np.testing.assert_array_equal(runs.q_final[1], q0[1])
     path = runs.path(2, 50)
     assert (path.locked == (path.time[:, None] >= times[2])).all()
-    one = simulate(law, q0[0], x[0], times[3:4], cycles=cycles)
+    one = simulate(law, q0[0], x[0], locked=times[3:4], cycles=cycles)
     assert one.q_final.shape == (1, 3)
 
 
 def test_whole_numbers_are_lock_times_too(three):
     q0, x = RAD([20.0, 40.0, 60.0]), [-0.5, 1.8]
-    runs = simulate(three, q0, x, np.array([[0, 1, 2], [1, 0, 2]]))
+    runs = simulate(three, q0, x, locked=np.array([[0, 1, 2], [1, 0, 2]]))
     np.testing.assert_array_equal(runs.lock_time, [[0, 1, 2], [1, 0, 2]])
     assert runs.q_final[0, 0] == q0[0]
 
@@ -512,7 +512,7 @@ def test_a_law_of_many_operations_takes_its_stages_one_by_one(three, monkeypatch
     monkeypatch.setattr(runge_kutta, "_SMALL", 10)
     q0, x, locked, runs = random_runs
     few = np.flatnonzero(runs.time < 100)[:20]
-    staged = simulate(Pseudoinverse(three.arm, "planar"), q0[few], x[few], locked[few])
+    staged = simulate(Pseudoinverse(three.arm, "planar"), q0[few], x[few], locked=locked[few])
     assert (staged.code == runs.code[few]).all()
     np.testing.assert_allclose(staged.q_final, runs.q_final[few], atol=1e-9)
     np.testing.assert_allclose(staged.path_length, runs.path_length[few], atol=1e-9)
@@ -549,7 +549,7 @@ def test_cycles(three, rng):
     assert done.mean() > 0.8
     assert np.isin(runs.time[done], (38, 39, 40, 41)).mean() > 0.9
     locked = rng.integers(0, 3, 40)
-    failed = simulate(law, q0, x, locked, cycles=True)
+    failed = simulate(law, q0, x, locked=locked, cycles=True)
     for k in np.flatnonzero(failed.outcome == "converged")[:5]:
         cycle, q = euler(law, q0[k], x[k], np.arange(3) != locked[k])
         assert failed.time[k] == cycle
@@ -588,7 +588,7 @@ def test_rows_with_nan_are_undecided_and_alone(three, random_runs):
     q0, x, locked, runs = random_runs
     starts, targets = q0[:8].copy(), x[:8].copy()
     starts[2, 1], targets[5, 0] = np.nan, np.nan
-    found = simulate(three, starts, targets, locked[:8])
+    found = simulate(three, starts, targets, locked=locked[:8])
     bad = np.isin(np.arange(8), (2, 5))
     assert (found.reason[bad] == Reason.BAD_INPUT).all()
     assert np.isnan(found.q_final[bad]).all()
@@ -645,4 +645,6 @@ def test_pose_tasks_want_poses(panda):
 
 def test_an_angle_given_with_a_lock_is_refused_and_not_ignored(two):
     with pytest.raises(hf.InputError, match=r"locked has 0.5 for 'joint2'; a joint locks where it is: .* its value in q0"):
-        hf.simulate(hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), [0.1, 0.2, 0.3], [1, 1], {"joint2": 0.5})
+        hf.simulate(
+            hf.control.pseudoinverse(hf.arms.load("planar-3r"), "planar"), [0.1, 0.2, 0.3], [1, 1], locked={"joint2": 0.5}
+        )

@@ -21,16 +21,16 @@ def pendulum(inertia: float = 0.0, **joint) -> hf.Arm:
     """A heavy point on a light rod along x, turning about -y: level at q = 0, upright at pi/2."""
     link = hf.Link(MASS, np.array([LENGTH, 0, 0]), inertia * np.eye(3))
     return hf.Arm(
-        "pendulum",
-        (hf.Joint("hinge", "continuous", np.eye(4), np.array([0.0, -1, 0]), **joint),),
-        (link,),
+        name="pendulum",
+        joints=(hf.Joint("hinge", "continuous", np.eye(4), axis=np.array([0.0, -1, 0]), **joint),),
+        links=(link,),
         tool=oracles.pose(None, [LENGTH, 0, 0]),
     )
 
 
 def slide(lower: float, upper: float, axis=(0.0, 0, 1)) -> hf.Arm:
-    joint = hf.Joint("lift", "prismatic", np.eye(4), np.array(axis), lower, upper)
-    return hf.Arm("slide", (joint,), (hf.Link(MASS, np.zeros(3), np.eye(3)),))
+    joint = hf.Joint("lift", "prismatic", np.eye(4), axis=np.array(axis), lower=lower, upper=upper)
+    return hf.Arm(name="slide", joints=(joint,), links=(hf.Link(MASS, np.zeros(3), np.eye(3)),))
 
 
 def drawn(rng, **options) -> tuple[hf.Arm, np.ndarray]:

@@ -88,7 +88,7 @@ def test_the_motion_is_that_of_another_simulator(rng):
     law = hf.control.pseudoinverse(arm, "position")
     target = oracles.forward(arm, q0[None])[0, :3, 3] + 0.2 * rng.normal(size=3)
     servos = hf.Servos(bandwidth=4.0, ratio=1.2, rate=100.0, compensation=0.9, step=1e-4)
-    run = hf.simulate_physics(law, q0, target, [2], servos, time_limit=0.6, time=0.3)
+    run = hf.simulate_physics(law, q0, target, locked=[2], servos=servos, time_limit=0.6, time=0.3)
     expected = by_pinocchio(arm, law, run, target, 0.6, (2, 0.3))
     moved = np.abs(expected - q0).max()
     np.testing.assert_allclose(run.q[: len(expected)], expected, atol=1e-3 * moved + 1e-6)
@@ -100,19 +100,19 @@ def test_two_links_move_as_the_textbook_says():
     l1, l2, c1, c2, m1, m2, i1, i2, g = 0.6, 0.5, 0.25, 0.2, 3.0, 2.0, 0.08, 0.05, 9.81
     turn = np.array([0.0, 0, 1])
     arm = hf.Arm(
-        "two links",
-        (
-            hf.Joint("first", "continuous", np.eye(4), turn),
-            hf.Joint("second", "continuous", oracles.pose(position=[l1, 0, 0]), turn),
+        name="two links",
+        joints=(
+            hf.Joint("first", "continuous", np.eye(4), axis=turn),
+            hf.Joint("second", "continuous", oracles.pose(position=[l1, 0, 0]), axis=turn),
         ),
-        (hf.Link(m1, np.array([c1, 0, 0]), i1 * np.eye(3)), hf.Link(m2, np.array([c2, 0, 0]), i2 * np.eye(3))),
+        links=(hf.Link(m1, np.array([c1, 0, 0]), i1 * np.eye(3)), hf.Link(m2, np.array([c2, 0, 0]), i2 * np.eye(3))),
         tool=oracles.pose(position=[l2, 0, 0]),
         gravity=np.array([0, -g, 0]),
     )
     law = hf.control.pseudoinverse(arm, "planar", gain=1.5)
     q, target = np.array([0.4, 1.1]), np.array([-0.2, 0.7])
     servos = hf.Servos(bandwidth=3.0, ratio=1.0, rate=50.0, compensation=0.8, step=1e-4)
-    run = hf.simulate_physics(law, q, target, [1], servos, time_limit=0.6, time=0.3)
+    run = hf.simulate_physics(law, q, target, locked=[1], servos=servos, time_limit=0.6, time=0.3)
     period, lead = 1 / 50.0, leads(arm, run.stiffness)
     v, reference, path = np.zeros(2), q.copy(), [q.copy()]
 
@@ -165,7 +165,7 @@ def test_a_joint_that_locks_while_moving_passes_on_no_momentum_that_is_not_there
 
 @pytest.mark.parametrize(("k", "at"), [(4, 0.0), (3, 0.5)])
 def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, k, at):
-    run = hf.simulate_physics(law, home, goal, {k: None}, hf.Servos(bandwidth=20.0), time=at)
+    run = hf.simulate_physics(law, home, goal, locked={k: None}, servos=hf.Servos(bandwidth=20.0), time=at)
     assert (run.outcome, run.reason, run.agrees) == ("converged", "none", True)
     assert run.path_distance < (2e-3 if at else 1e-3)  # a lock on the way is a blow
     assert run.terminal_distance < 1e-6
@@ -178,19 +178,19 @@ def test_stiff_and_slow_is_the_kinematic_path(law, home, goal, k, at):
 
 
 def test_softer_servos_go_farther_astray(law, home, goal):
-    apart = [hf.simulate_physics(law, home, goal, [4], hf.Servos(bandwidth=b)).path_distance for b in (20.0, 2.0)]
+    apart = [hf.simulate_physics(law, home, goal, locked=[4], servos=hf.Servos(bandwidth=b)).path_distance for b in (20.0, 2.0)]
     assert apart[1] > 2 * apart[0]
 
 
 def test_compensated_gravity_is_no_gravity(law, panda, home, goal):
     weightless = replace(panda, gravity=np.zeros(3))
     same = hf.control.pseudoinverse(weightless, "position", gain=2.0, speed_limit=0.1)
-    runs = [hf.simulate_physics(x, home, goal, [4], time_limit=1.0) for x in (law, same)]
+    runs = [hf.simulate_physics(x, home, goal, locked=[4], time_limit=1.0) for x in (law, same)]
     np.testing.assert_allclose(runs[0].q, runs[1].q, atol=1e-8)
     weight = dynamics.gravity_torque(panda, home)
     weight[4] = 0
     np.testing.assert_allclose((runs[0].torque - runs[1].torque)[0], weight, atol=5e-3)  # the first period's mean
-    uncompensated = hf.simulate_physics(law, home, goal, [4], hf.Servos(compensation=0.0))
+    uncompensated = hf.simulate_physics(law, home, goal, locked=[4], servos=hf.Servos(compensation=0.0))
     assert uncompensated.outcome == "converged"  # the law sees the true configuration
     assert uncompensated.path_distance > runs[0].path_distance
 
@@ -198,7 +198,7 @@ def test_compensated_gravity_is_no_gravity(law, panda, home, goal):
 @pytest.mark.parametrize(("phi", "angle"), [(120, -261.7868), (75, 28.0389 - 360)])
 def test_the_published_two_link_arm_ends_where_it_does_on_paper(two, phi, angle):
     target = [1 + 2 * np.cos(RAD(phi)), 2 * np.sin(RAD(phi))]
-    run = hf.simulate_physics(two, RAD([0.0, -30.0]), target, [0], hf.Servos(bandwidth=5.0, rate=250.0))
+    run = hf.simulate_physics(two, RAD([0.0, -30.0]), target, locked=[0], servos=hf.Servos(bandwidth=5.0, rate=250.0))
     assert run.outcome == "stuck"
     assert run.agrees
     assert np.rad2deg(run.q[-1, 1]) == pytest.approx(angle, abs=1e-2)
@@ -207,14 +207,16 @@ def test_the_published_two_link_arm_ends_where_it_does_on_paper(two, phi, angle)
 
 def test_the_published_two_link_arm_that_never_rests_keeps_turning(two):
     target = [1 + 2 * np.cos(RAD(60)), 2 * np.sin(RAD(60))]
-    run = hf.simulate_physics(two, RAD([0.0, -30.0]), target, [0], hf.Servos(bandwidth=5.0, rate=250.0), time_limit=20.0)
+    run = hf.simulate_physics(
+        two, RAD([0.0, -30.0]), target, locked=[0], servos=hf.Servos(bandwidth=5.0, rate=250.0), time_limit=20.0
+    )
     assert (run.outcome, run.agrees) == ("moving", True)
     assert np.ptp(run.q[:, 1]) / run.time[-1] == pytest.approx(1.732051, rel=1e-2)
     assert run.path_distance < 0.02
 
 
 def test_where_nothing_moves(two):
-    run = hf.simulate_physics(two, RAD([0.0, -30.0]), [1.0, 1.0], [0, 1])
+    run = hf.simulate_physics(two, RAD([0.0, -30.0]), [1.0, 1.0], locked=[0, 1])
     assert (run.outcome, run.agrees, run.path_distance) == ("stuck", True, 0.0)
     assert run.tracking_error.tolist() == run.saturated.tolist() == [0, 0]
 
@@ -226,7 +228,7 @@ def test_weak_motors_saturate_within_their_effort_and_lag(panda, home, goal):
     weight = np.abs(dynamics.gravity_torque(panda, home))
     weak = replace(panda, joints=tuple(replace(j, effort=1.05 * w + 0.1) for j, w in zip(panda.joints, weight, strict=True)))
     law = hf.control.pseudoinverse(weak, "position", gain=2.0, speed_limit=0.1)
-    run = hf.simulate_physics(law, home, goal, [4], time_limit=1.5)
+    run = hf.simulate_physics(law, home, goal, locked=[4], time_limit=1.5)
     effort = np.array([j.effort for j in weak.joints])
     assert (np.abs(run.torque) <= effort * (1 + 1e-12)).all()
     assert run.saturated.max() > 0.02
@@ -237,14 +239,14 @@ def test_weak_motors_saturate_within_their_effort_and_lag(panda, home, goal):
 
 
 def test_what_is_not_decided_says_why(two, law, home, goal):
-    short = hf.simulate_physics(law, home, goal, [4], time_limit=3.0)
+    short = hf.simulate_physics(law, home, goal, locked=[4], time_limit=3.0)
     assert (short.outcome, short.reason, short.agrees) == ("undecided", "slow", False)
     assert short.time[-1] == pytest.approx(3.0)
     singular = hf.simulate_physics(two, [0.0, 0.0], [1.0, 1.0])
     assert (singular.outcome, singular.reason) == ("undecided", "singular")
     wild = hf.Servos(bandwidth=2000.0, ratio=1e-4, rate=100.0, step=0.01)
     with np.errstate(all="ignore"):
-        burst = hf.simulate_physics(two, [0.3, 0.8], [1.0, 1.0], [], wild, time_limit=3.0)
+        burst = hf.simulate_physics(two, [0.3, 0.8], [1.0, 1.0], locked=[], servos=wild, time_limit=3.0)
     assert (burst.outcome, burst.reason) == ("undecided", "unstable")
 
 
@@ -260,11 +262,13 @@ def test_the_verdict_at_the_time_limit():
 
 def test_gains(panda, law, home, goal):
     given = hf.Servos(stiffness=[600.0] * 7, damping=[40.0] * 7)
-    run = hf.simulate_physics(law, home, goal, [4], given, time_limit=0.1)
+    run = hf.simulate_physics(law, home, goal, locked=[4], servos=given, time_limit=0.1)
     assert (run.stiffness == 600).all()
     assert (run.damping == 40).all()
     assert "as given" in given.describe()
-    tuned = hf.simulate_physics(law, home, goal, [4], hf.Servos(bandwidth=2.0, ratio=0.5, compensation=0.8), time_limit=0.1)
+    tuned = hf.simulate_physics(
+        law, home, goal, locked=[4], servos=hf.Servos(bandwidth=2.0, ratio=0.5, compensation=0.8), time_limit=0.1
+    )
     inertia = np.diag(dynamics.mass_matrix(panda, home))
     friction, natural = np.array([j.friction for j in panda.joints]), 4 * np.pi
     found = (tuned.stiffness - natural * friction) / natural**2
@@ -290,14 +294,14 @@ def test_wrong_input_is_one_sentence(law, home, goal):
     with pytest.raises(InputError, match="only one of stiffness and damping"):
         hf.Servos(stiffness=[1.0] * 7)
     with pytest.raises(InputError, match="no joint"):
-        hf.simulate_physics(law, home, goal, ["elbow"])
+        hf.simulate_physics(law, home, goal, locked=["elbow"])
     bare = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0)] * 3, name="bare")
     with pytest.raises(ArmError, match="inertia"):
         hf.simulate_physics(hf.control.pseudoinverse(bare, "planar"), [0.1, 0.2, 0.3], [1, 1])
 
 
 def test_the_figure_and_the_words(law, home, goal):
-    run = hf.simulate_physics(law, home, goal, [4], time_limit=1.0)
+    run = hf.simulate_physics(law, home, goal, locked=[4], time_limit=1.0)
     assert len(run.figures()["physics"].axes) == 3
     first, second = run.describe()
     assert "kinematic: converged" in first

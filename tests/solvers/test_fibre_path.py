@@ -29,13 +29,14 @@ def given(arm, points, spacing=0.1) -> list[SelfMotion]:
     task = as_task(arm, "planar")
     return [
         SelfMotion(
-            np.eye(4),
-            task,
-            1,
-            (),
-            np.asarray(p, dtype=float).reshape(-1, 3),
-            spacing,
-            Status.OK if len(p) else Status.NOT_FOUND,
+            arm=arm,
+            pose=np.eye(4),
+            task=task,
+            redundancy=1,
+            components=(),
+            q=np.asarray(p, dtype=float).reshape(-1, 3),
+            spacing=spacing,
+            status=Status.OK if len(p) else Status.NOT_FOUND,
         )
         for p in points
     ]
@@ -141,7 +142,7 @@ def test_a_path_of_a_real_fibre(arm, rng):
 
     poses = line([1.3, -0.4, 0], [1.3, 0.6, 0]).pose(np.linspace(0, 1, 25))
     for cost in ("mean", "max"):
-        path = best_path(arm, poses, value, "planar", cost=cost)
+        path = best_path(arm, poses, value, task="planar", cost=cost)
         assert path.continuous
         np.testing.assert_allclose(oracles.forward(arm, path.q)[:, :2, 3], poses[:, :2, 3], atol=1e-9)
         assert (path.value >= path.global_value).all()

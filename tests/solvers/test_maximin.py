@@ -217,7 +217,7 @@ def test_slopes_with_a_characteristic_length(task, mixed8, rng):
 @pytest.mark.parametrize("better", ["larger", "smaller"])
 @pytest.mark.parametrize("failures", ["single", "pairs"])
 def test_slopes_of_an_index_of_your_own(better, failures, mixed5, rng):
-    index = CustomIndex(lambda j: ca.sumsqr(j) + j[0, 0] * j[1, 2], mixed5, "position", failures, better=better)
+    index = CustomIndex(lambda j: ca.sumsqr(j) + j[0, 0] * j[1, 2], mixed5, "position", failures=failures, better=better)
     sign = 1.0 if better == "larger" else -1.0
 
     def expected(q):

@@ -186,7 +186,7 @@ def test_as_good_as_slsqp_on_the_panda(rng):
 def test_joints_that_fail_together(formula, planar4, rng):
     failures = [(0, 2), (3,)]
     poses = oracles.forward(planar4, oracles.inside(planar4, rng, 6))
-    index = SpectralIndex(formula, planar4, "planar", failures)
+    index = SpectralIndex(formula, planar4, "planar", failures=failures)
     best = optimise(planar4, poses, index).require_ok()
     sign = 1 if index.better == "larger" else -1
     assert (sign * best.value >= sign * best.start_value).all()
@@ -200,7 +200,7 @@ def test_joints_that_fail_together(formula, planar4, rng):
 
 def test_what_is_measured_are_scores_and_their_gradients(mixed5, rng):
     for formula in ("minimum", "condition number", "mean"):
-        index = SpectralIndex(formula, mixed5, "position", [(0, 3), (1,), (2, 4)])
+        index = SpectralIndex(formula, mixed5, "position", failures=[(0, 3), (1,), (2, 4)])
         q = oracles.inside(mixed5, rng, 4)
         values = index.by_joint(q)
         found = index.measure(q)

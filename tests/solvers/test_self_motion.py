@@ -59,7 +59,7 @@ def check_points(arm, motion, rows=slice(0, 6)) -> None:
 
 @pytest.mark.parametrize("radius", [1.1, 1.5, 2.1213203435596424, 2.9])
 def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the_closed_form(unit3, radius):
-    motion = self_motion(unit3, at(radius), "planar", SPACING)
+    motion = self_motion(unit3, at(radius), "planar", spacing=SPACING)
     (curve,) = motion.components
     assert curve.closed
     assert curve.bounded_by == (None, None)
@@ -74,7 +74,7 @@ def test_unit_links_beyond_one_metre_have_one_curve_with_the_joint_ranges_of_the
 
 @pytest.mark.parametrize("radius", [0.2, 0.5, 0.9])
 def test_unit_links_within_one_metre_have_two_mirrored_curves(unit3, radius):
-    motion = self_motion(unit3, at(radius), "planar", SPACING)
+    motion = self_motion(unit3, at(radius), "planar", spacing=SPACING)
     assert [c.closed for c in motion.components] == [True, True]
     signs = set()
     low, high = 2 * np.arccos((1 + radius) / 2), 2 * np.arccos((1 - radius) / 2)
@@ -99,7 +99,7 @@ def test_number_of_curves_and_coverage_follow_the_rule_of_grashof(rng):
         if abs(slack) < 0.05 or sides[3] > sides[:3].sum() - 0.05:
             continue  # near a singular linkage, or out of reach
         arm = three_links(*lengths)
-        motion = self_motion(arm, at(radius), "planar", SPACING)
+        motion = self_motion(arm, at(radius), "planar", spacing=SPACING)
         assert len(motion.components) == (2 if slack < 0 else 1)
         assert all(c.closed for c in motion.components)
         check_points(arm, motion, rows=slice(0, 2))
@@ -112,7 +112,7 @@ def test_number_of_curves_and_coverage_follow_the_rule_of_grashof(rng):
 
 def test_limits_cut_a_closed_curve():
     arm = arms.load("planar-3r")  # all joints within +-pi
-    motion = self_motion(arm, at(0.5), "planar", SPACING)
+    motion = self_motion(arm, at(0.5), "planar", spacing=SPACING)
     assert len(motion.components) == 2
     for curve in motion.components:
         assert not curve.closed

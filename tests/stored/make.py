@@ -70,7 +70,7 @@ def write() -> dict[str, Any]:
     Path("bench.yaml").write_text("name: bench\nbox: {center: [1.5, 0.6, 0], size: [0.8, 0.8, 0]}\n")
     Path("small.yaml").write_text(STUDY)
     asked = read("small.yaml")
-    study = Study.create("study", asked.name, asked.seed, asked.cells, asked.text)
+    study = Study.create("study", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     problems = study.run(asked.cells, Threads(1))
     assert not problems
     told["study"] = {"mean": assessed(study, 0).plain.mean, "ends": driven(study, 1).ends.tolist(), "digest": study.digest}
@@ -91,7 +91,7 @@ def write() -> dict[str, Any]:
             "ratings": [e.rating for e in entries], "last": trials.q_end.tolist(),
         }  # fmt: skip
 
-    route = hf.recover(arm, LOCKED, START, "home", "planar", samples=0)
+    route = hf.recover(arm, LOCKED, START, goal="home", task="planar", samples=0)
     write_waypoints(arm, route.q, "waypoints.csv")
     told["waypoints"] = route.q.tolist()
     return told

@@ -46,7 +46,7 @@ def test_what_is_compiled_once_is_not_counted_with_every_row(once, a_chunk, a_ro
     """A sweep of designs compiled its kernels in the first eight rows: their time times all designs was announced."""
     job = Costs(once, a_chunk, a_row)
     monkeypatch.setattr(estimate.time, "perf_counter", lambda: job.now)
-    (found,) = estimate.estimates([Cell("c", job, {}, rows, chunk)], 0)
+    (found,) = estimate.estimates([Cell("c", job, {}, rows=rows, chunk=chunk)], 0)
     chunks = -(-rows // chunk)
     assert found.size == 24 * rows
     if a_chunk * 4 > 3:  # one try says nothing of how rows and chunks share it

@@ -34,7 +34,7 @@ def asked(tmp_path, text=FILE):
 
 
 def begun(folder, file) -> Study:
-    return Study.create(folder, file.name, file.seed, file.cells, file.text)
+    return Study.create(folder, file.name, file.seed, cells=file.cells, source=file.text)
 
 
 def bits(study: Study) -> dict[tuple[int, int], str]:
@@ -59,7 +59,7 @@ def found(study, cell, number) -> dict:
 
 def chunks(study, cell):
     rows, size = study.cells[cell]["rows"], study.cells[cell]["chunk"]
-    return [Chunk(n, s, min(s + size, rows), SEED) for n, s in enumerate(range(0, rows, size))]
+    return [Chunk(n, s, min(s + size, rows), seed=SEED) for n, s in enumerate(range(0, rows, size))]
 
 
 def test_a_chunk_of_a_workspace_is_the_workspace_of_its_starts_and_seed(straight):

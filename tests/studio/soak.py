@@ -84,7 +84,7 @@ def main() -> None:
     from holdfast.studio import State, serve
 
     rng, arm = np.random.default_rng(0), arms.load(chosen.arm)
-    state = State(chosen.arm, arm.joint_names, arms.about(chosen.arm).home, arms.about(chosen.arm).task)
+    state = State(chosen.arm, arm.joint_names, arms.about(chosen.arm).home, task=arms.about(chosen.arm).task)
     sizes: list[tuple[float, float]] = []
     begin = time.monotonic()
     with chromium.opened(scenes=True) as browser, serve(arm, state, port=0) as studio:

@@ -28,7 +28,7 @@ def aside(arm):
 
 
 def state_of(arm, **more):
-    return State("planar-3r", arm.joint_names, (0.3, 0.8, 0.9), "planar", **more)
+    return State("planar-3r", arm.joint_names, (0.3, 0.8, 0.9), task="planar", **more)
 
 
 def go(aside, job, state):

@@ -24,7 +24,7 @@ def machine():
 
 
 def state(machine, q, **more):
-    return State("planar-3r", machine.arm.joint_names, tuple(q), "planar", **more)
+    return State("planar-3r", machine.arm.joint_names, tuple(q), task="planar", **more)
 
 
 @pytest.mark.parametrize("objective", ["relative-manipulability", "condition-number"])

@@ -56,7 +56,7 @@ def test_a_state_comes_back_from_its_command_line(opened, tmp_path, rng):
         "panda",
         names,
         tuple(rng.uniform(-0.3, 0.3, 7).tolist()),
-        "pose",
+        task="pose",
         conditions=("healthy", "locked", "healthy", "healthy", "free", "healthy", "healthy"),
         index="condition-number",
         susceptibility="swing-angle",
@@ -117,7 +117,7 @@ def test_a_port_in_use_is_named():
         with pytest.raises(hf.InputError, match=f"port {port} of 127.0.0.1 cannot be used"):
             serve(
                 hf.arms.load("planar-3r"),
-                State("planar-3r", hf.arms.load("planar-3r").joint_names, (0.1, 0.2, 0.3), "planar"),
+                State("planar-3r", hf.arms.load("planar-3r").joint_names, (0.1, 0.2, 0.3), task="planar"),
                 port=port,
             )
 
@@ -135,7 +135,7 @@ def test_the_page_is_there_before_the_arm_but_not_before_its_view(monkeypatch):
             found.append((url, answer.status, answer.read(1000)))
 
     arm = hf.arms.load("planar-3r")
-    with serve(arm, State("planar-3r", arm.joint_names, (0.1, 0.2, 0.3), "planar"), port=0, ready=ready) as page:
+    with serve(arm, State("planar-3r", arm.joint_names, (0.1, 0.2, 0.3), task="planar"), port=0, ready=ready) as page:
         [(url, status, content)] = found
         assert (url, status) == (page.url, 200)
         assert b"<html" in content

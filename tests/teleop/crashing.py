@@ -20,12 +20,14 @@ def main(folder: str, code: str, trials: int) -> None:
             todo = session.next()
             if todo is None:
                 return
-            number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+            number = records.begin_trial(
+                code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task
+            )
             plant, mask = protocol.plants[todo.scenario], todo.tasks.healthy(protocol.scenarios[todo.scenario].failed)[0]
             q, rng = todo.tasks.q0[0], np.random.default_rng(number)
             for k in range(20):
                 v = protocol.stick.limited(rng.normal(0, 0.03, 2))
-                records.append(number, k, np.array([k / 6]), v[None], q[None])
+                records.append(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
                 print(number, k, q.tobytes().hex(), flush=True)
                 q, _ = plant.cycle(q, v, mask)
             records.finish(number, End.ARRIVED, q)

@@ -237,7 +237,7 @@ def test_correlation_equal_to_pingouin(rng):
 def test_correlation_lists_what_it_leaves_out(rng):
     x, y = rng.normal(size=(2, 9))
     x[4], y[7] = np.nan, np.inf
-    found = correlation(x, y, ("a", "b"), [f"task {k + 1}" for k in range(9)])
+    found = correlation(x, y, ("a", "b"), labels=[f"task {k + 1}" for k in range(9)])
     assert (found.n, found.left_out) == (7, ("task 5", "task 8"))
     keep = [k for k in range(9) if k not in (4, 7)]
     assert found.r == pytest.approx(np.corrcoef(x[keep], y[keep])[0, 1])

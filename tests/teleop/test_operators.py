@@ -22,9 +22,9 @@ def plant():
 
 def run(plant, people, rate=6.0, q0=(0.3, 0.8, 0.6), target=(-0.4, 1.6), healthy=(1, 1, 1), seed=0):
     n = len(people)
-    operator = SimulatedPeople(people, rate, Stick(), 0.1, seed)
-    rows = [np.tile(np.asarray(a, dtype=float), (n, 1)) for a in (q0, target, healthy)]
-    return drive([plant], np.zeros(n, int), *rows, operator, Stick(), RULES)
+    operator = SimulatedPeople(people, rate, Stick(), radius=0.1, seed=seed)
+    q0, target, healthy = (np.tile(np.asarray(a, dtype=float), (n, 1)) for a in (q0, target, healthy))
+    return drive([plant], np.zeros(n, int), q0, target=target, healthy=healthy, operator=operator, stick=Stick(), rules=RULES)
 
 
 def test_a_perfect_person_goes_straight(plant):
@@ -116,4 +116,4 @@ def test_bad_input_is_refused(plant):
     with pytest.raises(hf.InputError, match="1 or more"):
         population(0)
     with pytest.raises(hf.InputError, match="one for each"):
-        SimulatedPeople([Person()], 6.0, Stick(), 0.1).begin(np.zeros((2, 2)), np.ones((2, 2)))
+        SimulatedPeople([Person()], 6.0, Stick(), radius=0.1).begin(np.zeros((2, 2)), np.ones((2, 2)))

@@ -55,7 +55,7 @@ to+=m;
 def every_law(arm, rows, substeps, rng):
     """The paper's experiment with another arm, and a scenario for each registered law."""
     named = [LAWS.read(label) for label in LAWS.labels(arm, rows)]
-    scenarios = tuple(Scenario(k + 1, law.name, False, options) for k, (law, options) in enumerate(named))
+    scenarios = tuple(Scenario(k + 1, law.name, False, options=options) for k, (law, options) in enumerate(named))
     return dataclasses.replace(
         protocol.read_protocol(), arm=arm, rows=as_task(arm, rows), scenarios=scenarios, substeps=substeps
     )

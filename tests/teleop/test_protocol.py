@@ -53,8 +53,8 @@ def test_rows_go_to_those_who_finish(rng):
 def test_scenario_orders_are_permutations_and_reproducible():
     orders = scenario_orders(500, 4, seed=1, subject=7)
     assert (np.sort(orders, axis=1) == np.arange(4)).all()
-    np.testing.assert_array_equal(orders, scenario_orders(500, 4, 1, 7))
-    assert (orders != scenario_orders(500, 4, 1, 8)).any()
+    np.testing.assert_array_equal(orders, scenario_orders(500, 4, 1, subject=7))
+    assert (orders != scenario_orders(500, 4, 1, subject=8)).any()
     share = np.stack([(orders == k).mean(axis=0) for k in range(4)])
     assert np.abs(share - 0.25).max() < 0.1
 

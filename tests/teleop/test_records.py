@@ -53,14 +53,14 @@ def records(protocol, tmp_path):
 def one_trial(records, code, cycles=7, end=End.ARRIVED, rng=None):
     session = Session(records, code)
     todo = session.next()
-    number = records.begin_trial(code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+    number = records.begin_trial(code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task)
     generator = np.random.default_rng(number) if rng is None else rng
     plant = records.protocol.plants[todo.scenario]
     mask = todo.tasks.healthy(records.protocol.scenarios[todo.scenario].failed)[0]
     q, written = todo.tasks.q0[0], []
     for k in range(cycles):
         v = records.protocol.stick.limited(generator.normal(0, 0.03, 2))
-        records.append(number, k, np.array([k / 6]), v[None], q[None])
+        records.append(number, k, np.array([k / 6]), velocity=v[None], q=q[None])
         written.append((v, q))
         q, _ = plant.cycle(q, v, mask)
     if end is not None:
@@ -114,8 +114,8 @@ def test_replay_finds_a_trial_that_should_have_been_over(records):
     plant = records.protocol.plants[0]
     q = tasks.q0  # a target around the start, and a command to stand
     there = PointTasks(q, plant.position(q), tasks.joint)
-    number = records.begin_trial(code, Kind.TRIAL, 0, 0, there, 0)
-    records.append(number, 0, np.zeros(1), np.zeros((1, 2)), q)
+    number = records.begin_trial(code, Kind.TRIAL, 0, scenario=0, tasks=there, task=0)
+    records.append(number, 0, np.zeros(1), velocity=np.zeros((1, 2)), q=q)
     records.finish(number, End.ABORTED, q[0])
     assert replay(records).difference.tolist() == [np.inf]
 
@@ -264,12 +264,12 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
         (number, 7, v, np.full((1, 3), np.nan), "NaN"),
     ]:
         with pytest.raises(hf.InputError, match=message):
-            records.append(trial, first, np.zeros(1), velocity, configuration)
+            records.append(trial, first, np.zeros(1), velocity=velocity, q=configuration)
     for early in (np.array([5.9 / 6]), np.array([-1.0])):
         with pytest.raises(hf.InputError, match="run backwards"):
-            records.append(number, 7, early, v, q[None])
+            records.append(number, 7, early, velocity=v, q=q[None])
     with pytest.raises(hf.InputError, match="run backwards"):
-        records.append(number, 7, np.array([3.0, 2.9]), np.zeros((2, 2)), np.stack([q, q]))
+        records.append(number, 7, np.array([3.0, 2.9]), velocity=np.zeros((2, 2)), q=np.stack([q, q]))
     with pytest.raises(hf.InputError, match="rating is 4"):
         records.rate(number, 4)
     with pytest.raises(hf.InputError, match="a subject S01 already"):
@@ -281,7 +281,7 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     np.testing.assert_array_equal(records.trials(records.entries()).q, before)
     records.finish(number, End.ARRIVED, q)
     with pytest.raises(hf.InputError, match="has ended"):
-        records.append(number, 7, np.zeros(1), v, q[None])
+        records.append(number, 7, np.zeros(1), velocity=v, q=q[None])
     with pytest.raises(hf.InputError, match="ended already"):
         records.finish(number, End.ARRIVED, q)
 

@@ -117,8 +117,11 @@ def test_the_folded_line_traps_the_pseudoinverse_only(arm):
     angle = np.pi / 4 + np.arccos(1 / np.hypot(1.5, 1.5))
     task = PointTasks(np.array([[angle, *np.deg2rad([-66.0098, 155.7258])]]), np.array([[1.5, 1.5]]), np.array([0]))
     plants = [Plant(SCENARIOS[k].make_law(arm)) for k in (2, 3)]
-    twice = np.repeat(task.q0, 2, axis=0), np.repeat(task.target, 2, axis=0), np.repeat(task.healthy(True), 2, axis=0)
-    trials = drive(plants, [0, 1], *twice, Computer(), Stick(), Rules())
+    twice = {
+        name: np.repeat(rows, 2, axis=0)
+        for name, rows in (("q0", task.q0), ("target", task.target), ("healthy", task.healthy(True)))
+    }
+    trials = drive(plants, [0, 1], **twice, operator=Computer(), stick=Stick(), rules=Rules())
     assert list(trials.end) == [End.STILL, End.ARRIVED]
     assert abs(trials.cycles[0] - 390) <= 3
     assert abs(trials.cycles[1] - 504) <= 3

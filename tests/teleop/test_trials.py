@@ -51,7 +51,16 @@ class Wanderer(Operator):
 
 def wandered(plants, tasks, rng):
     which = rng.integers(0, 2, len(tasks))
-    return which, drive(plants, which, tasks.q0, tasks.target, tasks.healthy(True), Wanderer(rng), Stick(), Rules(at_rest=True))
+    return which, drive(
+        plants,
+        which,
+        tasks.q0,
+        target=tasks.target,
+        healthy=tasks.healthy(True),
+        operator=Wanderer(rng),
+        stick=Stick(),
+        rules=Rules(at_rest=True),
+    )
 
 
 def test_computer_drives_as_the_closed_loop_in_cycles(arm, tasks):
@@ -61,10 +70,10 @@ def test_computer_drives_as_the_closed_loop_in_cycles(arm, tasks):
         [Plant(law)],
         np.zeros(len(tasks), int),
         tasks.q0,
-        tasks.target,
-        tasks.healthy(True),
-        Computer(),
-        Stick(0.05, 0.0),
+        target=tasks.target,
+        healthy=tasks.healthy(True),
+        operator=Computer(),
+        stick=Stick(0.05, 0.0),
     )
     arrived = runs.outcome == "converged"
     assert arrived.sum() > 5
@@ -124,7 +133,16 @@ def test_stick_has_a_dead_zone_and_a_limit(rng):
 
 def test_replay_gives_the_same_bits(plants, tasks, rng):
     which, trials = wandered(plants, tasks, rng)
-    again = drive(plants, which, tasks.q0, tasks.target, tasks.healthy(True), Recorded(trials), None, Rules(at_rest=True))
+    again = drive(
+        plants,
+        which,
+        tasks.q0,
+        target=tasks.target,
+        healthy=tasks.healthy(True),
+        operator=Recorded(trials),
+        stick=None,
+        rules=Rules(at_rest=True),
+    )
     for name in ("velocity", "q", "x", "actual", "first", "q_end", "x_end", "end"):
         np.testing.assert_array_equal(getattr(again, name), getattr(trials, name), err_msg=name)
 
@@ -185,7 +203,9 @@ def test_measures_are_what_their_definitions_say(plants, tasks, rng):
 
 def test_trial_that_begins_in_the_circle_has_no_cycles(plants, tasks):
     start = plants[0].position(tasks.q0)
-    trials = drive(plants, np.zeros(40, int), tasks.q0, start, tasks.healthy(False), Computer(), Stick())
+    trials = drive(
+        plants, np.zeros(40, int), tasks.q0, target=start, healthy=tasks.healthy(False), operator=Computer(), stick=Stick()
+    )
     assert trials.arrived.all()
     np.testing.assert_array_equal(measures(trials), 0)
 
@@ -207,6 +227,6 @@ def test_bad_input_is_refused(arm, plants, tasks):
     with pytest.raises(hf.InputError, match="dead zone"):
         Stick(0.05, 0.06)
     with pytest.raises(hf.InputError, match="q0 has shape"):
-        drive(plants, [0, 0], tasks.q0, tasks.target, tasks.healthy(True), Computer())
+        drive(plants, [0, 0], tasks.q0, target=tasks.target, healthy=tasks.healthy(True), operator=Computer())
     with pytest.raises(hf.InputError, match="0 or more"):
         cpm([[-1.0]])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import KW_ONLY, dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
@@ -43,6 +43,7 @@ class Joint:
     name: str
     type: JointType
     origin: Array
+    _: KW_ONLY
     axis: Array
     lower: float = -np.inf
     upper: float = np.inf
@@ -108,6 +109,7 @@ class Link:
     mass: float
     com: Array
     inertia: Array
+    _: KW_ONLY
     name: str | None = None
 
     def __post_init__(self) -> None:
@@ -131,7 +133,7 @@ class Link:
         """The same body seen from another frame: ``transform`` (4, 4) is the present frame's pose in the new one."""
         t = np.asarray(transform, dtype=np.float64)
         rotation = t[:3, :3]
-        return Link(self.mass, rotation @ self.com + t[:3, 3], rotation @ self.inertia @ rotation.T, self.name)
+        return Link(self.mass, rotation @ self.com + t[:3, 3], rotation @ self.inertia @ rotation.T, name=self.name)
 
     @staticmethod
     def joined(bodies: Sequence[Link], name: str | None = None) -> Link:
@@ -139,13 +141,13 @@ class Link:
         mass = sum(b.mass for b in bodies)
         if mass <= 0:
             total = np.sum([b.inertia for b in bodies], axis=0) if bodies else np.zeros((3, 3))
-            return Link(0.0, np.zeros(3), total, name)
+            return Link(0.0, np.zeros(3), total, name=name)
         com = np.sum([b.mass * b.com for b in bodies], axis=0) / mass
         inertia = np.zeros((3, 3))
         for b in bodies:
             r = b.com - com
             inertia += b.inertia + b.mass * (r @ r * np.eye(3) - np.outer(r, r))
-        return Link(mass, com, inertia, name)
+        return Link(mass, com, inertia, name=name)
 
 
 @dataclass(frozen=True)
@@ -191,6 +193,7 @@ class Machine:
     name: str
     joints: tuple[Joint, ...]
     links: tuple[Link | None, ...] = ()
+    _: KW_ONLY
     base: Array = field(default_factory=lambda: np.eye(4))
     tool: Array = field(default_factory=lambda: np.eye(4))
     gravity: Array = field(default_factory=lambda: np.array(GRAVITY))

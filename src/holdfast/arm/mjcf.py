@@ -164,7 +164,7 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
             # At its reference value, not at 0, the joint leaves the body where the file puts it.
             joint = replace(joint, parent=link, child=child, origin=pending @ anchor)
             joints[joint.name] = replace(joint, origin=joint.at(-joint.rest))
-            links[child] = Link(0.0, np.zeros(3), np.zeros((3, 3)), child)
+            links[child] = Link(0.0, np.zeros(3), np.zeros((3, 3)), name=child)
             link, pending = child, np.asarray(np.linalg.inv(anchor), dtype=np.float64)
         links[body] = _body(model, b, body)
         if link != body:
@@ -188,7 +188,7 @@ def _body(model: Any, b: int, name: str) -> Link | None:
     mass, moments = float(model.body_mass[b]), np.array(model.body_inertia[b])
     if mass == 0 and not moments.any():
         return None
-    return Link(mass, np.zeros(3), np.diag(moments), name).moved(_pose(model.body_ipos[b], model.body_iquat[b]))
+    return Link(mass, np.zeros(3), np.diag(moments), name=name).moved(_pose(model.body_ipos[b], model.body_iquat[b]))
 
 
 def _joint(mujoco: ModuleType, model: Any, j: int, name: str, kind: str) -> TreeJoint:

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 @checked_class
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Arm(Machine):
     """A serial arm: the data of a :class:`~holdfast.arm.machine.Machine`, which it is made of, and what can be asked of it."""
 
@@ -35,6 +35,7 @@ class Arm(Machine):
         rows: Sequence[DH],
         links: Sequence[Link | None] | None = None,
         convention: Literal["standard", "modified"] = "standard",
+        *,
         base: ArrayLike | None = None,
         tool: ArrayLike | None = None,
         gravity: ArrayLike = GRAVITY,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any, Literal
 
 import casadi as ca
@@ -39,6 +39,7 @@ class Task:
     name: str
     rows: Array
     frame: Literal["base", "tool"] = "base"
+    _: KW_ONLY
     length: float = 1.0
     angular: bool = field(init=False)
 
@@ -63,7 +64,7 @@ class Task:
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Task:
         """The task that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
-        return cls(data["name"], np.array(data["rows"]), data["frame"], data["length"])
+        return cls(data["name"], np.array(data["rows"]), data["frame"], length=data["length"])
 
     @property
     def m(self) -> int:
@@ -125,7 +126,7 @@ def rows_task(
     picked = np.zeros((len(rows), 6))
     for i, r in enumerate(rows):
         picked[i, ROWS.index(r)] = 1.0
-    return Task(name or "+".join(rows), picked, frame, length)
+    return Task(name or "+".join(rows), picked, frame, length=length)
 
 
 def plane_normal(arm: Machine) -> Array | None:
@@ -150,17 +151,17 @@ def as_task(arm: Machine, task: str | Task | Sequence[str], length: float | None
         TaskError: Unknown name, or a planar task for an arm that does not move in a plane.
     """
     if isinstance(task, Task):
-        return task if length is None else Task(task.name, task.rows, task.frame, length)
+        return task if length is None else Task(task.name, task.rows, task.frame, length=length)
     size = 1.0 if length is None else length
     if not isinstance(task, str):
         return rows_task(list(task), length=size)
     eye = np.eye(6)
     if task == "pose":
-        return Task(task, eye, "base", size)
+        return Task(task, eye, "base", length=size)
     if task == "position":
-        return Task(task, eye[:3], "base", size)
+        return Task(task, eye[:3], "base", length=size)
     if task == "pointing":
-        return Task(task, eye[:5], "tool", size)
+        return Task(task, eye[:5], "tool", length=size)
     if task in ("planar", "planar-pose"):
         normal = plane_normal(arm)
         if normal is None:
@@ -173,7 +174,7 @@ def as_task(arm: Machine, task: str | Task | Sequence[str], length: float | None
         rows: list[Any] = [np.r_[first, 0, 0, 0], np.r_[np.cross(normal, first), 0, 0, 0]]
         if task == "planar-pose":
             rows.append(np.r_[0, 0, 0, normal])
-        return Task(task, np.array(rows), "base", size)
+        return Task(task, np.array(rows), "base", length=size)
     raise TaskError(f"task '{task}' is not known; use one of {', '.join(TASKS)} or a list of rows such as vx, vy, wz")
 
 

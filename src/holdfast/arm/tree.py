@@ -310,8 +310,18 @@ def chain(
 
 def _model_joint(joint: TreeJoint, origin: Array) -> Joint:
     kind: JointType = "prismatic" if joint.type == "prismatic" else "revolute" if joint.type == "revolute" else "continuous"
-    limits = (joint.lower, joint.upper, joint.velocity, joint.effort)
-    return Joint(joint.name, kind, origin, joint.axis, *limits, joint.friction, joint.armature)
+    return Joint(
+        joint.name,
+        kind,
+        origin,
+        axis=joint.axis,
+        lower=joint.lower,
+        upper=joint.upper,
+        velocity=joint.velocity,
+        effort=joint.effort,
+        friction=joint.friction,
+        armature=joint.armature,
+    )
 
 
 def _folded(tree: Tree, link: str, on_path: set[str], still: Held) -> Link | None:

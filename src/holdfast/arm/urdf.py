@@ -194,7 +194,7 @@ def _body(element: ElementTree.Element, label: str) -> Link | None:
     )
     kilograms = _numbers(_attribute(mass, "value", f"{where}: <mass>"), 1, f"{where}: mass")[0]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(kilograms, np.zeros(3), inertia, label).moved(read_origin(inertial, where))
+    return Link(kilograms, np.zeros(3), inertia, name=label).moved(read_origin(inertial, where))
 
 
 def _joint(element: ElementTree.Element) -> TreeJoint:

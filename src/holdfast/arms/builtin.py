@@ -21,7 +21,7 @@ from holdfast.errors import ArmError
 DATA = resources.files("holdfast.arms").joinpath("data")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Builtin:
     """What is known about a built-in arm without loading it.
 
@@ -92,14 +92,18 @@ def _entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
         source: str,
         task: Literal["pose", "planar"],
     ) -> tuple[Builtin, Callable[[], Arm]]:
-        return Builtin(name, len(home_deg), summary, source, "MIT", _rad(home_deg), task), make
+        return Builtin(
+            name=name, n=len(home_deg), summary=summary, source=source, licence="MIT", home=_rad(home_deg), task=task
+        ), make
 
     def from_file(
         name: str, base: str, tip: str, home: tuple[float, ...], summary: str, remark: str = ""
     ) -> tuple[Builtin, Callable[[], Arm]]:
         o = origins[name]
         source = f"{o['upstream']}; {o['original']} of {o['package']} {o['version']}, stripped to inertials and joints{remark}"
-        return Builtin(name, len(home), summary, source, o["licence"], home), lambda: _file(o["file"], base, tip)
+        return Builtin(name=name, n=len(home), summary=summary, source=source, licence=o["licence"], home=home), lambda: _file(
+            o["file"], base, tip
+        )
 
     rods = (
         "textbook arm: links of 1 m and 1 kg, uniform thin rods (inertia m l^2/12 about the two axes across the rod, 0 about "
@@ -146,13 +150,13 @@ def _entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
         ur5,
         (
             Builtin(
-                "ur5-rail",
-                7,
-                "Universal Robots UR5 on a 2 m rail",
-                f"{ur5[0].source}; the rail along y and its carriage with the robot's foot are assumed: range 0 to 2 m, 1 m/s, "
-                "500 N, 24 kg, a uniform box of 0.4 x 0.4 x 0.1 m",
-                ur5[0].licence,
-                (1.0, *ur5[0].home),
+                name="ur5-rail",
+                n=7,
+                summary="Universal Robots UR5 on a 2 m rail",
+                source=f"{ur5[0].source}; the rail along y and its carriage with the robot's foot are assumed: range 0 to 2 m, "
+                "1 m/s, 500 N, 24 kg, a uniform box of 0.4 x 0.4 x 0.1 m",
+                licence=ur5[0].licence,
+                home=(1.0, *ur5[0].home),
             ),
             _ur5_rail,
         ),
@@ -177,7 +181,7 @@ def _file(file: str, base: str, tip: str) -> Arm:
 
 
 def _planar(n: int) -> Arm:
-    rod = Link(1.0, np.array([-0.5, 0, 0]), np.diag([0, 1 / 12, 1 / 12]), "rod")
+    rod = Link(1.0, np.array([-0.5, 0, 0]), np.diag([0, 1 / 12, 1 / 12]), name="rod")
     rows = [DH(a=1.0, alpha=0.0, lower=-np.pi, upper=np.pi) for _ in range(n)]
     return Arm.from_dh(rows, [replace(rod, name=f"rod{k + 1}") for k in range(n)], gravity=(0, -9.81, 0))
 
@@ -204,8 +208,10 @@ def _pa10_9() -> Arm:
 
 def _ur5_rail() -> Arm:
     ur5 = load("ur5")
-    rail = Joint("rail", "prismatic", np.eye(4), np.array([0.0, 1.0, 0.0]), 0.0, 2.0, velocity=1.0, effort=500.0)
+    rail = Joint(
+        "rail", "prismatic", np.eye(4), axis=np.array([0.0, 1.0, 0.0]), lower=0.0, upper=2.0, velocity=1.0, effort=500.0
+    )
     x, y, z, mass = 0.4, 0.4, 0.1, 24.0
     box = mass / 12 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
-    carriage = Link(mass, np.array([0, 0, -z / 2]), box, "carriage")
+    carriage = Link(mass, np.array([0, 0, -z / 2]), box, name="carriage")
     return replace(ur5, joints=(rail, *ur5.joints), links=(carriage, *ur5.links), chain=None)

@@ -20,7 +20,7 @@ MJCF_ENDINGS = (".mjcf",)
 TABLE_ENDINGS = (".yaml", ".yml")
 
 
-def resolve(spec: str, base: str | None = None, tip: str | None = None, hold: Mapping[str, float] | None = None) -> Arm:
+def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None) -> Arm:
     """The arm that a person means on the command line.
 
     Args:

@@ -191,12 +191,12 @@ def _arm(table: _Table, path: Path) -> Arm:
         [_row(row, unit) for row in table.rows],
         None if links is None else [None if x is None else _link(x, f"link{k + 1}") for k, x in enumerate(links)],
         table.convention,
-        _pose(table.base, unit),
-        _pose(table.tool, unit),
-        table.gravity,
-        None if table.payload is None else _link(table.payload, "payload"),
-        table.name or path.stem,
-        table.source or path.name,
+        base=_pose(table.base, unit),
+        tool=_pose(table.tool, unit),
+        gravity=table.gravity,
+        payload=None if table.payload is None else _link(table.payload, "payload"),
+        name=table.name or path.stem,
+        source=table.source or path.name,
     )
 
 
@@ -207,7 +207,7 @@ def _row(row: _Row, unit: float) -> DH:
 
 
 def _link(body: _Body, label: str) -> Link:
-    return Link(body.mass, np.array(body.com), np.array(body.inertia), body.name or label)
+    return Link(body.mass, np.array(body.com), np.array(body.inertia), name=body.name or label)
 
 
 def _pose(pose: list[list[float]] | _Placement | None, unit: float) -> Array | None:

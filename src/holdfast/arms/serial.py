@@ -48,7 +48,9 @@ def from_dict(data: dict[str, Any]) -> Arm:
         joints = []
         for entry in data["joints"]:
             values = {f: entry[f] for f in _JOINT_NUMBERS if entry[f] is not None}
-            joints.append(Joint(entry["name"], entry["type"], np.array(entry["origin"]), np.array(entry["axis"]), **values))
+            joints.append(
+                Joint(entry["name"], entry["type"], np.array(entry["origin"]), axis=np.array(entry["axis"]), **values)
+            )
         return Arm(
             name=data["name"],
             joints=tuple(joints),
@@ -83,4 +85,4 @@ def _link_to_dict(link: Link | None) -> dict[str, Any] | None:
 def _link_from_dict(data: dict[str, Any] | None) -> Link | None:
     if data is None:
         return None
-    return Link(data["mass"], np.array(data["com"]), np.array(data["inertia"]), data["name"])
+    return Link(data["mass"], np.array(data["com"]), np.array(data["inertia"]), name=data["name"])

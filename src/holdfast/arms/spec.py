@@ -35,7 +35,7 @@ class ArmSpec:
         """The arm."""
         from holdfast import arms
 
-        arm = arms.resolve(self.spec, self.base, self.tip, self.hold)
+        arm = arms.resolve(self.spec, self.base, self.tip, hold=self.hold)
         return arm if self.name is None else replace(arm, name=self.name)
 
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Assessment(Result):
     """What :func:`holdfast.assess` found.
 
@@ -121,6 +121,7 @@ class Assessment(Result):
         at_least: float | None = None,
         at_most: float | None = None,
         optimised: bool = False,
+        *,
         reachable_only: bool = False,
     ) -> float:
         """Probability that the index meets a threshold: ``1 - F(h)``."""
@@ -132,11 +133,12 @@ class Assessment(Result):
         at_least: float | None = None,
         at_most: float | None = None,
         optimised: bool = False,
+        *,
         reachable_only: bool = False,
         confidence: float = 0.95,
     ) -> Interval:
         """That probability with its exact (Clopper-Pearson) interval."""
-        return self.of(optimised).interval(at_least, at_most, reachable_only, confidence)
+        return self.of(optimised).interval(at_least, at_most, reachable_only, confidence=confidence)
 
     @checked
     def survival(self, joint: str | int | None = None, confidence: float = 0.95) -> dict[str, Interval]:

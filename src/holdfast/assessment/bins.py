@@ -62,7 +62,7 @@ class Counts:
         unreached, reached, singular, infinite = (int(x) for x in self.facts[:4])
         total, lowest, highest = self.facts[4:].tolist()
         return Distribution(
-            self._index.better,
+            better=self._index.better,
             edges=self._edges,
             counts=self.bins,
             unreached=unreached,

@@ -160,14 +160,14 @@ class Plan:
             own = f"index '{self.index.name}' is your own function"
         if own is not None:
             raise InputError(f"{own}, which a folder cannot hold; assess without a store")
-        return Store.create(path, self.to_dict(), self.columns(), self.poses, _CHUNK_BLOCKS * self.region.block)
+        return Store.create(path, self.to_dict(), self.columns(), rows=self.poses, chunk=_CHUNK_BLOCKS * self.region.block)
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], poses: int) -> Plan:
         """The plan that :meth:`to_dict` wrote; raises KeyError or TypeError if something is missing."""
         arm = from_dict(data["arm"])
         task = Task.from_dict(data["task"])
-        index = by_name(data["index"], arm, task, [list(f) for f in data["failures"]])
+        index = by_name(data["index"], arm, task, failures=[list(f) for f in data["failures"]])
         region = Region.from_dict(data["region"])
         apart = data.get("clearance")
         return cls(
@@ -215,44 +215,76 @@ class Plan:
         """What each row holds."""
         n, f, unit, about = self.arm.n, len(self.index.failures), self.index.unit, self.index.describe()
         pose = [
-            Column("position", "float64", (("axis", 3),), "m", "drawn position of the tool in the world"),
-            Column("quaternion", "float64", (("xyzw", 4),), "1", "drawn orientation of the tool in the world, x y z w"),
+            Column("position", "float64", (("axis", 3),), units="m", about="drawn position of the tool in the world"),
+            Column(
+                "quaternion", "float64", (("xyzw", 4),), units="1", about="drawn orientation of the tool in the world, x y z w"
+            ),
         ]
         best = [
-            Column("optimised_q", "float64", (("joint", n),), "rad or m", "best configuration found; NaN where there is none"),
-            Column("optimised_index", "float64", (), unit, f"{about}, at the best configuration found"),
-            Column("optimised_worst", "int16", (), "1", "position of the worst failure there; -1 if there is none"),
-            Column("agreeing", "float64", (), "1", "share of the starts followed to the end that reached the best value"),
+            Column(
+                "optimised_q",
+                "float64",
+                (("joint", n),),
+                units="rad or m",
+                about="best configuration found; NaN where there is none",
+            ),
+            Column("optimised_index", "float64", (), units=unit, about=f"{about}, at the best configuration found"),
+            Column("optimised_worst", "int16", (), units="1", about="position of the worst failure there; -1 if there is none"),
+            Column(
+                "agreeing",
+                "float64",
+                (),
+                units="1",
+                about="share of the starts followed to the end that reached the best value",
+            ),
         ]
         apart = [
-            Column("clearance", "float64", (), "m", "smallest distance between links; below 0: the arm runs through itself")
+            Column(
+                "clearance",
+                "float64",
+                (),
+                units="m",
+                about="smallest distance between links; below 0: the arm runs through itself",
+            )
         ]
         if self.optimise:
             apart += [
                 Column(
-                    "optimised_status", "uint8", (), "1", "as status; 4: every configuration found runs the arm through itself"
+                    "optimised_status",
+                    "uint8",
+                    (),
+                    units="1",
+                    about="as status; 4: every configuration found runs the arm through itself",
                 ),
                 Column(
                     "blocked",
                     "int8",
                     (),
-                    "1",
-                    "1 if the best configuration without regard to itself runs the arm through itself",
+                    units="1",
+                    about="1 if the best configuration without regard to itself runs the arm through itself",
                 ),
             ]
         survives = _SURVIVES_AT if self.lock_at else _SURVIVES
-        angle = Column("lock_angle", "float64", (("lock", n),), "rad or m", "where each joint locked; NaN where none did")
+        angle = Column(
+            "lock_angle", "float64", (("lock", n),), units="rad or m", about="where each joint locked; NaN where none did"
+        )
         return [
             *(pose if self.region.kind != "joints" else []),
-            *([Column("weight", "float64", (), "1", "how much the pose counts")] if self.weighted else []),
-            Column("q", "float64", (("joint", n),), "rad or m", "configuration; NaN where none was found"),
-            Column("status", "uint8", (), "1", "0 ok, 1 not found, 3 singular, 255 not computed yet"),
-            Column("index", "float64", (), unit, about),
-            Column("by_failure", "float64", (("failure", f),), unit, f"{self.index.name} for each failure"),
-            Column("worst", "int16", (), "1", "position of the worst failure in the list of failures; -1 if there is none"),
+            *([Column("weight", "float64", (), units="1", about="how much the pose counts")] if self.weighted else []),
+            Column("q", "float64", (("joint", n),), units="rad or m", about="configuration; NaN where none was found"),
+            Column("status", "uint8", (), units="1", about="0 ok, 1 not found, 3 singular, 255 not computed yet"),
+            Column("index", "float64", (), units=unit, about=about),
+            Column("by_failure", "float64", (("failure", f),), units=unit, about=f"{self.index.name} for each failure"),
+            Column(
+                "worst",
+                "int16",
+                (),
+                units="1",
+                about="position of the worst failure in the list of failures; -1 if there is none",
+            ),
             *(best if self.optimise else []),
             *(apart if self.clearance is not None else []),
-            *([Column("survives", "int8", (("lock", n),), "1", survives), angle] if self.locks else []),
+            *([Column("survives", "int8", (("lock", n),), units="1", about=survives), angle] if self.locks else []),
         ]
 
 

@@ -29,7 +29,7 @@ Progress = Callable[[int, int], None]
 def blocks(plan: Plan, first: int, stop: int) -> Generator[tuple[int, Rows], None, None]:
     """Blocks in order from number ``first`` up to row ``stop``; a few ahead of the consumer are at work in the pool."""
     size = plan.region.block
-    source = plan.region.blocks(first, plan.seed, plan.sampling, plan.poses)
+    source = plan.region.blocks(first, plan.seed, plan.sampling, count=plan.poses)
     numbers = iter(range(first, -(-stop // size)))
     waiting: deque[tuple[int, Future[Rows]]] = deque()
 

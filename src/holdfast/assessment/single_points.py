@@ -17,7 +17,7 @@ _DRAWS = 256
 _ZERO = 1e-7  # rho of a joint that the self-motion never moves is rounding noise, about 1e-15
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Structure:
     """What locking each joint does to a task whatever the configuration.
 
@@ -48,14 +48,14 @@ def structure(arm: Arm, task: str | Task | Sequence[str] = "pose") -> Structure:
     t = as_task(arm, task)
     redundancy = arm.n - t.m
     if redundancy <= 0:
-        return Structure(t.name, redundancy, tuple(range(arm.n)), False)
+        return Structure(task=t.name, redundancy=redundancy, fatal=tuple(range(arm.n)), never=False)
     generator = np.random.default_rng(20120514)
     # Not the joint limits: a narrow range could hide what another part of it shows.
     q = generator.uniform(-np.pi, np.pi, (_DRAWS, arm.n))
     result = RelativeManipulability(arm, t).evaluate(q)
     fatal = tuple(np.flatnonzero(result.by_failure.max(axis=0) < _ZERO).tolist())
     never = bool((result.value == 0).all() and (result.by_failure == 0).all())
-    return Structure(t.name, redundancy, fatal, never)
+    return Structure(task=t.name, redundancy=redundancy, fatal=fatal, never=never)
 
 
 def structures(arm: Arm) -> list[Structure]:

@@ -18,7 +18,7 @@ from holdfast.status import Status
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Upgrade:
     """What a region would gain if one joint could never fail, at the same poses and configurations.
 
@@ -97,9 +97,9 @@ def if_never_fails(index: Index, k: int, s: Sample) -> Distribution:
         )
     values = s.by_failure[s.reached][:, left]
     worst = values.min(axis=1) if index.better == "larger" else values.max(axis=1)
-    weights = () if s.weight is None else (s.weight[s.reached], s.weight[~s.reached])
+    reached, missed = (None, ()) if s.weight is None else (s.weight[s.reached], s.weight[~s.reached])
     lost, singular = int((~s.reached).sum()), int((s.worst[s.reached] < 0).sum())
-    return Distribution.of(worst, index.better, lost, singular, *weights)
+    return Distribution.of(worst, index.better, lost, singular=singular, weights=reached, unreached_weights=missed)
 
 
 def upgrades(index: Index, d: Distribution, s: Sample, threshold: float, confidence: float) -> list[Upgrade]:
@@ -121,7 +121,17 @@ def upgrades(index: Index, d: Distribution, s: Sample, threshold: float, confide
             gain = Interval.of(int(gained.sum()), d.samples, confidence)
         else:
             gain = Interval.of_share(min(float(s.weight[gained].sum()) / d.total_weight(), 1.0), d.effective(), confidence)
-        found.append(Upgrade(name, now.value, now.value + gain.value, gain.value, gain.low, gain.high, confidence))
+        found.append(
+            Upgrade(
+                joint=name,
+                before=now.value,
+                after=now.value + gain.value,
+                gain=gain.value,
+                low=gain.low,
+                high=gain.high,
+                confidence=confidence,
+            )
+        )
     return sorted(found, key=lambda u: -u.gain)
 
 

@@ -20,7 +20,7 @@ A link that is not named has the capsule of :meth:`Capsules.along` if ``radius``
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,6 +61,7 @@ class Capsule:
     link: int
     start: Point
     end: Point
+    _: KW_ONLY
     radius: float
 
     def __post_init__(self) -> None:
@@ -208,7 +209,7 @@ def _part(link: int, entry: Entry, radius: float | None, place: str) -> Capsule:
     own = radius if entry.radius is None else entry.radius
     if own is None:
         raise ArmError(f"{place}.radius: it is missing; give it here or for the whole file")
-    return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), own)
+    return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), radius=own)
 
 
 def _point(values: list[float] | Array) -> Point:
@@ -226,6 +227,6 @@ def along_link(arm: Arm, link: int, radius: float) -> list[Capsule]:
     """The capsule of :meth:`Capsules.along` for one link, if it has one."""
     end = _ends(arm)[link + 1]
     if np.linalg.norm(end) >= _POINT:
-        return [Capsule(link, (0.0, 0.0, 0.0), _point(end), radius)]
+        return [Capsule(link, (0.0, 0.0, 0.0), _point(end), radius=radius)]
     slides = link != BASE and arm.joints[link].prismatic
-    return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius)] if slides else []
+    return [Capsule(link, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), radius=radius)] if slides else []

@@ -114,7 +114,7 @@ def read_arm(spec: str, base: str | None, tip: str | None, hold: list[str] | Non
     """The arm that ARM, --base, --tip and --hold name."""
     from holdfast import arms
 
-    return arms.resolve(spec, base, tip, read_hold(",".join(hold)) if hold else None)
+    return arms.resolve(spec, base, tip, hold=read_hold(",".join(hold)) if hold else None)
 
 
 def read_by_joint(
@@ -212,7 +212,7 @@ def placed(arm: Arm, mount: str, gravity: str | None, payload: str | None) -> Ar
         if numbers.size not in (1, 4):
             raise InputError(f"--payload has {numbers.size} numbers; give the mass, kg, or the mass and x, y, z, m")
         place = numbers[1:] if numbers.size == 4 else np.zeros(3)
-        arm = arm.with_payload(Link(float(numbers[0]), place, np.zeros((3, 3)), "payload"))
+        arm = arm.with_payload(Link(float(numbers[0]), place, np.zeros((3, 3)), name="payload"))
     return arm
 
 

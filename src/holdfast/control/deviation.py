@@ -22,7 +22,7 @@ Flags = NDArray[np.bool_]
 _STILL = 1e-12  # of the commanded speed: slower has no direction
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Deviations:
     """Velocity errors and angles at N configurations, or at one (then without the leading N), for unit commands.
 
@@ -92,4 +92,10 @@ def _compare(u: SX, w: SX) -> tuple[SX, SX, SX]:
 
 def read(out: Array, n: int) -> Deviations:
     """What :func:`expression` gave, (3 n + 2,) or (N, 3 n + 2)."""
-    return Deviations(out[..., :n], out[..., n : 2 * n], out[..., 2 * n : 3 * n] > 0, out[..., 3 * n], out[..., 3 * n + 1])
+    return Deviations(
+        errors=out[..., :n],
+        angles=out[..., n : 2 * n],
+        still=out[..., 2 * n : 3 * n] > 0,
+        healthy_error=out[..., 3 * n],
+        healthy_angle=out[..., 3 * n + 1],
+    )

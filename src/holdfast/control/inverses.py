@@ -53,10 +53,11 @@ class Weighted(Law):
         arm: Arm,
         weights: ArrayLike,
         task: str | Task | Sequence[str] = "pose",
+        *,
         gain: float = 1.0,
         speed_limit: float | None = None,
     ) -> None:
-        super().__init__(arm, task, gain, speed_limit)
+        super().__init__(arm, task, gain, speed_limit=speed_limit)
         w = np.asarray(weights, dtype=np.float64)
         w = np.diag(w) if w.ndim == 1 else w
         if w.shape != (arm.n, arm.n) or not np.isfinite(w).all():
@@ -103,10 +104,11 @@ class Damped(Law):
         arm: Arm,
         damping: float,
         task: str | Task | Sequence[str] = "pose",
+        *,
         gain: float = 1.0,
         speed_limit: float | None = None,
     ) -> None:
-        super().__init__(arm, task, gain, speed_limit)
+        super().__init__(arm, task, gain, speed_limit=speed_limit)
         if not (np.isfinite(damping) and damping > 0):
             raise InputError(f"damping is {damping:g}; it must be above 0 (for none, use the pseudoinverse)")
         self.fixed_damping = float(damping)
@@ -139,9 +141,9 @@ def _one_to_n(arm: Arm, task: object) -> Array:
 
 
 @constructor()
-def pseudoinverse(arm: Arm, task: TaskSpec = "pose", gain: float = 1.0, speed_limit: float | None = None) -> Pseudoinverse:
+def pseudoinverse(arm: Arm, task: TaskSpec = "pose", gain: float = 1.0, *, speed_limit: float | None = None) -> Pseudoinverse:
     """Least-norm joint rates; Goel et al. 2005, eq. (5)."""
-    return Pseudoinverse(arm, task, gain, speed_limit)
+    return Pseudoinverse(arm, task, gain, speed_limit=speed_limit)
 
 
 @constructor()
@@ -149,11 +151,12 @@ def weighted(
     arm: Arm,
     weights: Annotated[ArrayLike, Parameter("1", "one number for each joint", low=0, example="_one_to_n")],
     task: TaskSpec = "pose",
+    *,
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> Weighted:
     """Joint rates of least weighted norm; Goel et al. 2005, eq. (10)."""
-    return Weighted(arm, weights, task, gain, speed_limit)
+    return Weighted(arm, weights, task, gain=gain, speed_limit=speed_limit)
 
 
 @constructor()
@@ -161,8 +164,9 @@ def damped(
     arm: Arm,
     damping: Annotated[float, Parameter("m for linear rows", "the damping", low=0, example=0.1)],
     task: TaskSpec = "pose",
+    *,
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> Damped:
     """Damped least squares with fixed damping; Goel et al. 2003, section 2."""
-    return Damped(arm, damping, task, gain, speed_limit)
+    return Damped(arm, damping, task, gain=gain, speed_limit=speed_limit)

@@ -63,7 +63,7 @@ class Law(Labelled, Steps):
 
     @checked
     def __init__(
-        self, arm: Arm, task: str | Task | Sequence[str] = "pose", gain: float = 1.0, speed_limit: float | None = None
+        self, arm: Arm, task: str | Task | Sequence[str] = "pose", gain: float = 1.0, *, speed_limit: float | None = None
     ) -> None:
         self.arm, self.task = arm, as_task(arm, task)
         if self.task.m > arm.n:

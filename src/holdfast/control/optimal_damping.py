@@ -62,10 +62,11 @@ class FailureTolerant(Law):
         arm: Arm,
         task: str | Task | Sequence[str] = "pose",
         pre_failure_error: float = 0.5,
+        *,
         gain: float = 1.0,
         speed_limit: float | None = None,
     ) -> None:
-        super().__init__(arm, task, gain, speed_limit)
+        super().__init__(arm, task, gain, speed_limit=speed_limit)
         if not 0 < pre_failure_error < 1:
             raise InputError(
                 f"pre_failure_error is {pre_failure_error:g}; it must be between 0 and 1 (for 0, use the pseudoinverse)"
@@ -137,8 +138,9 @@ def failure_tolerant(
         float,
         Parameter("1", "allowed velocity error of the healthy arm, a fraction of the speed", low=0, high=1, example=0.5),
     ] = 0.5,
+    *,
     gain: float = 1.0,
     speed_limit: float | None = None,
 ) -> FailureTolerant:
     """Damped inverse that makes the worst single locked joint least bad; Goel et al. 2003, eq. (8), (9)."""
-    return FailureTolerant(arm, task, pre_failure_error, gain, speed_limit)
+    return FailureTolerant(arm, task, pre_failure_error, gain=gain, speed_limit=speed_limit)

@@ -29,7 +29,7 @@ _ALLOWED = tuple(round(0.05 * k, 2) for k in range(19))
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class TradeOff(Result):
     """Peak velocity errors against the allowed pre-failure error e, E values of it and N samples.
 
@@ -80,6 +80,7 @@ def trade_off(
     arm: Arm,
     task: str | Task | Sequence[str] = "pose",
     samples: int = 2000,
+    *,
     allowed: ArrayLike = _ALLOWED,
     seed: int = 0,
 ) -> TradeOff:
@@ -125,7 +126,9 @@ def trade_off(
             peak[:, k], healthy[:, k] = out[:, 0], out[:, 1]
             advance(k + 1, len(e) + 1)
         none = kernel.rows(q, u, np.full(samples, 1e-9))[:, 0]
-    return TradeOff(arm, chosen, e, peak / none[:, None], healthy, peak, seed=seed)
+    return TradeOff(
+        arm=arm, task=chosen, allowed=e, gain=peak / none[:, None], healthy_error=healthy, peak_error=peak, seed=seed
+    )
 
 
 @recalled

@@ -35,4 +35,4 @@ def jacobian_transpose(
     arm: Arm, task: TaskSpec = "pose", *, gain: float = 1.0, speed_limit: float | None = None
 ) -> JacobianTranspose:
     """Joint rates along the slope of the error, with the step that leaves the least of it; Buss 2004."""
-    return JacobianTranspose(arm, task, gain, speed_limit)
+    return JacobianTranspose(arm, task, gain, speed_limit=speed_limit)

@@ -107,10 +107,10 @@ class Job:
         """What a store holds of each start."""
         joints = (("joint_or_any", self.law.arm.n + 1),)
         return [
-            *(Column(name, "float64", joints, "percent", name) for name in NAMES),
-            Column("configurations", "int64", (), "1", "starting configurations"),
-            Column("lost", "int64", (), "1", "of them, lost at singular configurations"),
-            Column("ends", "int64", (("end", len(ENDS)),), "1", ", ".join(ENDS)),
+            *(Column(name, "float64", joints, units="percent", about=name) for name in NAMES),
+            Column("configurations", "int64", (), units="1", about="starting configurations"),
+            Column("lost", "int64", (), units="1", about="of them, lost at singular configurations"),
+            Column("ends", "int64", (("end", len(ENDS)),), units="1", about=", ".join(ENDS)),
         ]
 
     def analyse(self, owner: Index, q0: Array, count: int) -> dict[str, NDArray[Any]]:
@@ -224,7 +224,7 @@ def prepared(
     if len(targets) != 1:
         raise InputError(f"there are {len(targets)} targets; a workspace is that of one, see target_measures for more")
     pose = targets.poses[0]
-    bounds = tuple(tuple(arcs) for arcs in joint_bounds(arm.without_idle_limits, pose, task, seed))
+    bounds = tuple(tuple(arcs) for arcs in joint_bounds(arm.without_idle_limits, pose, task, seed=seed))
     arcs = None
     if method == "procedure" and any(bounds):
         arcs = _sinks(law, pose) if sinks is None else {k: list(sinks.get(k, ())) for k in range(arm.n)}

@@ -54,7 +54,7 @@ class LawChoice(Result):
         each = int(one.known.sum(axis=1).max(initial=0)) * (one.law.arm.n if joint is None else 1)
         return shared(self._by_place(name, joint), each, confidence)
 
-    def difference(self, name: str, other: str, joint: str | int | None = None, confidence: float = 0.95) -> Difference:
+    def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
         """How much more often the hand arrives under a law than under another, on the same failures.
 
         The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
@@ -108,6 +108,7 @@ def best_law(
     laws: Mapping[str, Law] | Sequence[Law],
     targets: ArrayLike | str | int | Places,
     starts: ArrayLike | str | int | Places = 300,
+    *,
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> LawChoice:

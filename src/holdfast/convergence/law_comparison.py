@@ -26,7 +26,7 @@ HEALTHY, ANY = "healthy", "any joint"
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Case:
     """The N motions of one law with one joint locked, or with none.
 
@@ -84,7 +84,7 @@ class Case:
         return Interval.of(int(hits.sum()), hits.size) if hits.size else None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class LawComparison(Result):
     """Laws on the same N motions; see :func:`compare_laws`.
 
@@ -192,6 +192,7 @@ class LawComparison(Result):
         law: str,
         failure: str | int = ANY,
         than: str | None = None,
+        *,
         among_reachable: bool = False,
         undecided: Literal["lost", "for", "against"] = "lost",
     ) -> Difference:
@@ -230,7 +231,7 @@ class LawComparison(Result):
         return Difference.of_pairs(_arrived(before, generous[0])[some], _arrived(after, generous[1])[some])
 
     def change(
-        self, law: str, of: Literal["error", "excess", "closest"], failure: str | int = ANY, than: str | None = None
+        self, law: str, of: Literal["error", "excess", "closest"], failure: str | int = ANY, *, than: str | None = None
     ) -> Difference:
         """Mean change of an error at the end of the same motions under a law and under another, with its 95 % interval.
 

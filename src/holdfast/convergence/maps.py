@@ -38,7 +38,7 @@ _BY_LOCK = ("code", "reason", "in_reach", "limits_passed")
 _OUTCOMES = {o.name.lower(): o for o in Outcome}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ConvergenceMap(Result):
     """How P x C motions ended with each joint locked from the start, and with none: the last column.
 
@@ -165,6 +165,7 @@ def convergence_map(
     law: Law,
     targets: ArrayLike | str | int | Places,
     starts: ArrayLike | str | int | Places = 1000,
+    *,
     configurations: int = 20,
     over: Over = "starts",
     q0: ArrayLike | None = None,
@@ -229,7 +230,18 @@ def convergence_map(
         q = pool[chosen]
         target = np.broadcast_to(places.poses[:, None], (*q.shape[:2], 4, 4))
     code, reason, in_reach, passed = _run(law, q, target, time_limit, tolerance, seed, progress)
-    return ConvergenceMap(law, places, over, q, np.asarray(target), code, reason, in_reach, passed, seed)
+    return ConvergenceMap(
+        law=law,
+        places=places,
+        over=over,
+        q0=q,
+        target=np.asarray(target),
+        code=code,
+        reason=reason,
+        in_reach=in_reach,
+        limits_passed=passed,
+        seed=seed,
+    )
 
 
 def _picked(law: Law, places: Places, count: int, seed: int, generator: np.random.Generator) -> Array:

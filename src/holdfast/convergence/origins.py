@@ -46,7 +46,7 @@ SAMPLE: tuple[str | int, int, int] = (100, 8, 3)  # and where they are sampled
 _CHUNK = 128  # starts analysed together and stored as one; no result depends on it
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Workspace(Result):
     """Measures of the paper for P starts; the last column of each (P, n + 1) array is for an arbitrary joint.
 
@@ -171,6 +171,7 @@ def workspace(
     law: Law,
     target: ArrayLike,
     starts: ArrayLike | str | int | Places | None = None,
+    *,
     configurations: int | None = None,
     points: int | None = None,
     method: Method | None = None,
@@ -261,7 +262,12 @@ def analysed(job: Job, begin: Beginnings, store: str | Path | None = None, progr
     folder = None
     if store is not None:
         folder = Store.create(
-            store, job.plan(places), job.store_columns(), count, _CHUNK, formerly=job.law.formerly(job.law.describe())
+            store,
+            job.plan(places),
+            job.store_columns(),
+            rows=count,
+            chunk=_CHUNK,
+            formerly=job.law.formerly(job.law.describe()),
         )
     chunks: list[dict[str, NDArray[Any]]] = []
     for k, first in enumerate(range(0, count, _CHUNK)):

@@ -159,7 +159,7 @@ def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int
     """
     arm = arm.without_idle_limits
     if arm.n - task.m == 1:
-        owner, guess = on_curves(arm, fibres(arm, places, task, _SPACING, seed, _SEEDS), count)
+        owner, guess = on_curves(arm, fibres(arm, places, task, spacing=_SPACING, seed=seed, starts=_SEEDS), count)
         q, ok = solver(arm, task).attempt(guess, places[owner], TOLERANCE)
         return owner[ok], q[ok]
     engine = solver(arm, task)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -39,6 +39,7 @@ class PointToPoint:
     arm: Arm
     q0: Array
     target: Array
+    _: KW_ONLY
     q_target: Array
     drawn: int
     wish: str
@@ -62,6 +63,7 @@ def point_to_point(
     arm: Arm,
     count: int,
     seed: int = 0,
+    *,
     distance: tuple[float, float] | None = None,
     reachable_after: Literal["each"] | Sequence[str | int] | None = None,
     task: str | Task | Sequence[str] = "pose",
@@ -112,7 +114,7 @@ def point_to_point(
             )
         own, solving = seeds.spawn(2)
         q0, q1 = np.random.default_rng(own).uniform(low, high, (2, _BLOCK, arm.n))
-        block = PointToPoint(arm, q0, arm.forward_kinematics(q1), q1, _BLOCK, wish)
+        block = PointToPoint(arm, q0, arm.forward_kinematics(q1), q_target=q1, drawn=_BLOCK, wish=wish)
         block = _rows(block, (block.distance >= nearest) & (block.distance <= farthest))
         for k in joints:
             block = _rows(block, _still_reached(block, chosen, k, solving, restarts))
@@ -120,7 +122,7 @@ def point_to_point(
         found += len(block)
         drawn += _BLOCK
     q0, target, q_target = (np.concatenate([getattr(b, x) for b in kept])[:count] for x in ("q0", "target", "q_target"))
-    return PointToPoint(arm, q0, target, q_target, drawn, wish)
+    return PointToPoint(arm, q0, target, q_target=q_target, drawn=drawn, wish=wish)
 
 
 def read_joints(arm: Arm, given: Literal["each"] | Sequence[str | int] | None, name: str) -> list[int]:

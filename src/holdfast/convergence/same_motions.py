@@ -30,6 +30,7 @@ def compare_laws(
     laws: Sequence[Law] | Mapping[str, Law],
     q0: ArrayLike,
     target: ArrayLike,
+    *,
     locked: Literal["each"] | Sequence[str | int] | None = "each",
     cycles: bool = False,
     time_limit: float | None = None,
@@ -37,7 +38,6 @@ def compare_laws(
     radius: float = RADIUS,
     restarts: int = 24,
     seed: int = 0,
-    *,
     about: str = "",
 ) -> LawComparison:
     """Run control laws over the same motions: with nothing failed, and with each joint locked from the start.
@@ -95,8 +95,8 @@ def compare_laws(
                     law,
                     every_start,
                     every_goal,
-                    stood,
-                    cycles,
+                    locked=stood,
+                    cycles=cycles,
                     time_limit=time_limit,
                     tolerance=tolerance,
                     radius=radius,
@@ -108,7 +108,16 @@ def compare_laws(
         least = _least(runs, radius if cycles else at_rest(every[0]), restarts, seed).reshape(many, count)
     names = (HEALTHY, *[arm.joint_names[k] for k in joints])
     way = prescribed_way(every[0], arm.forward_kinematics(start), poses)
-    return LawComparison(every, tuple(named), names, tuple(runs), least, np.linalg.norm(way, axis=1), tuple(costs), about=about)
+    return LawComparison(
+        laws=every,
+        names=tuple(named),
+        failures=names,
+        runs=tuple(runs),
+        least_error=least,
+        way=np.linalg.norm(way, axis=1),
+        healthy=tuple(costs),
+        about=about,
+    )
 
 
 def _by_label(laws: Sequence[Law]) -> dict[str, Law]:

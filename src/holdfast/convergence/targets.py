@@ -29,7 +29,7 @@ SAMPLE: tuple[str | int, int] = (50, 4)  # and where they are sampled
 STARTS, POINTS = 20, 2
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class TargetMeasures(Result):
     """Measures of T targets over the same S starts; the last of the n + 1 columns is for an arbitrary joint.
 
@@ -99,6 +99,7 @@ def target_measures(
     law: Law,
     targets: ArrayLike | str | int | Places | None = None,
     starts: ArrayLike | str | int | Places | None = None,
+    *,
     configurations: int | None = None,
     points: int | None = None,
     method: Method | None = None,
@@ -150,4 +151,4 @@ def target_measures(
             ends[k] = one.ends.sum(axis=0)
         if progress is not None:
             progress(k + 1, len(goals))
-    return TargetMeasures(law, goals, places, values, tried, ends)
+    return TargetMeasures(law=law, targets=goals, starts=places, values=values, configurations=tried, ends=ends)

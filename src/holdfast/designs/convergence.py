@@ -38,7 +38,7 @@ _CHUNK = 16  # designs that are looked at, and remembered, together
 _FRESH = 8  # times as many targets in the check of a sampled search
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ConvergenceDesigns(Result):
     """Designs of an arm by how surely they arrive after an unidentified lock; the given arm is design 0.
 
@@ -118,6 +118,7 @@ def design_for_convergence(
     law: Law,
     vary: Vary,
     targets: ArrayLike | int | None = None,
+    *,
     objective: Aim = "guaranteed",
     designs: int = 256,
     climbs: int = 4,
@@ -230,7 +231,19 @@ def _exact(
     values, measures = improved(box, measured, order, designs, climbs, seed, progress)
     best = _best(measures, order)
     searched = {"designs": designs, "climbs": climbs, "seed": seed, "keep_reach": box.total is not None}
-    return ConvergenceDesigns(rest.law, box.space, values, measures, objective, True, best, None, searched, rest, rings)
+    return ConvergenceDesigns(
+        law=rest.law,
+        space=box.space,
+        values=values,
+        measures=measures,
+        objective=objective,
+        exact=True,
+        best=best,
+        checked=None,
+        searched=searched,
+        _rest=rest,
+        _rings=rings,
+    )
 
 
 def planar_measures(radial: Radial) -> dict[str, Array]:
@@ -302,7 +315,17 @@ def _sampled(
     fresh = read_places(law.arm, law.task, more, np.random.default_rng(check))
     judged = part("check", lambda: vars(Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])))
     compared = _compared(Arrivals(**judged))
-    return ConvergenceDesigns(law, box.space, values, measures, "arrival", False, best, compared, searched)
+    return ConvergenceDesigns(
+        law=law,
+        space=box.space,
+        values=values,
+        measures=measures,
+        objective="arrival",
+        exact=False,
+        best=best,
+        checked=compared,
+        searched=searched,
+    )
 
 
 def _plan(law: Law, space: DesignSpace, searched: dict[str, Any]) -> dict[str, Any]:

@@ -53,7 +53,14 @@ class Checked:
 
         there = reached.astype(bool)
         if weights.size:
-            d = Distribution.of(value[there], "larger", int((~there).sum()), 0, weights[there], weights[~there], heaviest)
+            d = Distribution.of(
+                value[there],
+                "larger",
+                int((~there).sum()),
+                weights=weights[there],
+                unreached_weights=weights[~there],
+                heaviest=heaviest,
+            )
         else:
             d = Distribution.of(value[there], "larger", int((~there).sum()))
         size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
@@ -76,7 +83,7 @@ class Check:
     optimism: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Designs(Result):
     """What :func:`holdfast.design` found: D designs, the given arm first.
 

@@ -81,7 +81,7 @@ def symbolic_arm(space: DesignSpace, x: SX) -> SymbolicArm:
         origin = after @ turned @ raised if sliding else after @ turned
         after = along if sliding else raised @ along
         name = row.name or f"joint{k + 1}"
-        joints.append(SymbolicJoint(name, row.type, ca.sparsify(origin), np.array([0.0, 0.0, 1.0])))
+        joints.append(SymbolicJoint(name, row.type, ca.sparsify(origin), axis=np.array([0.0, 0.0, 1.0])))
     tool = ca.sparsify(after @ _tool(table.tool, {kind: s for (row_, kind), s in open_.items() if row_ is None}))
     return SymbolicArm(f"designs of {space.arm.name}", tuple(joints), base=table.base, tool=tool, limits=(lower, upper))
 
@@ -153,7 +153,7 @@ class Family:
         if self.task.name.startswith("planar"):
             _stay_in_plane(space)
         self.arm = symbolic_arm(space, self.x)
-        self.index: Index = by_name(objective, self.arm, self.task, failures)
+        self.index: Index = by_name(objective, self.arm, self.task, failures=failures)
         if self.index.better == "smaller":
             raise TaskError(
                 f"{self.index.name} is better when smaller, and a search maximises; use minimum-singular-value or another index"
@@ -164,7 +164,7 @@ class Family:
     @cached_property
     def numeric_index(self) -> Index:
         """The same index of the given arm, for facts such as its bound."""
-        return by_name(self.index.label, self.space.arm, self.task, self.index.failures)
+        return by_name(self.index.label, self.space.arm, self.task, failures=self.index.failures)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 
@@ -204,7 +204,7 @@ class Family:
         q, p, r = self._pose
         e, j = task_error(self.arm, self.task, q, p, r)
         step, residual = damped_step(self.arm, q, e, j)
-        return Loop("inverse kinematics of designs", q, [p, r, self.x], step, residual)
+        return Loop("inverse kinematics of designs", q, [p, r, self.x], next_state=step, residual=residual)
 
     @cached_property
     @recalled

@@ -7,7 +7,7 @@ linearisation then take designs as they take configurations, each row its own, a
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 
 import casadi as ca
 import numpy as np
@@ -40,6 +40,7 @@ class DesignJoints:
     space: DesignSpace
     whole: Arm
     moving: NDArray[np.intp]
+    _: KW_ONLY
     standing: NDArray[np.intp]
 
     @classmethod
@@ -58,16 +59,18 @@ class DesignJoints:
             if own is not None:
                 joints.append(replace(own, origin=pending, axis=axis))
             elif name in space.names:
-                joints.append(Joint(name, "prismatic" if sliding else "continuous", pending, axis))
+                joints.append(Joint(name, "prismatic" if sliding else "continuous", pending, axis=axis))
             else:
                 pending = pending @ _moved(axis, sliding, value)
                 continue
             pending = np.eye(4)
         arm = space.arm
-        whole = Arm(f"{arm.name}, {', '.join(space.names)} varied", tuple(joints), tool=pending, gravity=arm.gravity)
+        whole = Arm(
+            name=f"{arm.name}, {', '.join(space.names)} varied", joints=tuple(joints), tool=pending, gravity=arm.gravity
+        )
         at = {joint.name: k for k, joint in enumerate(joints)}
         moving = np.array([at[name] for name in arm.joint_names])
-        return cls(space, whole, moving, np.array([at[name] for name in space.names]))
+        return cls(space, whole, moving, standing=np.array([at[name] for name in space.names]))
 
     @property
     def arm(self) -> Arm:
@@ -100,7 +103,7 @@ class LawOfDesigns(Law):
     slug = "designs"
 
     def __init__(self, law: Law, joints: DesignJoints) -> None:
-        super().__init__(joints.whole, law.task, law.gain, law.speed_limit)
+        super().__init__(joints.whole, law.task, law.gain, speed_limit=law.speed_limit)
         self.name, self.source = law.name, law.source
         self.law, self.joints = law, joints
 

@@ -47,7 +47,7 @@ _CHUNK = 16  # designs analysed together
 _RUN, _SOLVED = (1, 1, 2), (2, 2, 1)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Radial:
     """What locks leave of targets at K distances, for D designs.
 
@@ -135,7 +135,7 @@ class PlanarRest:
         in_reach, stuck, clear = (np.concatenate([c[k] for c in chunks]) for k in range(3))
         longest, every = lengths.max(axis=1)[:, None], lengths.sum(axis=1)[:, None]
         reached = (radii[:-1] >= 2 * longest - every - 1e-9) & (radii[1:] <= every + 1e-9)
-        return Radial(radii, in_reach, stuck, clear > 0, reached)
+        return Radial(radii=radii, in_reach=in_reach, stuck=stuck, clear=clear > 0, reached=reached)
 
     def _radial(self, lengths: Array, radii: Array, angles: int) -> tuple[Array, Array, Array]:
         parts = [self._joint(_Shapes.of(self, lengths, i, angles), radii, angles) for i in range(3)]

@@ -104,7 +104,7 @@ class Reaches:
             turn = ca.if_else(flat, ca.atan2(ca.if_else(flat, s, 0.0), ca.if_else(flat, c, 1.0)), 0.0)
             q[k] = self._within(q[k], turn, c, s, low, high)
         step = [x - y for x, y in zip(q, ca.vertsplit(start), strict=True)]
-        return Loop("sweep of reach", start, [self._family.x], ca.vertcat(*q), dot(step, step))
+        return Loop("sweep of reach", start, [self._family.x], next_state=ca.vertcat(*q), residual=dot(step, step))
 
     @staticmethod
     def _within(now: SX, turn: SX, c: SX, s: SX, low: SX, high: SX) -> SX:

@@ -46,9 +46,9 @@ def design(
     arm: Arm,
     vary: Vary,
     objective: str = "relative-manipulability",
+    *,
     region: Region | None = None,
     task: str | Task | Sequence[str] = "pose",
-    *,
     level: float = 0.95,
     failures: FailureSpec = "single",
     length: float | None = None,
@@ -162,23 +162,23 @@ def design(
         for i in (0, 1)
     )
     return Designs(
-        space,
-        every,
-        merged["guaranteed"],
-        merged["reach"],
-        merged["reached"],
-        pareto(merged["reach"], merged["guaranteed"]),
-        best,
-        Check(given, chosen, float(merged["guaranteed"][best] - chosen.guaranteed.value)),
-        family.numeric_index,
-        region,
-        level,
-        poses,
-        designs,
-        len(ends),
-        seed,
-        time.monotonic() - begin,
-        search.method(designs, len(ends), fresh),
+        space=space,
+        values=every,
+        guaranteed=merged["guaranteed"],
+        reach=merged["reach"],
+        reached=merged["reached"],
+        front=pareto(merged["reach"], merged["guaranteed"]),
+        best=best,
+        checked=Check(given, chosen, float(merged["guaranteed"][best] - chosen.guaranteed.value)),
+        index=family.numeric_index,
+        region=region,
+        level=level,
+        poses=poses,
+        screened=designs,
+        climbs=len(ends),
+        seed=seed,
+        seconds=time.monotonic() - begin,
+        method=search.method(designs, len(ends), fresh),
     )
 
 
@@ -209,7 +209,7 @@ def _drawn(region: Region, count: int, seed: int, sampling: Any) -> tuple[Array,
     if region.kind == "joints":
         raise InputError("a region of joints fixes the configurations, so designs have no poses to reach; give a box of poses")
     samples: list[Array] = []
-    blocks = region.blocks(0, seed, sampling, count)
+    blocks = region.blocks(0, seed, sampling, count=count)
     while sum(len(s) for s in samples) < count:
         samples.append(next(blocks))
     s = np.concatenate(samples)[:count]

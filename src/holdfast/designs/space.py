@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -41,6 +41,7 @@ class Parameter:
     name: str
     lower: float
     upper: float
+    _: KW_ONLY
     unit: Literal["rad", "m"] | None = None
 
     def __post_init__(self) -> None:
@@ -339,7 +340,7 @@ def parse_vary(text: str, arm: Arm, option: str = "--vary") -> Parameter:
     if measured != wanted:
         fit = "m or mm" if wanted == "m" else "deg or rad"
         raise InputError(f"{option} '{text}': {name} is {'a length' if wanted == 'm' else 'an angle'}; give {fit}, not {unit}")
-    return Parameter(name, low_number * factor, high_number * factor, "m" if wanted == "m" else "rad")
+    return Parameter(name, low_number * factor, high_number * factor, unit="m" if wanted == "m" else "rad")
 
 
 def _quantity(text: str, option: str, whole: str) -> tuple[float, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from hashlib import sha256
 from typing import Any, Protocol
 
@@ -29,6 +29,7 @@ class Chunk:
     number: int
     start: int
     stop: int
+    _: KW_ONLY
     seed: int
 
     @property
@@ -87,6 +88,7 @@ class Cell:
     name: str
     job: Job
     plan: Mapping[str, Any]
+    _: KW_ONLY
     rows: int
     chunk: int
     summed: bool = False
@@ -110,8 +112,8 @@ class Cell:
 
     def part(self, number: int, seed: int) -> Chunk:
         """A chunk by its number."""
-        return Chunk(number, number * self.chunk, min((number + 1) * self.chunk, self.rows), seed)
+        return Chunk(number, number * self.chunk, min((number + 1) * self.chunk, self.rows), seed=seed)
 
     def smaller(self, rows: int) -> Cell:
         """The same with fewer rows, to try it."""
-        return Cell(self.name, self.job, self.plan, rows, rows, self.summed, self.labels)
+        return Cell(self.name, self.job, self.plan, rows=rows, chunk=rows, summed=self.summed, labels=self.labels)

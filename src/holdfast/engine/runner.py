@@ -27,7 +27,7 @@ class Task:
     chunk: Chunk
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Result:
     """What became of a task.
 
@@ -66,8 +66,8 @@ def compute(task: Task, alone: bool = True) -> Result:
         with working("a chunk", told):  # who runs the study tells of it
             columns = task.job.run(task.chunk)
     except HoldfastError as error:
-        return Result(task, None, time.perf_counter() - begin, machine(), error)
-    return Result(task, columns, time.perf_counter() - begin, machine())
+        return Result(task=task, columns=None, seconds=time.perf_counter() - begin, made=machine(), problem=error)
+    return Result(task=task, columns=columns, seconds=time.perf_counter() - begin, made=machine())
 
 
 class Threads:

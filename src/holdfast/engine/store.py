@@ -13,7 +13,7 @@ import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,6 +51,7 @@ class Column:
     name: str
     dtype: str
     dims: tuple[tuple[str, int], ...] = ()
+    _: KW_ONLY
     units: str = "1"
     about: str = ""
 
@@ -83,9 +84,9 @@ class Store:
         path: str | Path,
         plan: Mapping[str, Any],
         columns: list[Column],
+        *,
         rows: int,
         chunk: int,
-        *,
         journal: bool = False,
         formerly: Mapping[str, Any] | None = None,
     ) -> Store:
@@ -209,7 +210,7 @@ class Store:
     def columns(self) -> list[Column]:
         """What each row holds."""
         return [
-            Column(name, dtype, tuple((d, n) for d, n in dims), units, about)
+            Column(name, dtype, tuple((d, n) for d, n in dims), units=units, about=about)
             for name, dtype, dims, units, about in self._run["columns"]
         ]
 
@@ -268,7 +269,7 @@ class Store:
 
     # ---- rows ------------------------------------------------------------------------------------------------------
 
-    def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], seconds: float = 0.0, maker: int = 0) -> None:
+    def write(self, chunk: int, columns: Mapping[str, NDArray[Any]], seconds: float = 0.0, *, maker: int = 0) -> None:
         """Write all columns of a chunk, then commit it.
 
         Args:

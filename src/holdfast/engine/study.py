@@ -26,7 +26,7 @@ _FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journa
 _KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CellStatus:
     """How far a cell is.
 
@@ -80,7 +80,7 @@ class Study:
     # ---- opening ---------------------------------------------------------------------------------------------------
 
     @classmethod
-    def create(cls, path: str | Path, name: str, seed: int, cells: Sequence[Cell], source: str = "") -> Study:
+    def create(cls, path: str | Path, name: str, seed: int, *, cells: Sequence[Cell], source: str = "") -> Study:
         """A new folder, or the existing one of the same study, to go on; it takes over a new name, source and labels.
 
         Args:
@@ -268,14 +268,14 @@ class Study:
             short = c["chunk"] - rest if rest and count - 1 in entries else 0
             found.append(
                 CellStatus(
-                    c["name"],
-                    c["labels"],
-                    count,
-                    c["rows"],
-                    len(done),
-                    len(done) * c["chunk"] - short,
-                    sum(e.seconds for e in done),
-                    tuple(sorted({e.maker for e in done})),
+                    name=c["name"],
+                    labels=c["labels"],
+                    chunks=count,
+                    rows=c["rows"],
+                    chunks_done=len(done),
+                    rows_done=len(done) * c["chunk"] - short,
+                    seconds=sum(e.seconds for e in done),
+                    makers=tuple(sorted({e.maker for e in done})),
                 )
             )
         return found
@@ -303,6 +303,7 @@ class Study:
         cells: Sequence[Cell],
         runner: Runner,
         progress: Progress | None = None,
+        *,
         stop: Stop = lambda: False,
         part: tuple[int, int] = (1, 1),
     ) -> dict[str, HoldfastError]:

@@ -19,7 +19,7 @@ from holdfast.files import reading
 from holdfast.notice import says
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Merged:
     """What a merge did.
 
@@ -63,7 +63,7 @@ def merge(path: str | Path, folders: Sequence[str | Path], progress: Progress | 
         for other in others:
             work.take(other)
         study.made.add(r for o in others for r in o.runs)
-    return Merged(work.added, work.both, work.close, tuple(work.apart))
+    return Merged(added=work.added, both=work.both, close=work.close, apart=tuple(work.apart))
 
 
 class _Merge:
@@ -82,11 +82,12 @@ class _Merge:
                 continue
             source = other.store(k)
             source.check_current()
-            mine = Store.create(self._study.folder(k), source.plan, source.columns, *source.shape, journal=True)
+            rows, chunk = source.shape
+            mine = Store.create(self._study.folder(k), source.plan, source.columns, rows=rows, chunk=chunk, journal=True)
             if source.done and k not in self._study.begun:
                 self._study.note_begun(k)
-            for chunk in source.done:
-                self._chunk(cell["name"], chunk, source, mine, numbers)
+            for part in source.done:
+                self._chunk(cell["name"], part, source, mine, numbers)
                 self._at += 1
                 if self._progress is not None:
                     self._progress(self._at, self._total, None)
@@ -105,7 +106,7 @@ class _Merge:
             ) from error
         if have is None:
             maker = numbers[entry.maker] if entry.maker < len(numbers) else 0
-            mine.write(chunk, values, entry.seconds, maker)
+            mine.write(chunk, values, entry.seconds, maker=maker)
             self.added += 1
         elif _alike(mine.read(chunk, list(values)), values):
             self.close += 1

@@ -107,11 +107,13 @@ class Work:
         k, cell = task.cell, self._cells[task.cell]
         if k not in self._stores:
             folder = self._study.folder(k)
-            self._stores[k] = Store.create(folder, cell.plan, cell.job.columns(), *cell.stored, journal=True)
+            self._stores[k] = Store.create(
+                folder, cell.plan, cell.job.columns(), rows=cell.stored[0], chunk=cell.stored[1], journal=True
+            )
         if made not in self._numbers:
             self._study.made.number(made)
             self._numbers = self._study.made.makers
-        self._stores[k].write(task.chunk.number, columns, seconds, self._numbers.index(made))
+        self._stores[k].write(task.chunk.number, columns, seconds, maker=self._numbers.index(made))
         if k not in self._begun:
             self._study.note_begun(k)
             self._begun.add(k)

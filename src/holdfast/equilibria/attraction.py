@@ -40,7 +40,7 @@ _OFFSET, _LENGTH = 1e-5, 30.0  # rad: where a basin boundary begins, how far it 
 _SPACING = 0.02
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Basins(Result):
     """Where N starts ended.
 
@@ -101,6 +101,7 @@ def basins(
     law: Law,
     target: ArrayLike,
     locked: Joints,
+    *,
     at: ArrayLike,
     starts: int | ArrayLike = STARTS,
     grid: int | None = None,
@@ -142,7 +143,16 @@ def basins(
     points = _completed(system, points, runs)
     shape = None if grid is None else (grid, grid)
     lines = tuple(_boundaries(system, points)) if len(moving) == 2 else ()
-    return Basins(points, q0, _ends(system, points, runs), runs, confidence, lines, shape, moving)
+    return Basins(
+        points=points,
+        starts=q0,
+        end=_ends(system, points, runs),
+        runs=runs,
+        confidence=confidence,
+        boundaries=lines,
+        shape=shape,
+        healthy=moving,
+    )
 
 
 def _starts(

@@ -40,7 +40,7 @@ class Segment:
     last: int
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Curve:
     """One curve of erroneous rest points over the locked value.
 
@@ -92,7 +92,7 @@ class Curve:
         return [(low, high) for low, high in ends]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Curves(Result):
     """All curves of erroneous rest points that were found for one locked joint.
 

@@ -100,7 +100,7 @@ class RestEquations:
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-16), ca.vertcat(self._z, damping * _HARDER))
         residual = ca.if_else(damping > _HOPELESS, 0.0, ca.sqrt(size))
         parameters = [*self.system.parameters, free]
-        return Loop("rest points", state, parameters, after, residual)
+        return Loop("rest points", state, parameters, next_state=after, residual=residual)
 
     def values(self, z: Array, pose: Array, mask: Array) -> tuple[Array, Array]:
         """The equations that are not trivial (N, e) at unknowns (N, size), and their Jacobian (N, e, size)."""

@@ -33,7 +33,7 @@ _CLOSED = 1e-8  # rad (and m)
 _ACCURACY: dict[str, Any] = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Orbit(Result):
     """The motion at the end of one run.
 

@@ -25,7 +25,7 @@ SAME, SAME_DEGENERATE = 1e-5, 0.05  # rad (and m): points nearer than this are o
 SAMPLE = 256  # points of a continuum that are kept
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class StationaryPoints(Result):
     """Points of rest of an arm with locked joints, solutions and erroneous ones.
 

@@ -19,12 +19,12 @@ from holdfast.notice import working
 
 
 @overload
-def stationary_points(law: Law, target: ArrayLike, locked: Joints, at: ArrayLike, seed: int = ...) -> StationaryPoints: ...
+def stationary_points(law: Law, target: ArrayLike, locked: Joints, *, at: ArrayLike, seed: int = ...) -> StationaryPoints: ...
 @overload
-def stationary_points(law: Law, target: ArrayLike, locked: Joints, at: None = ..., seed: int = ...) -> Curves: ...
+def stationary_points(law: Law, target: ArrayLike, locked: Joints, *, at: None = ..., seed: int = ...) -> Curves: ...
 @checked
 def stationary_points(
-    law: Law, target: ArrayLike, locked: Joints, at: ArrayLike | None = None, seed: int = 0
+    law: Law, target: ArrayLike, locked: Joints, *, at: ArrayLike | None = None, seed: int = 0
 ) -> StationaryPoints | Curves:
     """Where the arm can come to rest while its controller does not know that joints have locked.
 

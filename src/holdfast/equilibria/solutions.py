@@ -32,7 +32,7 @@ class Solutions:
         e, j = self._system.scaled_error(q)
         size = ca.sumsqr(e)
         step = damped_least_norm(j @ ca.diag(self._system.mask), e, 1e-3 * size + 1e-14)
-        return Loop("solutions", q, self._system.parameters, q + step, ca.sqrt(size))
+        return Loop("solutions", q, self._system.parameters, next_state=q + step, residual=ca.sqrt(size))
 
     def search(self, q: Array, pose: Array, mask: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Configurations (N, n) from starts q (N, n), and whether they reach the target."""

@@ -47,7 +47,7 @@ def stuck_subspace(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int
 
 
 def is_stuck(
-    j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int], command: ArrayLike, tolerance: float = 1e-9
+    j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int], *, command: ArrayLike, tolerance: float = 1e-9
 ) -> bool:
     """Whether a command moves no healthy joint: its share of the joint rates is at most the tolerance.
 
@@ -75,7 +75,7 @@ def is_stuck(
     return size > 0 and float(np.linalg.norm(rates[healthy])) <= tolerance * size
 
 
-def column_residual(arm: Arm, q: ArrayLike, joint: int | str, command: ArrayLike) -> Array:
+def column_residual(arm: Arm, q: ArrayLike, joint: int | str, *, command: ArrayLike) -> Array:
     """What of a command is not along the column of a joint, (6,): zero where the joint alone would do all of it.
 
     For a revolute joint with axis z and lever ``z x p``: ``x_v - (z'x_w)(z x p)`` and ``x_w - (z'x_w) z``, with one common

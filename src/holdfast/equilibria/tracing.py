@@ -43,7 +43,15 @@ def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPA
     system = RestSystem(law, pose, (joint,))
     tracer = Tracer(system, joint, spacing)
     found, loose, starts = tracer.all(np.random.default_rng(seed), advance)
-    return Curves(law, pose, joint, tuple(found), classified(system, np.array([np.nan]), loose, starts), starts, system)
+    return Curves(
+        law=law,
+        target=pose,
+        joint=joint,
+        curves=tuple(found),
+        loose=classified(system, np.array([np.nan]), loose, starts),
+        starts=starts,
+        _system=system,
+    )
 
 
 class Tracer:
@@ -95,7 +103,9 @@ class Tracer:
         """Those of z (N, size) that lie on none of the curves."""
         for curve in curves:
             if len(z):
-                component = Component(curve.q[:-1] if curve.closed else curve.q, curve.closed, (None, None), 0.0)
+                component = Component(
+                    q=curve.q[:-1] if curve.closed else curve.q, closed=curve.closed, bounded_by=(None, None), length=0.0
+                )
                 z = z[distance_to_curve(self._arm, component, z[:, : self._n]) > _ON_CURVE * self.spacing]
         return z
 

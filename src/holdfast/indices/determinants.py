@@ -65,9 +65,10 @@ class RelativeManipulability(Index):
         arm: Arm,
         task: str | Task | Sequence[str] = "pose",
         failures: FailureSpec = "single",
+        *,
         length: float | None = None,
     ) -> None:
-        super().__init__("relative manipulability", arm, task, failures, length)
+        super().__init__("relative manipulability", arm, task, failures=failures, length=length)
         size = len(self.failures[0])
         every = comb(arm.n, size)
         if len(self.failures) == every and all(len(s) == size for s in self.failures):
@@ -295,9 +296,10 @@ class Manipulability(RelativeManipulability):
         arm: Arm,
         task: str | Task | Sequence[str] = "pose",
         failures: FailureSpec = "single",
+        *,
         length: float | None = None,
     ) -> None:
-        super().__init__(arm, task, failures, length)
+        super().__init__(arm, task, failures, length=length)
         self.name = "manipulability"
         self.bound = None
         # Linear rows are divided by the characteristic length; the invariant Jacobian is not, so the factor comes here.
@@ -335,15 +337,15 @@ class Manipulability(RelativeManipulability):
     properties=("Abdi 2012", "base-free"),
 )
 def relative_manipulability(
-    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> RelativeManipulability:
     """Worst-case relative manipulability, 0 to 1; Abdi et al. 2012, eq. (3), (4)."""
-    return RelativeManipulability(arm, task, failures, length)
+    return RelativeManipulability(arm, task, failures, length=length)
 
 
 @constructor(formula="<sup>S</sup>r = √det(<sup>S</sup>J <sup>S</sup>Jᵀ)", properties=("Abdi 2012", "base-free"))
 def manipulability(
-    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> Manipulability:
     """Worst-case manipulability of the reduced Jacobian; Abdi et al. 2012, eq. (1), (2)."""
-    return Manipulability(arm, task, failures, length)
+    return Manipulability(arm, task, failures, length=length)

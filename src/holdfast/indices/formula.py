@@ -113,6 +113,7 @@ class CustomIndex(FormulaIndex):
         formula: Formula,
         arm: Arm,
         task: str | Task | Sequence[str] = "pose",
+        *,
         failures: FailureSpec = "single",
         length: float | None = None,
         name: str = "custom index",
@@ -120,7 +121,7 @@ class CustomIndex(FormulaIndex):
         unit: str = "1",
         bound: float | None = None,
     ) -> None:
-        super().__init__(name, arm, task, failures, length)
+        super().__init__(name, arm, task, failures=failures, length=length)
         if better not in ("larger", "smaller"):
             raise TaskError(f"{name}: better is '{better}'; it must be 'larger' or 'smaller'")
         self.better, self.unit, self.bound = better, unit, bound

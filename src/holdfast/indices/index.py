@@ -32,7 +32,7 @@ SINGULAR_RATIO = 1e-12
 """A Jacobian is singular if its smallest singular value is at most this times its largest: the same everywhere."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Evaluation:
     """An index at N configurations, or at one (then without the leading N).
 
@@ -88,6 +88,7 @@ class Index(Labelled, Objective):
         name: str,
         arm: Arm,
         task: str | Task | Sequence[str] = "pose",
+        *,
         failures: FailureSpec = "single",
         length: float | None = None,
     ) -> None:
@@ -138,9 +139,8 @@ class Index(Labelled, Objective):
         unknown = np.isnan(value)
         if unknown.any():
             status[unknown] = np.where(np.isfinite(rows[unknown]).all(axis=1), Status.UNDEFINED, Status.BAD_INPUT)
-        if single:
-            return Evaluation(value[0], by_failure[0], worst[0], status[0])
-        return Evaluation(value, by_failure, worst, status)
+        one = 0 if single else slice(None)
+        return Evaluation(value=value[one], by_failure=by_failure[one], worst=worst[one], status=status[one])
 
     def worst_case(self, q: ArrayLike) -> WorstCase:
         """Value, worst failure and status, without the values of the other failures: for very many configurations.
@@ -282,6 +282,7 @@ def by_name(
     name: str,
     arm: Arm,
     task: str | Task | Sequence[str] = "pose",
+    *,
     failures: FailureSpec = "single",
     length: float | None = None,
 ) -> Index:

@@ -60,7 +60,7 @@ class Rotator:
     def _loop(self) -> Loop:
         a = ca.SX.sym("a", self.m * self.c)
         rows, off = jacobi_sweep([[a[i * self.c + k] for k in range(self.c)] for i in range(self.m)])
-        return Loop("Jacobi sweep", a, [], ca.vertcat(*[x for row in rows for x in row]), off)
+        return Loop("Jacobi sweep", a, [], next_state=ca.vertcat(*[x for row in rows for x in row]), residual=off)
 
     def rotate(self, a: Array) -> Array:
         """Rows made orthogonal by rotations: their lengths are the singular values, their directions the right vectors."""
@@ -82,11 +82,12 @@ class SpectralIndex(Index):
         formula: Formula,
         arm: Arm,
         task: str | Task | Sequence[str] = "pose",
+        *,
         failures: FailureSpec = "single",
         length: float | None = None,
     ) -> None:
         name, source = _SOURCES[formula]
-        super().__init__(name, arm, task, failures, length)
+        super().__init__(name, arm, task, failures=failures, length=length)
         self.formula, self.source = formula, source
         self.better = "smaller" if formula == "condition number" else "larger"
         if formula != "condition number":
@@ -274,10 +275,10 @@ class SpectralIndex(Index):
     properties=("Abdi 2012", "base-free"),
 )
 def mean_singular_value(
-    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
     """Worst-case arithmetic mean of the singular values; Abdi et al. 2012, eq. (7)."""
-    return SpectralIndex("mean", arm, task, failures, length)
+    return SpectralIndex("mean", arm, task, failures=failures, length=length)
 
 
 @constructor(
@@ -285,23 +286,23 @@ def mean_singular_value(
     properties=("Abdi 2012", "base-free"),
 )
 def geometric_mean_singular_value(
-    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
     """Worst-case geometric mean of the singular values; Abdi et al. 2012, eq. (8)."""
-    return SpectralIndex("geometric mean", arm, task, failures, length)
+    return SpectralIndex("geometric mean", arm, task, failures=failures, length=length)
 
 
 @constructor(formula="<sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "base-free"))
 def minimum_singular_value(
-    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
     """Worst-case smallest singular value; Abdi et al. 2012, eq. (9)."""
-    return SpectralIndex("minimum", arm, task, failures, length)
+    return SpectralIndex("minimum", arm, task, failures=failures, length=length)
 
 
 @constructor(formula="<sup>S</sup>σ<sub>1</sub> / <sup>S</sup>σ<sub>m</sub>", properties=("Abdi 2012", "base-free"))
 def condition_number(
-    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", length: float | None = None
+    arm: Arm, task: TaskSpec = "pose", failures: FailureSpec = "single", *, length: float | None = None
 ) -> SpectralIndex:
     """Worst-case condition number, smaller is better; Abdi et al. 2012, eq. (10)."""
-    return SpectralIndex("condition number", arm, task, failures, length)
+    return SpectralIndex("condition number", arm, task, failures=failures, length=length)

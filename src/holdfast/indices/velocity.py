@@ -61,7 +61,7 @@ class DirectionalVelocity(FormulaIndex):
                 f"the direction is {np.array2string(u, separator=', ')}; it must be three finite numbers, not all 0"
             )
         shown = ", ".join(f"{x:g}" for x in u)
-        super().__init__(f"directional velocity along {shown}", arm, task, failures, length)
+        super().__init__(f"directional velocity along {shown}", arm, task, failures=failures, length=length)
         self.direction = u
         if not _prescribes(self.task, u):
             raise TaskError(

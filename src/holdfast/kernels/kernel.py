@@ -54,7 +54,7 @@ class Kernel:
         KernelError: Unknown backend, or an operation the backend does not have.
     """
 
-    def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], backend: str | None = None) -> None:
+    def __init__(self, name: str, inputs: Sequence[SX], outputs: Sequence[SX], *, backend: str | None = None) -> None:
         self._take(Program(name, inputs, outputs), backend or default_backend())
 
     @classmethod

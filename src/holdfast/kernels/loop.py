@@ -23,7 +23,7 @@ _MOST, _LEAST = 4096, 256  # rows of that; no result depends on it
 _STRETCH = 1000  # steps after which somebody is told of them
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LoopResult:
     """Where the rows ended.
 
@@ -66,13 +66,14 @@ class Loop:
         name: str,
         state: SX,
         parameters: Sequence[SX],
+        *,
         next_state: SX,
         residual: SX,
         backend: str | None = None,
         ahead: bool = False,
         times: int = 1,
     ) -> None:
-        self._take(Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend), ahead, times)
+        self._take(Kernel(name, [state, *parameters], [ca.vertcat(next_state, residual)], backend=backend), ahead, times)
 
     @classmethod
     def of(cls, step: Kernel, ahead: bool, times: int) -> Loop:
@@ -213,7 +214,10 @@ class _Batch:
         rows = len(state)
         self.tolerance, self.most_steps = tolerance, most_steps
         self.result = LoopResult(
-            np.array(state, dtype=np.float64), np.full(rows, np.nan), np.zeros(rows, dtype=bool), np.zeros(rows, dtype=np.int64)
+            state=np.array(state, dtype=np.float64),
+            residual=np.full(rows, np.nan),
+            done=np.zeros(rows, dtype=bool),
+            steps=np.zeros(rows, dtype=np.int64),
         )
         self._parameters, self._next, self._lock = parameters, 0, threading.Lock()
 

@@ -131,7 +131,7 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
     def add(kind: str, flags: Flags, say: Callable[[str], str]) -> None:
         for a, b in _runs(flags, max(1, round(_BRIDGE * len(flags)))):
             start, end = float(c.time[a]), float(c.time[b])
-            found.append(Event(kind, start, end, say(_when(start, end))))
+            found.append(Event(kind=kind, start=start, end=end, text=say(_when(start, end))))
 
     positive = objective.better == "smaller" and bool((c.value >= 0).all())
     nothing = positive & (c.value <= NOTHING * max(float(c.value.max()), 1e-300)) & (c.value.max() > 0)
@@ -194,7 +194,7 @@ def _troubles(objective: Objective, c: Course, tracks: bool, nothing: Flags) -> 
         closing = "; it has not reached one by the end" if lost and last >= count - 2 else ""
         if tracks and first == 0:
             text = f"{_when(start, end)}: the arm does not start at a local best of {objective.name} and moves to one; {reach}"
-            found.append(Event("not at an extremum", start, end, text + closing))
+            found.append(Event(kind="not at an extremum", start=start, end=end, text=text + closing))
         elif tracks and least <= _CLOSE * typical:
             why = "the local best that the arm follows " + ("ends or splits here" if lost else "nearly ends or splits here")
             inside = nothing[window]
@@ -205,9 +205,9 @@ def _troubles(objective: Objective, c: Course, tracks: bool, nothing: Flags) -> 
                 f"at {start:.4g} s: {'' if lost or inside.any() else 'close to an '}algorithmic singularity of "
                 f"{objective.name}, though the arm itself is not singular: {why}{way}{closing}; {reach}"
             )
-            found.append(Event("algorithmic singularity", start, end, text))
+            found.append(Event(kind="algorithmic singularity", start=start, end=end, text=text))
         else:
-            found.append(Event("fast motion", start, end, f"{_when(start, end)}: {reach}"))
+            found.append(Event(kind="fast motion", start=start, end=end, text=f"{_when(start, end)}: {reach}"))
     return found
 
 

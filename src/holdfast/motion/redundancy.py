@@ -44,12 +44,13 @@ class GradientProjection(Resolution):
         arm: Arm,
         objective: Objective,
         gain: float = 1.0,
+        *,
         task: str | Task | Sequence[str] | None = None,
         rate_cap: float | None = None,
         period: float | None = 0.01,
         damping: float = 0.05,
     ) -> None:
-        super().__init__(arm, objective, task, rate_cap, period, damping)
+        super().__init__(arm, objective, task, rate_cap=rate_cap, period=period, damping=damping)
         if not (np.isfinite(gain) and gain >= 0):
             raise InputError(f"gain is {gain:g}; it must be 0 or more: the objective knows which way is better")
         self.gain = gain
@@ -85,12 +86,13 @@ class ExtendedJacobian(Resolution):
         arm: Arm,
         objective: Objective,
         gain: float = 5.0,
+        *,
         task: str | Task | Sequence[str] | None = None,
         rate_cap: float | None = None,
         period: float | None = 0.01,
         damping: float = 0.05,
     ) -> None:
-        super().__init__(arm, objective, task, rate_cap, period, damping)
+        super().__init__(arm, objective, task, rate_cap=rate_cap, period=period, damping=damping)
         if not (np.isfinite(gain) and gain > 0):
             raise InputError(f"gain is {gain:g}; it must be above 0")
         self.gain = gain
@@ -126,13 +128,14 @@ class AugmentedJacobian(Resolution):
         arm: Arm,
         objective: Objective,
         wanted: float,
+        *,
         gain: float = 5.0,
         task: str | Task | Sequence[str] | None = None,
         rate_cap: float | None = None,
         period: float | None = 0.01,
         damping: float = 0.05,
     ) -> None:
-        super().__init__(arm, objective, task, rate_cap, period, damping)
+        super().__init__(arm, objective, task, rate_cap=rate_cap, period=period, damping=damping)
         if not np.isfinite(wanted):
             raise InputError(f"the wanted value is {wanted:g}; it must be a finite number")
         if not (np.isfinite(gain) and gain > 0):

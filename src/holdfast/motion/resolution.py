@@ -48,7 +48,7 @@ _SAMPLES = 512
 _FAR = 1e9  # stands for no limit, rad/s
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Rates:
     """Joint rates at N configurations, or at one (then without the leading N).
 
@@ -92,6 +92,7 @@ class Resolution(Steps):
         arm: Arm,
         objective: Objective,
         task: str | Task | Sequence[str] | None = None,
+        *,
         rate_cap: float | None = None,
         period: float | None = 0.01,
         damping: float = 0.05,
@@ -282,10 +283,10 @@ class Resolution(Steps):
         status = np.where(out[:, n + 2] > 0, Status.SINGULAR, Status.OK).astype(np.uint8)
         status[out[:, n + 1] < 1] = Status.SLOWED
         status[np.isnan(out).any(axis=1)] = Status.BAD_INPUT
-        result = (out[:, :n], out[:, n], out[:, n + 1], out[:, n + 2], status)
-        if a.ndim == 1 and t.ndim == 1:
-            return Rates(*[x[0] for x in result])
-        return Rates(*result)
+        one = 0 if a.ndim == 1 and t.ndim == 1 else slice(None)
+        return Rates(
+            rates=out[one, :n], self_motion=out[one, n], task=out[one, n + 1], damping=out[one, n + 2], status=status[one]
+        )
 
     def _step_kernel(self) -> tuple[Kernel, int]:
         return self._kernel, self.arm.n

@@ -17,7 +17,7 @@ from holdfast.errors import InputError
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SlowMotion:
     """How slow a motion must be.
 
@@ -36,7 +36,7 @@ class SlowMotion:
 
 
 @checked
-def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, bound: ArrayLike) -> SlowMotion:
+def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, *, qdd: ArrayLike, bound: ArrayLike) -> SlowMotion:
     """By how much a motion must be stretched in time for its torques to stay close to those at rest.
 
     When a motion takes k times as long, its rates are divided by k and its accelerations by k^2, so what its torques add to
@@ -76,7 +76,7 @@ def slow_enough(arm: Arm, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, bound: Ar
     scales = _largest_root(viscous / most, inertial / most)
     sample, joint_index = np.unravel_index(int(scales.argmax()), scales.shape)
     scale = float(scales.max())
-    return SlowMotion(scale, int(joint_index), int(sample), scale <= 1)
+    return SlowMotion(time_scale=scale, worst_joint=int(joint_index), worst_time_index=int(sample), satisfied=scale <= 1)
 
 
 def _limits(arm: Arm, bound: ArrayLike) -> Array:

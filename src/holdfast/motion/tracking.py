@@ -49,6 +49,7 @@ def follow(
     arm: Arm,
     path: TimedPath,
     minimise: Objective | None = None,
+    *,
     maximise: Objective | None = None,
     method: Method = "gradient-projection",
     q: ArrayLike | None = None,
@@ -62,7 +63,6 @@ def follow(
     seed: int = 0,
     best: bool = False,
     spacing: float = 0.05,
-    *,
     torque_bound: float | None = None,
 ) -> Trajectory:
     """Joint motion along a timed path of the end effector, with redundancy resolution.
@@ -125,12 +125,12 @@ def follow(
     cap = finest if rate_cap is None else min(rate_cap, finest)
     keep: float | None = None
     if method == "extended-jacobian":
-        law = ExtendedJacobian(arm, objective, gain, chosen, cap, period, damping)
+        law = ExtendedJacobian(arm, objective, gain, task=chosen, rate_cap=cap, period=period, damping=damping)
     elif method == "augmented-jacobian":
         keep = float(objective(start)) if wanted is None else wanted
-        law = AugmentedJacobian(arm, objective, keep, gain, chosen, cap, period, damping)
+        law = AugmentedJacobian(arm, objective, keep, gain=gain, task=chosen, rate_cap=cap, period=period, damping=damping)
     else:
-        law = GradientProjection(arm, objective, gain, chosen, cap, period, damping)
+        law = GradientProjection(arm, objective, gain, task=chosen, rate_cap=cap, period=period, damping=damping)
     if wanted is not None and keep is None:
         raise InputError(f"wanted is what the augmented Jacobian keeps; {method} does not, leave it out")
     settle = q is None and method in TRACKING
@@ -143,31 +143,31 @@ def follow(
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
     best_value, best_q = _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed) if best else (None, None)
     found = Trajectory(
-        arm,
-        chosen,
-        objective,
-        law.name if method != "none" else "least-norm rates",
-        gain,
-        seed,
-        rate_cap,
-        time,
-        joints[few],
-        rates[few],
-        np.gradient(rates[few], time, axis=0, edge_order=2),
-        poses,
-        position_error,
-        rotation_error,
-        course.value[few],
-        course.curvature[few],
-        shares[few, 0],
-        shares[few, 1],
-        shares[few, 2],
-        len(joints) - 1,
-        float(course.rate_norm[fastest]),
-        float(course.time[fastest]),
-        happened,
-        best_value,
-        best_q,
+        arm=arm,
+        task=chosen,
+        objective=objective,
+        method=law.name if method != "none" else "least-norm rates",
+        gain=gain,
+        seed=seed,
+        rate_cap=rate_cap,
+        time=time,
+        q=joints[few],
+        qd=rates[few],
+        qdd=np.gradient(rates[few], time, axis=0, edge_order=2),
+        poses=poses,
+        position_error=position_error,
+        rotation_error=rotation_error,
+        value=course.value[few],
+        curvature=course.curvature[few],
+        self_motion=shares[few, 0],
+        task_share=shares[few, 1],
+        damping=shares[few, 2],
+        steps=len(joints) - 1,
+        peak_rate=float(course.rate_norm[fastest]),
+        peak_time=float(course.time[fastest]),
+        events=happened,
+        best_value=best_value,
+        best_path=best_q,
         torque_bound=torque_bound,
     )
     if torque_bound is not None:
@@ -239,7 +239,7 @@ def _gain(method: str, curvature: Curvature, poses: Array, step: float, seed: in
     if method != "gradient-projection":
         return rate
     chosen = poses[np.linspace(0, len(poses) - 1, _PROBES).astype(int)]
-    reach = solve_ik(curvature.objective.arm, chosen, seed, curvature.task, restarts=20)
+    reach = solve_ik(curvature.objective.arm, chosen, seed, task=curvature.task, restarts=20)
     some = reach.q[reach.success]
     if not len(some):
         return 0.0
@@ -326,7 +326,7 @@ def _best(
         fastest = np.minimum(fastest, rate_cap)
     # Where a joint has no limit, the path's own default says what counts as continuous.
     limit = fastest * float(np.diff(time[few]).max()) if np.isfinite(fastest).all() else None
-    found = best_path(arm, poses[few], lambda q: sign * objective(q), task, spacing, limit, seed=seed)
+    found = best_path(arm, poses[few], lambda q: sign * objective(q), task=task, spacing=spacing, rate_limit=limit, seed=seed)
     values = np.interp(time, time[few], sign * found.global_value)
     motion = np.stack([np.interp(time, time[few], column) for column in found.q.T], axis=1)
     return values, motion

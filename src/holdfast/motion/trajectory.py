@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 ON_PATH = 1e-4  # m and rad
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Event:
     """Something that happened along a path.
 
@@ -41,7 +41,7 @@ class Event:
     text: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Trajectory(Result):
     """Joints along a path of the hand, T samples.
 
@@ -210,7 +210,7 @@ class Trajectory(Result):
         Source: English and Maciejewski 1998, eq. (6).
         """
         each = np.where(np.eye(self.arm.n) > 0, bound, np.inf)
-        return [slow_enough(self.arm, self.q, self.qd, self.qdd, one) for one in each]
+        return [slow_enough(self.arm, self.q, self.qd, qdd=self.qdd, bound=one) for one in each]
 
     def describe(self) -> list[str]:
         """A few sentences for people: how far, how well, and what happened."""

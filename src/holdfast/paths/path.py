@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pathlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,6 +43,7 @@ class Path:
     starts: Array
     shift: Array
     center: Array
+    _: KW_ONLY
     sweep: Array
     turn: Array
     oriented: bool = True
@@ -200,7 +201,7 @@ def sequence(poses: ArrayLike | Sequence[ArrayLike], name: str = "sequence") -> 
         k = int(np.argmax(size <= _SAME))
         raise InputError(f"poses {k} and {k + 1} of the path (from 0) are the same; leave one of them out")
     none = np.zeros_like(shift)
-    return Path(t[:-1], shift, t[:-1, :3, 3], none, turn, oriented, name)
+    return Path(t[:-1], shift, t[:-1, :3, 3], sweep=none, turn=turn, oriented=oriented, name=name)
 
 
 @checked
@@ -258,7 +259,7 @@ def _arc_through(start: ArrayLike, via: ArrayLike, end: ArrayLike, name: str) ->
     sweep = np.array([axis * _angle_about(axis, p - center, q - center) for p, q in ((a, b), (b, c))])
     turn = _turns(t)
     none = np.zeros((2, 3))
-    return Path(t[:-1], none, np.array([center, center]), sweep, turn, oriented, name)
+    return Path(t[:-1], none, np.array([center, center]), sweep=sweep, turn=turn, oriented=oriented, name=name)
 
 
 def _arc_about(start: ArrayLike, center: Array, axis: Array, angle: float, turning: bool, name: str) -> Path:
@@ -272,7 +273,7 @@ def _arc_about(start: ArrayLike, center: Array, axis: Array, angle: float, turni
     if turning and not oriented:
         raise InputError("an arc that turns the end effector must start from a pose (4, 4), not from a position")
     turn = sweep if turning else np.zeros(3)
-    return Path(t, np.zeros((1, 3)), center[None], sweep[None], turn[None], oriented, name)
+    return Path(t, np.zeros((1, 3)), center[None], sweep=sweep[None], turn=turn[None], oriented=oriented, name=name)
 
 
 def _angle_about(axis: Array, p: Array, q: Array) -> float:

@@ -43,10 +43,10 @@ def simulate_physics(
     law: Law,
     q0: ArrayLike,
     target: ArrayLike,
+    *,
     locked: Locked = (),
     servos: Servos | None = None,
     time_limit: float | None = None,
-    *,
     time: ArrayLike = 0.0,
 ) -> PhysicalRun:
     """One run of the closed loop on MuJoCo, beside the kinematic one (needs ``holdfast[physics]``).
@@ -88,8 +88,8 @@ def simulate_physics(
     chosen, arm = Servos() if servos is None else servos, law.arm
     start = arm.check_configurations(q0).reshape(-1, arm.n)[0]
     plant = _Plant(arm, start, np.zeros(arm.n), np.ones(arm.n, dtype=bool), chosen)
-    stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start)
-    runs = simulate(law, q0, target, locked, time=time)
+    stiffness, damping = chosen.gains(arm, plant.mujoco, plant.model, start=start)
+    runs = simulate(law, q0, target, locked=locked, time=time)
     if runs.code.ndim:
         raise InputError(f"physics is for one run at a time, and there are {len(runs)}; give one q0 and one target")
     notes, end = _drive(plant, law, runs, stiffness, damping, limit)

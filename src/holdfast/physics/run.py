@@ -25,7 +25,7 @@ PIECES = 800  # of each path where their distance is measured, of equal length
 FULL = 0.999  # of the effort: a motor at its limit
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class PhysicalRun(Result):
     """One run of :func:`holdfast.simulate_physics`, T control cycles.
 

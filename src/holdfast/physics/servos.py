@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from types import ModuleType
 from typing import Any
 
@@ -50,6 +50,7 @@ class Servos:
     bandwidth: float = 10.0
     ratio: float = 1.0
     rate: float = 500.0
+    _: KW_ONLY
     compensation: float = 1.0
     stiffness: Sequence[float] | None = None
     damping: Sequence[float] | None = None
@@ -71,7 +72,7 @@ class Servos:
         """Steps of the physics in one control cycle."""
         return int(np.ceil(1 / (self.rate * self.step) - 1e-9))
 
-    def gains(self, arm: Arm, mujoco: ModuleType, model: Any, start: Array) -> tuple[Array, Array]:
+    def gains(self, arm: Arm, mujoco: ModuleType, model: Any, *, start: Array) -> tuple[Array, Array]:
         """K and D (n,) for a model whose ``qpos`` counts from the configuration ``start`` (n,)."""
         if self.stiffness is not None:
             return self._given("stiffness", arm), self._given("damping", arm)

@@ -142,6 +142,7 @@ def free_swing(
     arm: Arm,
     q: ArrayLike,
     joint: str | int,
+    *,
     damping: float | None = None,
     duration: float | None = None,
     brake_after: Sequence[float] = BRAKES,

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 BINS = 1 << 16
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Distribution:
     """Values of an index at the samples of a region, exact or, for very large runs, in fine bins.
 
@@ -60,6 +60,7 @@ class Distribution:
         values: ArrayLike,
         better: Literal["larger", "smaller"],
         unreached: int = 0,
+        *,
         singular: int = 0,
         weights: ArrayLike | None = None,
         unreached_weights: ArrayLike = (),
@@ -84,7 +85,7 @@ class Distribution:
         sorted_values = np.sort(np.asarray(values, dtype=np.float64))
         finite = sorted_values[np.isfinite(sorted_values)]
         return cls(
-            better,
+            better=better,
             values=sorted_values,
             unreached=unreached,
             singular=singular,
@@ -107,7 +108,7 @@ class Distribution:
         found.add(w)
         counting = v[some & (w > 0)]
         return cls(
-            better,
+            better=better,
             values=v,
             unreached=unreached,
             singular=singular,
@@ -237,6 +238,7 @@ class Distribution:
         at_least: float | None = None,
         at_most: float | None = None,
         reachable_only: bool = False,
+        *,
         confidence: float = 0.95,
     ) -> Interval:
         """The probability with its exact (Clopper-Pearson) interval; of weighted samples that of :meth:`effective` equal ones.
@@ -424,10 +426,10 @@ class Collector:
             if self._sums is not None:
                 weights = np.concatenate(self._weights)
                 return Distribution._weighted(values, weights, self._better, self._unreached, self._singular, self._sums[2])
-            return Distribution.of(values, self._better, self._unreached, self._singular)
+            return Distribution.of(values, self._better, self._unreached, singular=self._singular)
         finite, found, lost = self._sums or (None, None, None)
         return Distribution(
-            self._better,
+            better=self._better,
             edges=self._edges,
             counts=self._counts,
             unreached=self._unreached,

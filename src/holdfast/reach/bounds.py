@@ -35,6 +35,7 @@ def joint_bounds(
     arm: Arm,
     target: ArrayLike,
     task: str | Task | Sequence[str] = "pose",
+    *,
     seed: int = 0,
     starts: int = STARTS,
 ) -> list[Arcs]:

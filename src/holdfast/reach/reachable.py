@@ -21,6 +21,7 @@ def reachable_when_locked(
     arm: Arm,
     target: ArrayLike,
     joint: str | int,
+    *,
     at: ArrayLike,
     task: str | Task | Sequence[str] = "pose",
     seed: int = 0,
@@ -83,5 +84,5 @@ def reachable_when_locked(
         engine.within(tolerance),
     )
     if single_target and angles.ndim == 0:
-        return Reach(*(getattr(found, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))
+        return found.first
     return found

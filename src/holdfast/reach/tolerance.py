@@ -140,6 +140,7 @@ def tolerant_workspace(
     arm: Arm,
     task: str | Task | Sequence[str] = "position",
     limits: Limits | None = None,
+    *,
     optimise: bool = False,
     rotation: ArrayLike | None = None,
     points: int = POINTS,

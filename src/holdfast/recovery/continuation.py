@@ -23,7 +23,7 @@ _JUMP = 0.35  # rad or m of one joint from sample to sample: more is another bra
 _STARTS_PER_SET = 12
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class RestOfPath:
     """What became of the rest of a hand path.
 
@@ -90,7 +90,15 @@ def rest_of_path(
     # A pose on the way is found where a motion passes it.
     found |= np.arange(len(share)) <= last.max(initial=-1)
     furthest = float(share[last.max()]) if len(last) else 0.0
-    made = RestOfPath(furthest, share, found, np.zeros((0, solver.arm.n)), 0.0, None, len(first))
+    made = RestOfPath(
+        furthest=furthest,
+        share=share,
+        found=found,
+        q=np.zeros((0, solver.arm.n)),
+        deviation=0.0,
+        given_up=None,
+        starts=len(first),
+    )
     whole = np.flatnonzero(last == len(share) - 1)
     if whole.size:
         motions = _by_length(metric, [q[:, k] for k in whole])

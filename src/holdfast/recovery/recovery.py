@@ -57,7 +57,7 @@ _SENTENCES = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Leg:
     """A part of the motion.
 
@@ -166,7 +166,7 @@ class Recovery(Result):
         Raises:
             InputError: There is no motion.
         """
-        return check_waypoints(self.arm, self.q, self.locked, self.clearance, self.margin)
+        return check_waypoints(self.arm, self.q, self.locked, clearance=self.clearance, margin=self.margin)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

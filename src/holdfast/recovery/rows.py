@@ -118,7 +118,7 @@ class RowSolver:
         weights, free = ca.SX.sym("w", self.rows.m), ca.SX.sym("free", arm.n)
         pull = ca.horzcat(*[weights * slope[:, k] * free[k] for k in range(arm.n)])
         step, residual = damped_step(arm, q, weights * error, pull)
-        return Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], step, residual)
+        return Loop("inverse kinematics of chosen rows", q, [p, r, weights, free], next_state=step, residual=residual)
 
     @cached_property
     @recalled

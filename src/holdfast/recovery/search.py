@@ -59,9 +59,9 @@ def recover(
     arm: Arm,
     locked: Locked,
     at: ArrayLike,
+    *,
     goal: ArrayLike | str | None = "home",
     task: str | Task | Sequence[str] | None = None,
-    *,
     path: Path | None = None,
     clearance: Clearance | Literal[False] | None = None,
     margin: float = 0.0,
@@ -291,7 +291,9 @@ class _Search:
     def _add(self, name: str, q: Array, lower_bound: float, straight: bool) -> None:
         length = float(self.metric.along(q)[-1])
         first = max(sum(len(x) for x in self._q) - 1, 0)
-        self._legs.append(Leg(name, first, first + len(q) - 1, length, lower_bound, straight))
+        self._legs.append(
+            Leg(name=name, first=first, last=first + len(q) - 1, length=length, lower_bound=lower_bound, straight=straight)
+        )
         self._q.append(q if not self._q else q[1:])
 
     def _finish(self, here: Array, path: Path) -> RestOfPath:

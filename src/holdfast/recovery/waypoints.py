@@ -116,6 +116,7 @@ def check_waypoints(
     arm: Arm,
     q: ArrayLike,
     locked: Locked = (),
+    *,
     clearance: Clearance | None = None,
     margin: float = 0.0,
 ) -> WaypointCheck:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
@@ -69,6 +69,7 @@ class Region:
     kind: Literal["box", "joints", "poses", "sampler"]
     center: tuple[float, ...]
     size: tuple[float, ...]
+    _: KW_ONLY
     name: str = "region"
     weight: Weight | None = None
     listed: PoseList | None = None
@@ -125,7 +126,7 @@ class Region:
             if not isinstance(weight, Mapping):
                 raise InputError("region: weight must be a function of samples (N, 6), or points by coordinate")
             weight = Density.of(weight)
-        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name, weight)
+        return cls("box", tuple(middle.tolist()), tuple(edges.tolist()), name=name, weight=weight)
 
     @classmethod
     @checked
@@ -144,7 +145,7 @@ class Region:
         Raises:
             InputError: Poses that are not transforms, not finite or none, or weights that are not one per pose.
         """
-        return cls("poses", (), (), name, listed=PoseList.of(poses, weights))
+        return cls("poses", (), (), name=name, listed=PoseList.of(poses, weights))
 
     @classmethod
     def sampler(cls, draw: Draw, name: str = "own sampler") -> Region:
@@ -162,7 +163,7 @@ class Region:
         if not callable(draw):
             raise InputError("region: a sampler must be a function draw(generator, count)")
         found = draw(np.random.default_rng(0), 2)
-        region = cls("sampler", (), (), name, draw=(draw, isinstance(found, tuple)))
+        region = cls("sampler", (), (), name=name, draw=(draw, isinstance(found, tuple)))
         region._checked(found, 2)
         return region
 
@@ -185,7 +186,7 @@ class Region:
         if (low > high).any():
             k = int(np.flatnonzero(low > high)[0])
             raise InputError(f"region of joints: lower {low[k]:g} of joint {k + 1} is above upper {high[k]:g}; swap them")
-        return cls("joints", tuple(((low + high) / 2).tolist()), tuple((high - low).tolist()), name)
+        return cls("joints", tuple(((low + high) / 2).tolist()), tuple((high - low).tolist()), name=name)
 
     @classmethod
     @checked
@@ -224,7 +225,7 @@ class Region:
             return self.listed.weights is not None and count == len(self.listed)
         return self.weight is not None or (self.draw is not None and self.draw[1])
 
-    def blocks(self, first: int, seed: int, sampling: Sampling = "random", count: int | None = None) -> Iterator[Array]:
+    def blocks(self, first: int, seed: int, sampling: Sampling = "random", *, count: int | None = None) -> Iterator[Array]:
         """Blocks of samples, in order, from block number ``first`` on.
 
         A sample of a box is (6,), of a region of joints (n,), of a list the number of the pose (1,), of a sampler the first
@@ -249,7 +250,7 @@ class Region:
                 yield self._placed(unit)
 
     def samples(
-        self, start: int, stop: int, block: int, seed: int, sampling: Sampling, count: int, out: Array | None = None
+        self, start: int, stop: int, block: int, *, seed: int, sampling: Sampling, count: int, out: Array | None = None
     ) -> Array:
         """Samples ``start`` up to ``stop`` of ``count``, at most a block of them, from the random numbers of one block.
 
@@ -274,7 +275,7 @@ class Region:
                 np.empty((stop - start, len(self.center))) if out is None else out, start, block, seed, sampling
             )
         if sampling == "random":
-            return next(self.blocks(block, seed, sampling, count))[: stop - start]
+            return next(self.blocks(block, seed, sampling, count=count))[: stop - start]
         assert self.listed is not None
         unit = self._sobol(seed, 1, start).random(stop - start)
         return self.listed.pick(unit[:, 0])[:, None].astype(np.float64)
@@ -399,7 +400,7 @@ class Region:
     def from_dict(cls, data: dict[str, Any]) -> Region:
         """The region :meth:`to_dict` wrote."""
         if data["kind"] == "poses":
-            return cls("poses", (), (), data["name"], listed=PoseList.from_dict(data))
+            return cls("poses", (), (), name=data["name"], listed=PoseList.from_dict(data))
         if data["kind"] not in ("box", "joints"):
             raise InputError(f"region: kind '{data['kind']}' is not known; use box, joints or poses")
         weight = None
@@ -407,7 +408,7 @@ class Region:
             if not isinstance(data["density"], dict):
                 raise InputError(f"region: density is {data['density']!r}; it must be points by coordinate")
             weight = Density.of(data["density"])
-        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), data["name"], weight)
+        return cls(data["kind"], tuple(data["center"]), tuple(data["size"]), name=data["name"], weight=weight)
 
     @classmethod
     @checked

@@ -12,7 +12,7 @@ import threading
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from html import escape
 from pathlib import Path
 from typing import Any, Literal
@@ -151,6 +151,7 @@ class Curve:
     x: Array
     share: Array
     label: str
+    _: KW_ONLY
     second: bool = False
     band: float = 0.0
 
@@ -171,6 +172,7 @@ class Bin:
     edges: Array
     heights: Array
     label: str
+    _: KW_ONLY
     ylabel: str
 
 
@@ -221,6 +223,7 @@ def cdf_figure(
     curves: Sequence[Curve],
     marks: Sequence[Mark],
     xlabel: str,
+    *,
     ylabel: str,
     title: str = "",
     log: bool = False,
@@ -240,6 +243,7 @@ def distribution_figure(
     bins: Bin,
     curves: Sequence[Curve],
     marks: Sequence[Mark],
+    *,
     xlabel: str,
     ylabel: str,
     titles: tuple[str, str],
@@ -298,6 +302,7 @@ def bar_figure(
     names: Sequence[str],
     counts: Sequence[float],
     xlabel: str,
+    *,
     total: float | None = None,
     stress: Literal["most", "least"] = "most",
 ) -> Figure:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import ClassVar, Literal
@@ -52,6 +52,7 @@ class Table:
     rows: Sequence[Sequence[Cell]]
     head: Sequence[Cell] = ()
     numbers: frozenset[int] = frozenset()
+    _: KW_ONLY
     marks: frozenset[int] = frozenset()
     caption: Cell = ""
     wide: bool = False
@@ -107,6 +108,7 @@ class Page:
     title: str
     headline: Cell
     sections: Sequence[Section]
+    _: KW_ONLY
     subtitle: Cell = ""
     warnings: Sequence[Callout] = field(default_factory=tuple)
     footer: Cell = ""

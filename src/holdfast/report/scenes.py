@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from itertools import pairwise
 from typing import Any, Literal
 
@@ -32,6 +32,7 @@ class Scale:
     low: float
     high: float
     log: bool = False
+    _: KW_ONLY
     smaller_is_better: bool = False
     pale: bool = False  # for text on top
 
@@ -43,7 +44,7 @@ class Scale:
         log = log and low > 0 and high > 10 * low
         if high - low <= 1e-9 * max(abs(high), 1e-3):
             low, high = (low / 2, low * 2) if log else (low, low + max(abs(low), 1.0))
-        return cls(low, high, log, smaller_is_better)
+        return cls(low=low, high=high, log=log, smaller_is_better=smaller_is_better)
 
     @property
     def mappable(self) -> ScalarMappable:
@@ -100,6 +101,7 @@ class Scene:
     points: Array
     values: Array
     missing: Array
+    _: KW_ONLY
     chain: Array = field(default_factory=lambda: np.zeros((0, 3)))
     nodes: Array = field(default_factory=lambda: np.zeros((0, 3)))
     square: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
@@ -248,7 +250,7 @@ def _aside(line: Array, taken: Array, place: Array, text: str) -> Array:
     return offset
 
 
-def view_figure(scene: Scene, views: Sequence[View], scale: Scale, label: str, legend: Sequence[tuple[str, str]]) -> Figure:
+def view_figure(scene: Scene, views: Sequence[View], scale: Scale, *, label: str, legend: Sequence[tuple[str, str]]) -> Figure:
     """Projections side by side, all to one scale, with a colour bar if there are values.
 
     Args:

@@ -346,7 +346,7 @@ class Motion:
             given[:, -3], given[:, -1] = time * self._unit, 1.0
             q = self._steps.state.values(self._stepped(states[here], given))["q"]
         error = self._nearest.errors(q, np.broadcast_to(pose, (samples, 4, 4)))
-        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error, time[:, None] >= lock_time)
+        return Path(time, q, self.law.arm.forward_kinematics(q)[:, :3, 3], error=error, locked=time[:, None] >= lock_time)
 
     def _stepped(self, states: Array, parameters: Array) -> Array:
         """States after one step."""

@@ -33,6 +33,7 @@ def simulate(
     law: Law,
     q0: ArrayLike,
     target: ArrayLike,
+    *,
     locked: Locked | NDArray[np.int64] | Array = (),
     cycles: bool = False,
     method: Method = "adaptive",
@@ -40,7 +41,6 @@ def simulate(
     tolerance: float = TOLERANCE,
     step: float | None = None,
     radius: float = RADIUS,
-    *,
     time: ArrayLike = 0.0,
 ) -> Runs:
     """What the arm does when joints lock and its controller goes on as if nothing had happened.

@@ -47,7 +47,9 @@ class Nearest:
         better = ca.sumsqr(system.error(trial)[0] / unit) < ca.sumsqr(e)
         after = ca.if_else(better, ca.vertcat(trial, damping * _EASIER + 1e-15), ca.vertcat(q, damping * _HARDER))
         slope = ca.sqrt(ca.sumsqr(healthy.T @ e))
-        return Loop("nearest point", state, system.parameters, after, ca.if_else(damping > _HOPELESS, 0.0, slope))
+        return Loop(
+            "nearest point", state, system.parameters, next_state=after, residual=ca.if_else(damping > _HOPELESS, 0.0, slope)
+        )
 
     @cached_property
     @recalled

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from enum import IntEnum
 from pathlib import Path as File
 from typing import TYPE_CHECKING, Protocol
@@ -89,6 +89,7 @@ class Path:
     time: Array
     q: Array
     x: Array
+    _: KW_ONLY
     error: Array
     locked: Flags
 
@@ -115,7 +116,7 @@ class _Motion(Protocol):
     def path(self, runs: Runs, k: int, samples: int, until: float | None) -> Path: ...
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Runs(Result):
     """N runs of the closed loop, or one (then without the leading N).
 

@@ -230,4 +230,4 @@ def loop_of(
         for _ in range(times - 1):
             after = once(after, *parameters)
     running = ca.if_else(state.split(after)["code"] == RUNNING, 1.0, 0.0)
-    return Loop(name, symbol, parameters, after, running, ahead=True, times=times)
+    return Loop(name, symbol, parameters, next_state=after, residual=running, ahead=True, times=times)

@@ -34,7 +34,7 @@ _MOST_POINTS = 4000  # of a sample
 _WAVE = 16  # curves traced side by side; no result depends on it
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Component:
     """One connected curve of configurations of a pose.
 
@@ -170,7 +170,7 @@ class Tracer:
                 bounds = ends[behind.limit[m]], ends[ahead.limit[k]]
             closed = bool(ahead.closed[k])
             length = np.linalg.norm(_segments(self.arm, points, closed), axis=1).sum()
-            out[row] = Component(points, closed, bounds, float(length))
+            out[row] = Component(q=points, closed=closed, bounded_by=bounds, length=float(length))
         return out
 
     def _trace(self, q: Array, tangent: Array, poses: Array, spacing: float) -> _Run:

@@ -22,7 +22,7 @@ Index = NDArray[np.int64]
 Objective = Callable[[Array], ArrayLike]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class FibrePath:
     """Configurations along a path of T poses.
 
@@ -63,6 +63,7 @@ def best_path(
     arm: Arm,
     poses: ArrayLike,
     objective_value: Objective,
+    *,
     task: str | Task | Sequence[str] = "pose",
     spacing: float = 0.05,
     rate_limit: ArrayLike | None = None,
@@ -100,7 +101,7 @@ def best_path(
     """
     if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
         raise InputError(f"poses have shape {np.shape(poses)}; a path needs (T, 4, 4) with T of 2 or more")
-    found = fibres(arm, poses, task, spacing, seed, starts, follow=True)
+    found = fibres(arm, poses, task, spacing=spacing, seed=seed, starts=starts, follow=True)
     return best_path_over(arm, found, objective_value, rate_limit, cost, motion)
 
 
@@ -136,13 +137,13 @@ def best_path_over(
     status = np.array([f.status for f in found], dtype=np.uint8)
     status[(np.array(best) < 0) & (status == Status.OK)] = Status.UNDEFINED
     return FibrePath(
-        _continued(arm, q),
-        value,
-        smallest,
-        global_q,
-        np.array(gaps, dtype=np.int64),
-        np.array([s.reach for s in steps]),
-        status,
+        q=_continued(arm, q),
+        value=value,
+        global_value=smallest,
+        global_q=global_q,
+        gaps=np.array(gaps, dtype=np.int64),
+        reach=np.array([s.reach for s in steps]),
+        status=status,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import Literal
 
@@ -36,7 +36,7 @@ _WAVE = 8192  # rows of starts that run side by side when poses are left over
 _BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Reach:
     """Configurations found for N poses, or for one (then without the leading N).
 
@@ -58,6 +58,11 @@ class Reach:
     def success(self) -> NDArray[np.bool_]:
         """(N,) True where the pose is reached within tolerance and limits."""
         return np.asarray(self.status == Status.OK)
+
+    @property
+    def first(self) -> Reach:
+        """The first row alone, without the leading N."""
+        return Reach(**{field.name: getattr(self, field.name)[0] for field in fields(self)})
 
     def require_ok(self) -> Reach:
         """Itself, or :class:`holdfast.HoldfastError` naming the first row that failed."""
@@ -179,7 +184,7 @@ class InverseKinematics:
     def _loop(self) -> Loop:
         q, p, r, e, j = self._symbols
         step, residual = damped_step(self.arm, q, e, j)
-        return Loop("inverse kinematics", q, [p, r], step, residual)
+        return Loop("inverse kinematics", q, [p, r], next_state=step, residual=residual)
 
     @cached_property
     @recalled
@@ -209,7 +214,7 @@ class InverseKinematics:
         free = ca.SX.sym("free", self.arm.n)
         masked = ca.horzcat(*[j[:, k] * free[k] for k in range(self.arm.n)])
         step, residual = damped_step(self.arm, q, e, masked)
-        return Loop("inverse kinematics with locked joints", q, [p, r, free], step, residual)
+        return Loop("inverse kinematics with locked joints", q, [p, r, free], next_state=step, residual=residual)
 
     def solve_locked(
         self,
@@ -237,7 +242,9 @@ class InverseKinematics:
         reached = self.verdict(found.q, poses, tolerance) & stood
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
-        return Reach(found.q, status, position_error, rotation_error, found.restarts)
+        return Reach(
+            q=found.q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=found.restarts
+        )
 
     def reaches_locked(
         self,
@@ -347,7 +354,7 @@ class InverseKinematics:
         position_error, rotation_error = self.errors(q, poses)
         status = np.where(self.verdict(q, poses, tolerance), Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
-        return Reach(q, status, position_error, rotation_error, used)
+        return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)
 
 
 def damped_step(arm: Arm, q: SX, e: SX, j: SX) -> tuple[SX, SX]:
@@ -395,6 +402,7 @@ def solve_ik(
     arm: Arm,
     poses: ArrayLike,
     seed: int = 0,
+    *,
     task: str | Task | Sequence[str] = "pose",
     restarts: int = 100,
     tolerance: float = 1e-6,
@@ -434,5 +442,5 @@ def solve_ik(
         first = np.clip(first, arm.lower, arm.upper)
     result = engine.solve(targets, np.random.SeedSequence(seed), restarts, engine.within(tolerance), first)
     if np.ndim(poses) == 2:
-        return Reach(*(getattr(result, f)[0] for f in ("q", "status", "position_error", "rotation_error", "restarts")))
+        return result.first
     return result

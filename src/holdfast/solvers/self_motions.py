@@ -106,6 +106,7 @@ def self_motion(
     arm: Arm,
     target: ArrayLike,
     task: str | Task | Sequence[str] = "pose",
+    *,
     spacing: float = 0.05,
     seed: int = 0,
     starts: int = STARTS,
@@ -128,7 +129,7 @@ def self_motion(
     Source: Goel et al. 2005.
     """
     rows = as_task(arm, task)
-    return fibres(arm, target_pose(rows, target), rows, spacing, seed, starts)[0]
+    return fibres(arm, target_pose(rows, target), rows, spacing=spacing, seed=seed, starts=starts)[0]
 
 
 @says("tracing self-motions")
@@ -136,6 +137,7 @@ def fibres(
     arm: Arm,
     poses: ArrayLike,
     task: str | Task | Sequence[str] = "pose",
+    *,
     spacing: float = 0.05,
     seed: int = 0,
     starts: int = STARTS,

@@ -19,7 +19,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -161,6 +161,7 @@ class StudyFile:
     name: str
     seed: int
     cells: tuple[Cell, ...]
+    _: KW_ONLY
     text: str
 
 
@@ -177,7 +178,7 @@ def read(path: str | Path) -> StudyFile:
         cells = tuple(_named(_cells(model, file.parent)))
     except HoldfastError as error:
         raise InputError(f"study file '{file}': {error}") from error
-    return StudyFile(model.name, model.seed, cells, text)
+    return StudyFile(model.name, model.seed, cells, text=text)
 
 
 def thresholds(text: str) -> dict[str, float]:
@@ -211,7 +212,7 @@ def _named(cells: Iterator[Cell]) -> Iterator[Cell]:
         name = re.sub(r"[^A-Za-z0-9._=-]+", "-", cell.name).strip("-.")[:120] or "cell"
         unique = next(n for n in itertools.chain([name], (f"{name}-{k}" for k in itertools.count(2))) if n not in used)
         used.add(unique)
-        yield Cell(unique, cell.job, cell.plan, cell.rows, cell.chunk, cell.summed, cell.labels)
+        yield Cell(unique, cell.job, cell.plan, rows=cell.rows, chunk=cell.chunk, summed=cell.summed, labels=cell.labels)
 
 
 def _cells(model: _File, folder: Path) -> Iterator[Cell]:
@@ -283,7 +284,8 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
         }
         labels |= {"failures": failures, "keep": block.keep, "optimise": block.optimise}
         name = "-".join([label, index, *_said(task, region, failures)])
-        yield Cell(name, AssessJob(data, rows, chunk, block.keep), data, rows, chunk, block.keep == "counts", labels)
+        job = AssessJob(data, rows, chunk, block.keep)
+        yield Cell(name, job, data, rows=rows, chunk=chunk, summed=block.keep == "counts", labels=labels)
 
 
 def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]:
@@ -331,7 +333,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
         }
         labels = {"job": "designs", "arm": label, "index": index, "task": t.name, "region": place.name, "failures": failures}
         name = "-".join(["designs", label, index, *_said(task, region, failures)])
-        yield Cell(name, DesignJob(plan, given.designs), plan, given.designs, given.chunk, labels=labels)
+        yield Cell(name, DesignJob(plan, given.designs), plan, rows=given.designs, chunk=given.chunk, labels=labels)
 
 
 def _index(label: str, arm: Arm, task: str | Task, failures: FailureSpec, length: float) -> Index:
@@ -371,20 +373,20 @@ def _law_cells(model: _File, kind: str, block: Any, spec: str, arm: Arm, label: 
         labels = {"job": kind, "arm": label, "law": law.label, "task": t.name}
         name = "-".join([label, *_said(task, _DEFAULT, "single"), text])
         if kind == "convergence":
-            yield Cell(name, ConvergenceJob(plan), plan, block.motions or model.poses, chunk, labels=labels)
+            yield Cell(name, ConvergenceJob(plan), plan, rows=block.motions or model.poses, chunk=chunk, labels=labels)
         elif kind == "bank":
             from holdfast.teleop.bank.tasks import DISTANCE
             from holdfast.teleop.trials.plant import check_rows
 
             check_rows(t)
             plan["distance"] = DISTANCE if block.distance is None else block.distance
-            yield Cell(f"bank-{name}", BankJob(plan), plan, block.sets or model.poses, chunk, labels=labels)
+            yield Cell(f"bank-{name}", BankJob(plan), plan, rows=block.sets or model.poses, chunk=chunk, labels=labels)
         else:
             rows = block.starts or model.poses
             for k, target in enumerate(block.targets):
                 mine = {**plan, "target": target, "configurations": block.configurations, "points": block.points}
                 where = {**labels, "target": target}
-                yield Cell(f"workspace-{name}-{k + 1}", WorkspaceJob(mine, rows), mine, rows, chunk, labels=where)
+                yield Cell(f"workspace-{name}-{k + 1}", WorkspaceJob(mine, rows), mine, rows=rows, chunk=chunk, labels=where)
 
 
 def _law_task(task: str, spec: str, arm: Arm, kind: str, read_task: Any) -> str | Task:

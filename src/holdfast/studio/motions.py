@@ -91,7 +91,7 @@ def law_motions(machine: Machine, state: State, progress: Callable[[int, int], N
     for k, text in enumerate(state.laws):
         progress(2 * k, 4)
         law = machine.law(text)
-        runs = simulate(law, np.array(state.q), target, list(state.failed))
+        runs = simulate(law, np.array(state.q), target, locked=list(state.failed))
         progress(2 * k + 1, 4)
         # The last approach to rest takes most of the time and moves nothing.
         path = runs.path(samples=SAMPLES, until=min(float(runs.time), WORTH_SEEING / law.gain) or None)

@@ -39,7 +39,7 @@ class Studio:
         windows: One for each open page, by number.
     """
 
-    def __init__(self, server: Any, machine: Machine, state: State, parts: list[Part], note: str) -> None:
+    def __init__(self, server: Any, machine: Machine, state: State, *, parts: list[Part], note: str) -> None:
         from holdfast.studio.window import Window
 
         self._server = server
@@ -89,6 +89,7 @@ def serve(
     arm: Arm,
     state: State | None = None,
     host: str = LOOPBACK,
+    *,
     port: int = PORT,
     task: Task | None = None,
     ready: Callable[[str], None] = lambda url: None,
@@ -114,7 +115,7 @@ def serve(
     if find_spec("viser") is None:
         raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'")
     if state is None:
-        state = State(arm.name, arm.joint_names, tuple(middle(arm)), "pose")
+        state = State(arm.name, arm.joint_names, tuple(middle(arm)), task="pose")
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
     # Before anybody can come: a page that is open already keeps the view that it began with.
@@ -130,7 +131,7 @@ def serve(
     ready(address(server))
     threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
     parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
-    return Studio(server, machine, state, parts, note)
+    return Studio(server, machine, state, parts=parts, note=note)
 
 
 def address(server: Any) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
 from holdfast.errors import InputError
@@ -41,6 +41,7 @@ class State:
     arm: str
     names: tuple[str, ...]
     q: tuple[float, ...]
+    _: KW_ONLY
     task: str = "pose"
     base: str | None = None
     tip: str | None = None

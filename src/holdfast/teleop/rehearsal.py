@@ -25,6 +25,7 @@ def simulate_experiment(
     folder: str | Path,
     protocol: Protocol,
     operators: int | Sequence[Person] = 24,
+    *,
     seed: int = 0,
     progress: Callable[[str], None] | None = None,
 ) -> Records:
@@ -68,7 +69,7 @@ def simulate_experiment(
     start = protocol.plants[0].position(protocol.tasks.q0)
     ideal = (np.linalg.norm(protocol.tasks.target - start, axis=1) - protocol.radius) / protocol.stick.limit
     time = np.where(trials.arrived, trials.cycles, np.nan)
-    ratings = rate(time, ideal[order[:, 0]], len(protocol.rating), rating_seed)
+    ratings = rate(time, ideal[order[:, 0]], len(protocol.rating), seed=rating_seed)
     say("writing the records")
     position = np.concatenate([*(np.arange(len(s)) for s in sessions), np.empty(0, dtype=np.int64)])
     with records.together():
@@ -111,7 +112,7 @@ def _train(
 
 
 def _driven(protocol: Protocol, tasks: PointTasks, scenario: Indices, people: list[Person], seed: int) -> Trials:
-    operator = SimulatedPeople(people, protocol.rate, protocol.stick, protocol.radius, seed)
+    operator = SimulatedPeople(people, protocol.rate, protocol.stick, radius=protocol.radius, seed=seed)
     return drive_tasks(protocol.plants, protocol.scenarios, scenario, tasks, operator, protocol.stick, protocol.rules)
 
 
@@ -127,9 +128,9 @@ def _record(
     trials: Trials,
 ) -> int:
     """Write trial i of a batch; its number in the records."""
-    number = records.begin_trial(code, kind, position, scenario, tasks.take(np.array([i])), task)
+    number = records.begin_trial(code, kind, position, scenario=scenario, tasks=tasks.take(np.array([i])), task=task)
     cycles = slice(trials.first[i], trials.first[i + 1])
     time = np.arange(trials.cycles[i]) / records.protocol.rate
-    records.append(number, 0, time, trials.velocity[cycles], trials.q[cycles])
+    records.append(number, 0, time, velocity=trials.velocity[cycles], q=trials.q[cycles])
     records.finish(number, End(trials.end[i]), trials.q_end[i])
     return number

@@ -58,7 +58,7 @@ def give_up(records, subject):
     protocol = records.protocol
     for position, (task, scenario) in enumerate(protocol.session(subject.row, subject.number).tolist()):
         tasks = protocol.tasks.take(np.array([task]))
-        number = records.begin_trial(subject.code, Kind.TRIAL, position, scenario, tasks, task)
+        number = records.begin_trial(subject.code, Kind.TRIAL, position, scenario=scenario, tasks=tasks, task=task)
         records.finish(number, End.ABORTED, tasks.q0[0])
         records.rate(number, 1)
 

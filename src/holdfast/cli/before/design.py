@@ -109,5 +109,5 @@ def command(
         else:
             common |= {"level": level, "failures": read_failures(given, failures), "length": length}
             place = read_region(region, arm, given)
-            found = hf.design(given, space, maximise, place, rows, poses=poses, fresh=fresh, **common)
+            found = hf.design(given, space, maximise, region=place, task=rows, poses=poses, fresh=fresh, **common)
     printed(found, json_, [] if out is None else found.save(out), listed=True)

@@ -44,5 +44,5 @@ def command(
 
     model = read_arm(arm, base, tip, hold)
     configurations = [read_configuration(model, text, degrees) for text in q]
-    measure = by_name(index, model, read_task(task, arm, model), read_failures(model, failures), length)
+    measure = by_name(index, model, read_task(task, arm, model), failures=read_failures(model, failures), length=length)
     print_each(measure, configurations, json_, index_values, show_index)

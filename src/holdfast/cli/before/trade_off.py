@@ -42,7 +42,7 @@ def command(
     """
     model = read_arm(arm, base, tip, hold)
     errors = read_numbers("--allowed", allowed, "numbers from 0 to below 1")
-    curve = hf.control.trade_off(model, read_task(task, arm, model), samples, errors, seed)
+    curve = hf.control.trade_off(model, read_task(task, arm, model), samples, allowed=errors, seed=seed)
     if plot is not None:
         drawn(curve, plot)
     printed(curve, json_, [plot])

@@ -66,8 +66,8 @@ def command(
         model,
         read_configuration(model, q, degrees),
         read_joint(model, joint),
-        damping,
-        duration,
+        damping=damping,
+        duration=duration,
         brake_after=tuple(brake) if brake else BRAKES,
         limits=limits,
     )

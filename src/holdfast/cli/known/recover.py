@@ -112,7 +112,9 @@ def command(
     shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
     if check is not None:
         locked = read_by_joint(model, lock, "--lock", degrees, alone=True)
-        replay = hf.recovery.check_waypoints(model, hf.recovery.read_waypoints(model, check), locked, shape, margin or 0.0)
+        replay = hf.recovery.check_waypoints(
+            model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0
+        )
         printed(replay, json_)
         if not replay.ok:
             raise typer.Exit(NOT_MET)
@@ -130,8 +132,8 @@ def command(
         model,
         read_by_joint(model, lock, "--lock", degrees, alone=True),
         read_configuration(model, at, degrees, "--at"),
-        aim,
-        _position_task(model, chosen) if positions else chosen,
+        goal=aim,
+        task=_position_task(model, chosen) if positions else chosen,
         path=hand_path,
         clearance=shape or False,
         margin=margin or 0.0,

@@ -73,9 +73,9 @@ def command(
     if (target is None) == (pose is None):
         raise InputError("give the target by --target or by --pose, one of them")
     wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
-    motion = hf.self_motion(model, wanted, rows, spacing, seed)
+    motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed)
     if bounds or plot is not None:
-        motion = replace(motion, bounds=hf.joint_bounds(model, wanted, rows, seed))
+        motion = replace(motion, bounds=hf.joint_bounds(model, wanted, rows, seed=seed))
     files = [] if csv is None else [motion.to_csv(csv, degrees)]
     if plot is not None:
         files.append(drawn(motion, plot))

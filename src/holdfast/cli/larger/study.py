@@ -120,8 +120,8 @@ def run(
     if out is None:
         raise InputError("--out is missing; give a folder for the results, or --dry-run")
     with _runner(scheduler) as runner, _stopping() as stop, _progress(json_) as progress:
-        study = Study.create(out, asked.name, asked.seed, asked.cells, asked.text)
-        problems = study.run(asked.cells, runner, progress, stop, share)
+        study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
+        problems = study.run(asked.cells, runner, progress, stop=stop, part=share)
     if json_:
         print_json(said.status(study))
     else:

@@ -49,7 +49,7 @@ def run(
         raise StoreError(f"--out: '{out}' exists and is not an empty folder; give a new one")
     with (
         working(f"compiling the laws of {protocol}") as say,
-        simulate_experiment(out, read_protocol(protocol), operators, seed, say) as records,
+        simulate_experiment(out, read_protocol(protocol), operators, seed=seed, progress=say) as records,
     ):
         show_experiment(records, console())
 

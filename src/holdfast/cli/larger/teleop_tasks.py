@@ -50,7 +50,7 @@ def tasks(
     model = read_arm(arm, None, None)
     rows = _rows(model) if task is None else read_task(task, arm, model)
     with working("running the tasks") as say:
-        bank = task_bank(model, per_joint, None, distance, rows, seed)
+        bank = task_bank(model, per_joint, None, distance=distance, task=rows, seed=seed)
         say("choosing")
         choice = choose_tasks(bank, model, rows, count=select, special=special, seed=seed)
         files = [] if out is None else choice.save(out, arm)

@@ -134,7 +134,9 @@ def command(
     rates = _read_rates(first.arm, failure_rate, after_lock, lock_at)
     asked = []
     for c in candidates:
-        measure = by_name(index, c.arm, read_task(c.task, c.spec, c.arm), read_failures(c.arm, failures), length)
+        measure = by_name(
+            index, c.arm, read_task(c.task, c.spec, c.arm), failures=read_failures(c.arm, failures), length=length
+        )
         options: dict[str, Any] = {
             "poses": poses,
             "seed": seed,

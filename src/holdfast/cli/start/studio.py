@@ -149,7 +149,7 @@ def command(
     def ready(url: str) -> None:
         typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
 
-    with serve(model, state, host, port, rows, ready) as page:
+    with serve(model, state, host, port=port, task=rows, ready=ready) as page:
         page.wait()
 
 

@@ -48,5 +48,5 @@ def command(
     """
     made = law_of(law, arm, task, base, tip, hold)
     joints, values = read_locked(made.arm, lock, at, degrees)
-    result = hf.basins(made, read_target(made.arm, made.task, target), joints, values, starts, grid, seed)
+    result = hf.basins(made, read_target(made.arm, made.task, target), joints, at=values, starts=starts, grid=grid, seed=seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])

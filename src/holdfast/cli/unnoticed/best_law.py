@@ -36,5 +36,5 @@ def command(
     targets, places = read_targets(laws[0], target), read_places(starts)
     options = {"configurations": configurations, "over": over, "time_limit": time_limit, "seed": seed}
     with progress_bar(json_, "runs") as progress:
-        result = hf.best_law(laws, targets, places, progress, **options)
+        result = hf.best_law(laws, targets, places, progress=progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

@@ -102,7 +102,9 @@ def command(
     else:
         q0, goal = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
         about = f"one motion of '{model.name}'"
-    result = hf.compare_laws(laws, q0, goal, _locks(model, lock), cycles, time_limit=time_limit, seed=seed, about=about)
+    result = hf.compare_laws(
+        laws, q0, goal, locked=_locks(model, lock), cycles=cycles, time_limit=time_limit, seed=seed, about=about
+    )
     printed(result, json_, [] if out is None else result.save(out, command=said()))
 
 
@@ -131,4 +133,4 @@ def _drawn(
     joints: Literal["each"] | list[int] | None = None
     if reachable_after:
         joints = "each" if reachable_after == ["each"] else [read_joint(arm, text) for text in reachable_after]
-    return hf.point_to_point(arm, motions, seed, span, joints, task)
+    return hf.point_to_point(arm, motions, seed, distance=span, reachable_after=joints, task=task)

@@ -36,6 +36,6 @@ def command(
     targets, places = read_targets(made, target), read_places(starts)
     with progress_bar(json_, "runs") as progress:
         result = hf.convergence_map(
-            made, targets, places, configurations, over, time_limit=time_limit, seed=seed, progress=progress
+            made, targets, places, configurations=configurations, over=over, time_limit=time_limit, seed=seed, progress=progress
         )
     printed(result, json_, [] if out is None else result.save(out, command=said()))

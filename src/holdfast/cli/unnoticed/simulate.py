@@ -81,13 +81,13 @@ def command(
     goal = read_target(made.arm, made.task, target)
     joints, times = zip(*[_lock(made.arm, text) for text in lock or []], strict=True) if lock else ((), ())
     q0 = read_configuration(made.arm, start, degrees, "--start")
-    runs = hf.simulate(made, q0, goal, joints, cycles, time_limit=time_limit, time=times or 0.0)
+    runs = hf.simulate(made, q0, goal, locked=joints, cycles=cycles, time_limit=time_limit, time=times or 0.0)
     result: Result = runs
     if physics:
         if cycles:
             raise InputError("--physics has a control rate of its own; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
-        result = hf.simulate_physics(made, q0, goal, joints, servos, time_limit, time=times or 0.0)
+        result = hf.simulate_physics(made, q0, goal, locked=joints, servos=servos, time_limit=time_limit, time=times or 0.0)
     files = [] if out is None else result.save(out, command=said())
     if csv is not None:
         files.append(runs.to_csv(csv))

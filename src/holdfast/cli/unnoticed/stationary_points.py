@@ -52,5 +52,6 @@ def command(
         raise InputError("--plot draws curves over the locked value; leave out --at, or see 'holdfast basins --plot'")
     made = law_of(law, arm, task, base, tip, hold)
     goal = read_target(made.arm, made.task, target)
-    result: Result = hf.stationary_points(made, goal, *read_locked(made.arm, lock, at, degrees), seed=seed)
+    locked, values = read_locked(made.arm, lock, at, degrees)
+    result: Result = hf.stationary_points(made, goal, locked, at=values, seed=seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])

@@ -42,5 +42,7 @@ def command(
     targets, places = read_targets(made, target), None if starts is None else read_places(starts)
     options: dict[str, Any] = {"points": points, "time_limit": time_limit, "relative_to": relative_to, "seed": seed}
     with progress_bar(json_, "targets") as progress:
-        result = hf.target_measures(made, targets, places, configurations, method=method, progress=progress, **options)
+        result = hf.target_measures(
+            made, targets, places, configurations=configurations, method=method, progress=progress, **options
+        )
     printed(result, json_, [] if out is None else result.save(out, command=said()))

@@ -50,5 +50,5 @@ def command(
         "store": store,
     }
     with progress_bar(json_, "starts") as progress:
-        result = hf.workspace(made, goal, places, configurations, method=method, progress=progress, **options)
+        result = hf.workspace(made, goal, places, configurations=configurations, method=method, progress=progress, **options)
     printed(result, json_, [] if out is None else result.save(out, command=said()))

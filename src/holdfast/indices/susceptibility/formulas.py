@@ -7,7 +7,7 @@ where the measure has no meaning there and is 0 by convention.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import casadi as ca
 import numpy as np
@@ -40,6 +40,7 @@ class Formula:
     name: str
     source: str
     turning: str
+    _: KW_ONLY
     sliding: str
     slides: bool
     check: Callable[[Arm], None]
@@ -156,8 +157,33 @@ def _matrix(n: int, entry: Callable[[int, int], SX]) -> SX:
 
 
 PAPER = "English and Maciejewski 1998"
-TORQUE = Formula("torque", f"{PAPER}, eq. (7), (8), (12)", "N m", "N", True, require_masses, _torque, _torque_jacobian)
-ACCELERATION = Formula(
-    "acceleration", f"{PAPER}, eq. (22)", "rad/s^2", "m/s^2", True, _require_inertia, _acceleration, _acceleration_jacobian
+TORQUE = Formula(
+    "torque",
+    f"{PAPER}, eq. (7), (8), (12)",
+    "N m",
+    sliding="N",
+    slides=True,
+    check=require_masses,
+    values=_torque,
+    jacobian=_torque_jacobian,
 )
-SWING_ANGLE = Formula("swing angle", f"{PAPER}, eq. (38), (39)", "rad", "rad", False, require_masses, _swing, _swing_jacobian)
+ACCELERATION = Formula(
+    "acceleration",
+    f"{PAPER}, eq. (22)",
+    "rad/s^2",
+    sliding="m/s^2",
+    slides=True,
+    check=_require_inertia,
+    values=_acceleration,
+    jacobian=_acceleration_jacobian,
+)
+SWING_ANGLE = Formula(
+    "swing angle",
+    f"{PAPER}, eq. (38), (39)",
+    "rad",
+    sliding="rad",
+    slides=False,
+    check=require_masses,
+    values=_swing,
+    jacobian=_swing_jacobian,
+)

@@ -29,7 +29,7 @@ from holdfast.status import Status, require_ok
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Evaluation:
     """A susceptibility at N configurations, or at one (then without the leading N).
 
@@ -182,9 +182,8 @@ class Susceptibility(Labelled, Objective):
         joint_status[bad] = Status.BAD_INPUT
         status = np.where(np.isnan(value), Status.NO_INERTIA, Status.OK).astype(np.uint8)
         status[bad] = Status.BAD_INPUT
-        if single:
-            return Evaluation(value[0], by_joint[0], status[0], joint_status[0])
-        return Evaluation(value, by_joint, status, joint_status)
+        one = 0 if single else slice(None)
+        return Evaluation(value=value[one], by_joint=by_joint[one], status=status[one], joint_status=joint_status[one])
 
     def __call__(self, q: ArrayLike) -> Array:
         """``f' W f``, (N,), or a scalar for one configuration; eq. (2)."""

@@ -53,9 +53,9 @@ def build(comparison: Comparison) -> Page:
         f"Fault tolerance of {len(c.names)} candidates",
         _headline(c, first),
         [s for s in sections if s.blocks],
-        first.a.region.name,
-        alerts,
-        "Written by holdfast. This file needs no network and no other file.",
+        subtitle=first.a.region.name,
+        warnings=alerts,
+        footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 

@@ -145,7 +145,7 @@ class Facts(Answer):
         if a.region.kind == "box":
             c, s = np.array(a.region.center[:3]), np.array(a.region.size[:3])
             box = np.array([c - s / 2, c + s / 2])
-        return Scene(points, values, missing, posture, posture[1:-1], a.arm.prismatic, box), drawn
+        return Scene(points, values, missing, chain=posture, nodes=posture[1:-1], square=a.arm.prismatic, box=box), drawn
 
     @cached_property
     def views(self) -> list[View]:
@@ -218,4 +218,4 @@ class Facts(Answer):
         share = np.diff(self.a.cdf(edges, reachable_only=True))
         width = np.diff(np.log10(edges)) if self.log else np.diff(edges)
         per = "per decade" if self.log else self.unit and f"per{self.unit}"
-        return Bin(edges, share / width, "", f"probability density {per}".strip())
+        return Bin(edges, share / width, "", ylabel=f"probability density {per}".strip())

@@ -48,9 +48,9 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         f"Fault tolerance of {a.arm.name}",
         facts.headline,
         [s for s in parts if s.blocks],
-        a.region.name,
-        _alerts(facts),
-        "Written by holdfast. This file needs no network and no other file.",
+        subtitle=a.region.name,
+        warnings=_alerts(facts),
+        footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 

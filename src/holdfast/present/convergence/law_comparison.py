@@ -64,9 +64,9 @@ def build(c: LawComparison, command: str = "") -> Page:
         f"Control laws after a lock that nobody has noticed: {c.arm.name}",
         headline(c),
         [s for s in sections if s.blocks],
-        c.about or f"{counted(len(c), 'motion')}, task {c.laws[0].task.describe()}",
-        _alerts(c),
-        "Written by holdfast. This file needs no network and no other file.",
+        subtitle=c.about or f"{counted(len(c), 'motion')}, task {c.laws[0].task.describe()}",
+        warnings=_alerts(c),
+        footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 

@@ -57,7 +57,7 @@ def build(d: ConvergenceDesigns) -> Page:
             Section("The best arm as a file", _file(d)),
             Section("How it was computed", _method(d)),
         ],
-        f"{d.law.describe()}; {', '.join(d.space.names)}",
+        subtitle=f"{d.law.describe()}; {', '.join(d.space.names)}",
         footer="Written by holdfast. This file needs no network and no other file.",
     )
 

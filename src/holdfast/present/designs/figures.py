@@ -85,7 +85,7 @@ def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) ->
     none = np.zeros((0, 3))
     for arm in (given, best):
         posture = arm.frames(_posture(arm, task, region, seed))[:, :3, 3]
-        scenes.append(Scene(none, np.zeros(0), none, posture, posture[1:-1], arm.prismatic, box))
+        scenes.append(Scene(none, np.zeros(0), none, chain=posture, nodes=posture[1:-1], square=arm.prismatic, box=box))
     view = _view(given, scenes)
     # Both panels show the same part of the world.
     both = np.concatenate([s.extent for s in scenes])

@@ -94,7 +94,7 @@ def build(designs: Designs) -> Page:
         f"Designs of {d.space.arm.name}",
         d.headline,
         [s for s in sections if s.blocks],
-        f"{d.region.name}; {', '.join(d.space.names)}",
+        subtitle=f"{d.region.name}; {', '.join(d.space.names)}",
         footer="Written by holdfast. This file needs no network and no other file.",
     )
 
@@ -221,14 +221,18 @@ def _distributions(d: Designs) -> list[Block]:
     axis = np.linspace(0.0, 1.04 * max(*ends, *[m.x for m in marks]), 801)
     curves = [
         Curve(
-            axis, c.distribution.cdf(axis), f"{figures.plain(name, 40)}, 95 % band ±{c.distribution.band():.3f}", second, band
+            axis,
+            c.distribution.cdf(axis),
+            f"{figures.plain(name, 40)}, 95 % band ±{c.distribution.band():.3f}",
+            second=second,
+            band=band,
         )
         for c, name, second in ((best, "best design", False), (given, "given arm", True))
         for band in (c.distribution.band(),)
     ]
     unit = "" if d.index.unit == "1" else f", {d.index.unit}"
     label = figures.plain(f"worst-case {d.index.name}{unit}")
-    figure = figures.cdf_figure(curves, marks, label, "share of poses with a smaller value, F", width=8.0)
+    figure = figures.cdf_figure(curves, marks, label, ylabel="share of poses with a smaller value, F", width=8.0)
     samples = d.checked.best.distribution.samples
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (

@@ -59,9 +59,9 @@ def build(t: Trajectory, command: str = "") -> Page:
         f"Motion of {t.arm.name} along a path",
         f.headline,
         [s for s in parts if s.blocks],
-        f"{t.method}, {t.objective.name}, {t.objective.better} is better",
-        alerts,
-        "Written by holdfast. This file needs no network and no other file.",
+        subtitle=f"{t.method}, {t.objective.name}, {t.objective.better} is better",
+        warnings=alerts,
+        footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 

@@ -49,7 +49,7 @@ def write(recovery: Recovery, path: Path, command: str = "") -> Path:
         else []
     )
     sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, command))]
-    return page.write(page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, asked), path)
+    return page.write(page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked), path)
 
 
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
@@ -71,10 +71,18 @@ def _motion(recovery: Recovery) -> Figure:
     # What only widens the view: the places of everything that is drawn by hand below.
     reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])
     box = np.array([reach.min(axis=0), reach.max(axis=0)])
-    scene = Scene(points, np.linspace(0, 100, len(points)), np.zeros((0, 3)), final, final[1:-1], arm.prismatic, box)
+    scene = Scene(
+        points,
+        np.linspace(0, 100, len(points)),
+        np.zeros((0, 3)),
+        chain=final,
+        nodes=final[1:-1],
+        square=arm.prismatic,
+        box=box,
+    )
     views = sides(scene.extent)
-    scene = Scene(scene.points, scene.values, scene.missing, scene.chain, scene.nodes, scene.square)
-    wide = Scene(reach, np.zeros(len(reach)), points, final)
+    scene = Scene(scene.points, scene.values, scene.missing, chain=scene.chain, nodes=scene.nodes, square=scene.square)
+    wide = Scene(reach, np.zeros(len(reach)), points, chain=final)
     scale = Scale(0.0, 100.0)
     with style():
         panel = 4.1 if len(views) > 1 else 5.0

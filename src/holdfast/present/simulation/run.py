@@ -182,7 +182,7 @@ class _RunReport:
         subtitle = f"{self.runs.law.describe()}; locked: {', '.join(self.standing) or 'no joint'}"
         title = f"{self.arm.name} after a lock that its controller does not know of"
         footer = "Written by holdfast. This file needs no network and no other file."
-        return page.write(Page(title, self.headline, sections, subtitle, footer=footer), file)
+        return page.write(Page(title, self.headline, sections, subtitle=subtitle, footer=footer), file)
 
     def _animation(self) -> Picture:
         motion = self.motion

@@ -106,4 +106,4 @@ def _told(values: Array, s: Swept, factor: float) -> tuple[str, str]:
 
 def _bound(s: Swept) -> float | None:
     task = Task.from_dict(s.plan["task"])
-    return by_name(s.plan["index"], from_dict(s.plan["arm"]), task, [list(f) for f in s.plan["failures"]]).bound
+    return by_name(s.plan["index"], from_dict(s.plan["arm"]), task, failures=[list(f) for f in s.plan["failures"]]).bound

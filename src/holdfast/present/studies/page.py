@@ -75,9 +75,9 @@ def build(study: Study) -> Page:
         study.name,
         " ".join([*([headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
         [s for s in sections if s.blocks],
-        f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
-        alerts,
-        "Written by holdfast. This file needs no network and no other file.",
+        subtitle=f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
+        warnings=alerts,
+        footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 

@@ -49,7 +49,7 @@ def allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
             Section("Orders of the tasks", [Text(about), scenarios, square]),
             *(_sheet(protocol, k, len(order)) for k in range(count)),
         ],
-        f"seed {protocol.seed}",
+        subtitle=f"seed {protocol.seed}",
         footer="Written by holdfast. Tick a box when a trial is done.",
     )
 
@@ -66,7 +66,7 @@ def _sheet(protocol: Protocol, subject: int, rows: int) -> Section:
         scenarios = [f"{protocol.scenarios[s].number} ☐" for s in session[at : at + each, 1]]
         lines.append([str(place + 1), str(task + 1), protocol.arm.joint_names[joint] if joint >= 0 else "none", *scenarios])
     head = ["place", "task", "joint that fails", *("scenario" for _ in range(each))]
-    table = Table(lines, head, numbers=frozenset({1}), marks=frozenset(range(3, 3 + each)))
+    table = Table(lines, head, frozenset({1}), marks=frozenset(range(3, 3 + each)))
     return Section(f"Subject number {subject + 1}, row {subject % rows + 1}", [table], sheet=True)
 
 

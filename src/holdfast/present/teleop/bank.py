@@ -27,7 +27,7 @@ Indices = NDArray[np.int64]
 
 def figures(choice: TaskChoice) -> dict[str, Figure]:
     """The bank, with the tasks that were chosen."""
-    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, choice.apart)}
+    return {"bank": bank_figure(choice.bank, choice.cells, choice.chosen, special=choice.apart)}
 
 
 def save(choice: TaskChoice, folder: Path, spec: str) -> list[Path]:
@@ -67,7 +67,7 @@ def _protocol(choice: TaskChoice, spec: str) -> Protocol:
     return base.with_tasks(bank.tasks.take(every), notes)
 
 
-def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, special: Indices | None = None) -> Figure:
+def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *, special: Indices | None = None) -> Figure:
     """Scatter of CPM3 against CPM4/CPM3 with the grid of cells; chosen tasks carry their numbers.
 
     Args:

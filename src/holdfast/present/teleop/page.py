@@ -109,9 +109,9 @@ def build(
         f"Teleoperation with a failed joint: {a.who}",
         _headline(a),
         [s for s in sections if s.blocks],
-        name,
-        alerts,
-        "Written by holdfast. This file needs no network and no other file.",
+        subtitle=name,
+        warnings=alerts,
+        footer="Written by holdfast. This file needs no network and no other file.",
     )
 
 

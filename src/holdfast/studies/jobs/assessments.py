@@ -52,9 +52,15 @@ class AssessJob(PlannedJob[Plan]):
         bins, failures = len(edges(plan.index)) - 1, len(plan.index.failures)
         for before, _, _ in _SAMPLES[: 1 + plan.optimise]:
             found += [
-                Column(f"{before}bins", "int64", (("bin", bins),), "1", "values in each bin of the index"),
-                Column(f"{before}facts", "float64", (("fact", len(FACTS)),), "1", ", ".join(FACTS)),
-                Column(f"{before}worst_counts", "int64", (("failure", failures),), "1", "how often each failure is the worst"),
+                Column(f"{before}bins", "int64", (("bin", bins),), units="1", about="values in each bin of the index"),
+                Column(f"{before}facts", "float64", (("fact", len(FACTS)),), units="1", about=", ".join(FACTS)),
+                Column(
+                    f"{before}worst_counts",
+                    "int64",
+                    (("failure", failures),),
+                    units="1",
+                    about="how often each failure is the worst",
+                ),
             ]
         return found
 
@@ -96,5 +102,7 @@ class AssessJob(PlannedJob[Plan]):
         for start in range(chunk.start, chunk.stop, step):
             stop, number = min(start + step, chunk.stop), first + (start - chunk.start) // size
             drawn = None if place is None else place[: stop - start]
-            samples = plan.region.samples(start, stop, number, plan.seed, plan.sampling, self.rows, drawn)
+            samples = plan.region.samples(
+                start, stop, number, seed=plan.seed, sampling=plan.sampling, count=self.rows, out=drawn
+            )
             yield evaluate(plan, samples, number) if drawn is None else worst_cases(plan, samples)

@@ -31,10 +31,16 @@ class BankJob(LawJob):
         joints = ("failing", law.arm.n)
         cases = ("healthy_or_failed", 2)
         return [
-            Column("q0", "float64", (joints, ("joint", law.arm.n)), "rad or m", "configuration at the start"),
-            Column("target", "float64", (joints, ("row", law.task.m)), "m", "where the end effector should go"),
-            Column("end", "uint8", (joints, cases), "1", "how the trial ended; 0 arrived"),
-            Column("measures", "float64", (joints, cases, ("measure", RECORDED)), "mixed", "M1 to M11 of Goel et al. 2003"),
+            Column("q0", "float64", (joints, ("joint", law.arm.n)), units="rad or m", about="configuration at the start"),
+            Column("target", "float64", (joints, ("row", law.task.m)), units="m", about="where the end effector should go"),
+            Column("end", "uint8", (joints, cases), units="1", about="how the trial ended; 0 arrived"),
+            Column(
+                "measures",
+                "float64",
+                (joints, cases, ("measure", RECORDED)),
+                units="mixed",
+                about="M1 to M11 of Goel et al. 2003",
+            ),
         ]
 
     def run(self, chunk: Chunk) -> Rows:
@@ -42,8 +48,10 @@ class BankJob(LawJob):
         law = self.made
         count, n = len(chunk), law.arm.n
         entry, options = LAWS.read(self.plan["law"], "laws")
-        scenarios = [Scenario(k + 1, entry.name, failed, options) for k, failed in enumerate((False, True))]
-        bank = task_bank(law.arm, count, None, self.plan["distance"], law.task, chunk.own_seed, scenarios)
+        scenarios = [Scenario(k + 1, entry.name, failed, options=options) for k, failed in enumerate((False, True))]
+        bank = task_bank(
+            law.arm, count, None, distance=self.plan["distance"], task=law.task, seed=chunk.own_seed, scenarios=scenarios
+        )
 
         def by_row(values: NDArray[Any]) -> NDArray[Any]:
             """(n * count, ...), joint by joint, as (count, n, ...)."""

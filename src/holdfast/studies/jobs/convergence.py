@@ -27,19 +27,21 @@ class ConvergenceJob(LawJob):
         n = self.made.arm.n
         locked = (("locked_or_none", n + 1),)
         return [
-            Column("q0", "float64", (("joint", n),), "rad or m", "configuration at the start; NaN where none was found"),
-            Column("target", "float64", (("row", 4), ("column", 4)), "m", "tool pose"),
-            Column("code", "uint8", locked, "1", "0 converged, 1 stuck, 2 moving, 3 undecided, 255 none"),
-            Column("reason", "uint8", locked, "1", "why a run is undecided"),
-            Column("in_reach", "uint8", locked, "1", "1 if the end effector came to the target, or could have"),
-            Column("limits_passed", "uint8", locked, "1", "1 if a joint left its limits"),
+            Column(
+                "q0", "float64", (("joint", n),), units="rad or m", about="configuration at the start; NaN where none was found"
+            ),
+            Column("target", "float64", (("row", 4), ("column", 4)), units="m", about="tool pose"),
+            Column("code", "uint8", locked, units="1", about="0 converged, 1 stuck, 2 moving, 3 undecided, 255 none"),
+            Column("reason", "uint8", locked, units="1", about="why a run is undecided"),
+            Column("in_reach", "uint8", locked, units="1", about="1 if the end effector came to the target, or could have"),
+            Column("limits_passed", "uint8", locked, units="1", about="1 if a joint left its limits"),
         ]
 
     def run(self, chunk: Chunk) -> Rows:
         """See :class:`holdfast.engine.Job`."""
         law = self.made
         count = len(chunk)
-        found = convergence_map(law, count, count, 1, time_limit=self.plan["time_limit"], seed=chunk.own_seed)
+        found = convergence_map(law, count, count, configurations=1, time_limit=self.plan["time_limit"], seed=chunk.own_seed)
         return {
             "q0": found.q0[:, 0],
             "target": found.target[:, 0],

@@ -63,11 +63,13 @@ class DesignJob(PlannedJob[Made]):
         k = len(self.plan["vary"])
         level = self.plan["level"]
         return [
-            Column("design", "float64", (("parameter", k),), "rad or m", ", ".join(p[0] for p in self.plan["vary"])),
-            Column("guaranteed", "float64", (), "1", f"index that a share {level:g} of the poses have at least"),
-            Column("median", "float64", (), "1", "median index over the poses, 0 where they are not reached"),
-            Column("reached", "float64", (), "1", "share of the poses that is reached"),
-            Column("reach", "float64", (), "m", "largest distance of the tool point from the base"),
+            Column(
+                "design", "float64", (("parameter", k),), units="rad or m", about=", ".join(p[0] for p in self.plan["vary"])
+            ),
+            Column("guaranteed", "float64", (), units="1", about=f"index that a share {level:g} of the poses have at least"),
+            Column("median", "float64", (), units="1", about="median index over the poses, 0 where they are not reached"),
+            Column("reached", "float64", (), units="1", about="share of the poses that is reached"),
+            Column("reach", "float64", (), units="m", about="largest distance of the tool point from the base"),
         ]
 
     def run(self, chunk: Chunk) -> Rows:

@@ -12,7 +12,7 @@ from holdfast.errors import InputError
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Paired:
     """A paired comparison, two-sided; NaN where there is nothing to compute it from.
 
@@ -68,11 +68,39 @@ def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Pai
     d = (x - y)[np.isfinite(x) & np.isfinite(y)]
     n, nan = len(d), float("nan")
     if n < 2:
-        return Paired(n, float(d.mean()) if n else nan, nan, nan, nan, n - 1, nan, nan, nan, nan, nan, nan, nan)
+        return Paired(
+            n=n,
+            difference=float(d.mean()) if n else nan,
+            low=nan,
+            high=nan,
+            t=nan,
+            df=n - 1,
+            p=nan,
+            dz=nan,
+            dz_low=nan,
+            dz_high=nan,
+            median_difference=nan,
+            wilcoxon=nan,
+            rank_biserial=nan,
+        )
     mean, spread = float(d.mean()), float(d.std(ddof=1))
     median = float(np.median(d))
     if spread <= 1e-14 * np.abs(d).max():
-        return Paired(n, mean, mean, mean, nan, n - 1, nan, nan, nan, nan, median, nan, nan)
+        return Paired(
+            n=n,
+            difference=mean,
+            low=mean,
+            high=mean,
+            t=nan,
+            df=n - 1,
+            p=nan,
+            dz=nan,
+            dz_low=nan,
+            dz_high=nan,
+            median_difference=median,
+            wilcoxon=nan,
+            rank_biserial=nan,
+        )
     t = float(mean / (spread / np.sqrt(n)))
     half = float(stats.t.ppf(0.5 + confidence / 2, n - 1) * spread / np.sqrt(n))
     limits = [z / float(np.sqrt(n)) for z in noncentrality_interval(t, n - 1, confidence)]
@@ -80,7 +108,21 @@ def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Pai
     favour = float(np.sum(ranks * np.sign(d[d != 0])) / ranks.sum())
     p = float(2 * stats.t.sf(abs(t), n - 1))
     by_rank = signed_rank_p(ranks, d[d != 0] > 0)
-    return Paired(n, mean, mean - half, mean + half, t, n - 1, p, mean / spread, limits[0], limits[1], median, by_rank, favour)
+    return Paired(
+        n=n,
+        difference=mean,
+        low=mean - half,
+        high=mean + half,
+        t=t,
+        df=n - 1,
+        p=p,
+        dz=mean / spread,
+        dz_low=limits[0],
+        dz_high=limits[1],
+        median_difference=median,
+        wilcoxon=by_rank,
+        rank_biserial=favour,
+    )
 
 
 def signed_rank_p(ranks: NDArray[np.float64], positive: NDArray[np.bool_]) -> float:

@@ -126,7 +126,7 @@ def analyse(
         raise InputError("the table has one subject; statistics between subjects need 2 or more")
     by_laws = None
     if missing != "mixed":
-        by_laws = anova(cells.values, FACTORS, (cells.laws, cells.groups), cells.subjects)
+        by_laws = anova(cells.values, FACTORS, (cells.laws, cells.groups), subjects=cells.subjects)
     model = mixed(who, conditions, grouped.of_task) if missing == "mixed" else None
     correlations = _correlations(who, it, conditions, confidence)
     parts = {
@@ -250,12 +250,16 @@ def _correlations(
         levels = {"anticipated": machine.cpm[0, :, reference], **levels}
     if observed.rated:
         levels["perceived"] = observed.median_rating()[:, reference]
-    found = [correlation(levels[a], levels[b], (a, b), labels, confidence) for a, b in combinations(levels, 2)]
+    found = [
+        correlation(levels[a], levels[b], (a, b), labels=labels, confidence=confidence) for a, b in combinations(levels, 2)
+    ]
     if machine is not None:
         of = observed.conditions
         for k in conditions[1:]:
             with np.errstate(divide="ignore", invalid="ignore"):
                 ours, its = (np.asarray(x[:, k] / x[:, reference]) for x in (middle, machine.cpm[0]))
             ratio = f"CPM{of[k].scenario}/CPM{of[reference].scenario}"
-            found.append(correlation(ours, its, (f"operators' {ratio}", f"computer's {ratio}"), labels, confidence))
+            found.append(
+                correlation(ours, its, (f"operators' {ratio}", f"computer's {ratio}"), labels=labels, confidence=confidence)
+            )
     return tuple(found)

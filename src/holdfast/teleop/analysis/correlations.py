@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from holdfast.errors import InputError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Correlation:
     """A correlation over tasks; NaN where there is nothing to compute it from.
 
@@ -44,6 +44,7 @@ def correlation(
     first: ArrayLike,
     second: ArrayLike,
     names: tuple[str, str] = ("first", "second"),
+    *,
     labels: list[str] | None = None,
     confidence: float = 0.95,
 ) -> Correlation:
@@ -72,18 +73,24 @@ def correlation(
     x, y = x[there], y[there]
     nan = float("nan")
     if len(x) < 3 or np.ptp(x) == 0 or np.ptp(y) == 0:
-        return Correlation(*names, len(x), nan, nan, nan, nan, nan, nan, left_out)
+        return Correlation(
+            first=names[0],
+            second=names[1],
+            n=len(x),
+            **dict.fromkeys(("r", "low", "high", "p", "spearman", "p_spearman"), float("nan")),
+            left_out=left_out,
+        )
     pearson, spearman = stats.pearsonr(x, y), stats.spearmanr(x, y)
     low, high = pearson.confidence_interval(confidence) if len(x) > 3 else (nan, nan)
     return Correlation(
-        names[0],
-        names[1],
-        len(x),
-        float(pearson.statistic),
-        float(low),
-        float(high),
-        float(pearson.pvalue),
-        float(spearman.statistic),
-        float(spearman.pvalue),
-        left_out,
+        first=names[0],
+        second=names[1],
+        n=len(x),
+        r=float(pearson.statistic),
+        low=float(low),
+        high=float(high),
+        p=float(pearson.pvalue),
+        spearman=float(spearman.statistic),
+        p_spearman=float(spearman.pvalue),
+        left_out=left_out,
     )

@@ -20,7 +20,7 @@ Indices = NDArray[np.int64]
 _NAMES = {2: ("easy", "difficult"), 3: ("easy", "medium", "difficult")}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Groups:
     """Tasks in groups of difficulty.
 
@@ -64,10 +64,10 @@ def in_groups(difficulty: Array, count: int, by: str) -> Groups:
     for k, part in enumerate(np.array_split(order, count)):
         of_task[part] = k
     names = _NAMES.get(count, tuple(f"level {k + 1} of {count}" for k in range(count)))
-    return Groups(names, of_task, difficulty, by)
+    return Groups(names=names, of_task=of_task, difficulty=difficulty, by=by)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Cells:
     """Mean CPM of each subject with each law in each group of tasks.
 
@@ -96,7 +96,7 @@ class Cells:
         with np.errstate(invalid="ignore"):
             values = np.where(tasks > 0, sums / np.maximum(tasks, 1), np.nan)
         laws = tuple(observed.conditions[k].law for k in conditions)
-        return cls(values, tasks, observed.subjects, laws, grouped.names)
+        return cls(values=values, tasks=tasks, subjects=observed.subjects, laws=laws, groups=grouped.names)
 
     def empty(self) -> list[str]:
         """Cells without a task, as people read them."""

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 _OPTIMISERS = ("lbfgs", "powell", "nm")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class WaldTest:
     """Whether an effect of the mixed model is 0: asymptotic, so a little too sure of itself with few subjects or tasks.
 
@@ -38,7 +38,7 @@ class WaldTest:
     p: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Mixed:
     """A linear mixed model of the CPM of single trials with the failed arm, by restricted maximum likelihood.
 
@@ -108,14 +108,14 @@ def mixed(observed: Observed, conditions: list[int], group: NDArray[np.int64]) -
     rest = float(result.scale)
     random = dict(zip(result.model.exog_vc.names, np.asarray(result.vcomp, dtype=np.float64).tolist(), strict=True))
     return Mixed(
-        (tests[0], tests[1], tests[2]),
-        (coded @ beta).reshape(levels),
-        np.sqrt(np.einsum("ki,ij,kj->k", coded, covariance, coded)).reshape(levels),
-        {"subject": random["subject"], "task": random["task"], "rest": rest},
-        len(y),
-        bool(result.converged),
-        optimiser,
-        messages,
+        tests=(tests[0], tests[1], tests[2]),
+        means=(coded @ beta).reshape(levels),
+        mean_errors=np.sqrt(np.einsum("ki,ij,kj->k", coded, covariance, coded)).reshape(levels),
+        variances={"subject": random["subject"], "task": random["task"], "rest": rest},
+        trials=len(y),
+        converged=bool(result.converged),
+        optimiser=optimiser,
+        messages=messages,
     )
 
 
@@ -164,4 +164,4 @@ def _wald(name: str, beta: Array, covariance: Array) -> WaldTest:
     from scipy import stats
 
     chi2 = float(beta @ np.linalg.solve(covariance, beta))
-    return WaldTest(name, chi2, len(beta), float(stats.chi2.sf(chi2, len(beta))))
+    return WaldTest(name=name, chi2=chi2, df=len(beta), p=float(stats.chi2.sf(chi2, len(beta))))

@@ -52,7 +52,7 @@ class Condition:
         return f"{self.scenario}: {'failed' if self.failed else 'healthy'}, {self.law}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Observed:
     """The trials of P subjects with T tasks in S scenarios.
 
@@ -113,7 +113,18 @@ class Observed:
             cause[(cause == "") & np.isnan(ratings)] = UNRATED
         measured[cause != ""] = np.nan
         combined = cpm(measured if rated else measured[..., :RECORDED])
-        return cls(kind, subjects, tasks, conditions, measured, ratings, cause, rated, combined.values, combined.normalisers)
+        return cls(
+            kind=kind,
+            subjects=subjects,
+            tasks=tasks,
+            conditions=conditions,
+            measures=measured,
+            ratings=ratings,
+            cause=cause,
+            rated=rated,
+            cpm=combined.values,
+            normalisers=combined.normalisers,
+        )
 
     def normalised(self, normalisers: Array) -> Observed:
         """The same trials with other normalisers of the CPM, as many as they have."""

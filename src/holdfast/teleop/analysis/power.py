@@ -62,7 +62,7 @@ def subjects_for_t(dz: float, power: float = 0.8, limit: float = 0.05) -> int | 
     return None if not np.isfinite(dz) else _smallest(lambda n: t_power(dz, n, limit), power)
 
 
-def subjects_for_f(effect: float, df: float, power: float = 0.8, limit: float = 0.05, epsilon: float = 1.0) -> int | None:
+def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float = 0.05, epsilon: float = 1.0) -> int | None:
     """The smallest number of subjects with which a within-subjects F test has the power; None above 10,000."""
     _check(power, limit)
     return _smallest(lambda n: f_power(effect, df, n, limit, epsilon), power)

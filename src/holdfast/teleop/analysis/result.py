@@ -25,7 +25,7 @@ Paths = Callable[[str | None, int, int], Array | None]
 """(subject, task, scenario) to the (K, m) tool points of that trial, m; subject None is the computer; None if not recorded."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Analysis(Result):
     """An experiment analysed: :func:`holdfast.teleop.analysis.analyse` makes it.
 

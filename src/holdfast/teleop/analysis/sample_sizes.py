@@ -60,8 +60,8 @@ def tables(
                 "effect": "noncentrality per subject",
                 "observed": each,
                 "least": least,
-                "sufficient": of.subjects_for_f(each, e.df, power, limit, e.gg),
-                "sufficient_for_least": of.subjects_for_f(least, e.df, power, limit, e.gg),
+                "sufficient": of.subjects_for_f(each, e.df, power, limit=limit, epsilon=e.gg),
+                "sufficient_for_least": of.subjects_for_f(least, e.df, power, limit=limit, epsilon=e.gg),
             }
         )
         for count in counts:

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _NOTHING = 1e-24  # of the whole variation, squared rounding: below it there is no error to compare with
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Effect:
     """One effect of a within-subjects analysis of variance.
 
@@ -142,6 +142,7 @@ def anova(
     values: ArrayLike,
     factors: tuple[str, str] = ("law", "difficulty"),
     levels: tuple[Sequence[str], Sequence[str]] | None = None,
+    *,
     subjects: Sequence[str] | None = None,
 ) -> Anova:
     """Within-subjects analysis of variance with two factors, every subject in every cell.
@@ -180,19 +181,19 @@ def anova(
         corrected = [float(stats.f.sf(f[k], e * df[k], e * df_error[k])) for e in (gg, hf)]
         found.append(
             Effect(
-                name,
-                f[k],
-                int(df[k]),
-                int(df_error[k]),
-                p[k],
-                gg,
-                corrected[0],
-                hf,
-                corrected[1],
-                ss / (ss + ss_error),
-                ss / (ss + float(sums.subjects + sums.errors.sum())),
-                ss,
-                ss_error,
+                name=name,
+                F=f[k],
+                df=int(df[k]),
+                df_error=int(df_error[k]),
+                p=p[k],
+                gg=gg,
+                p_gg=corrected[0],
+                hf=hf,
+                p_hf=corrected[1],
+                partial_eta2=ss / (ss + ss_error),
+                generalised_eta2=ss / (ss + float(sums.subjects + sums.errors.sum())),
+                ss=ss,
+                ss_error=ss_error,
             )
         )
     return Anova((found[0], found[1], found[2]), n, float(sums.subjects))

@@ -160,7 +160,7 @@ def most_disorienting(bank: TaskBank, besides: Indices) -> int:
     return int(np.argmax(score))
 
 
-def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", seed: int = 0) -> int | None:
+def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", *, seed: int = 0) -> int | None:
     """A task in which the failed arm under the pseudoinverse is drawn to a stationary point, but which can be done.
 
     The computer, steering straight, must come to a standstill in scenario 3; and some other way of steering, by one of 64
@@ -178,7 +178,7 @@ def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar
     return None
 
 
-def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, tries: int = 64) -> bool:
+def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, *, tries: int = 64) -> bool:
     """Whether one failed task can be completed by way of some random point.
 
     Args:
@@ -195,11 +195,11 @@ def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, tries: int = 6
         [plant],
         np.zeros(tries, dtype=np.int64),
         np.repeat(task.q0, tries, axis=0),
-        np.repeat(task.target, tries, axis=0),
-        np.repeat(task.healthy(True), tries, axis=0),
-        Detour(via),
-        Stick(),
-        Rules(cycle_limit=2000, patience=2000),
+        target=np.repeat(task.target, tries, axis=0),
+        healthy=np.repeat(task.healthy(True), tries, axis=0),
+        operator=Detour(via),
+        stick=Stick(),
+        rules=Rules(cycle_limit=2000, patience=2000),
     )
     return bool(trials.arrived.any())
 
@@ -285,7 +285,7 @@ def choose_tasks(
         cells=cells,
         chosen=chosen,
         disorienting=most_disorienting(bank, chosen) if special else None,
-        trapped=trapped(bank, arm, task, seed) if special else None,
+        trapped=trapped(bank, arm, task, seed=seed) if special else None,
         seed=seed,
     )
 
@@ -304,7 +304,7 @@ class Detour(Operator):
         """See :meth:`Operator.begin`."""
         self._left = np.full(len(x), 60)  # cycles: 3 m at full speed
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, target: Array) -> Array:
+    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
         self._left[rows] -= 1
         near = np.linalg.norm(self._via[rows] - x, axis=1) < 0.05

@@ -34,6 +34,7 @@ def random_tasks(
     arm: Arm,
     per_joint: int = 400,
     joints: Sequence[int | str] | None = None,
+    *,
     distance: float = DISTANCE,
     task: str | Task | Sequence[str] = "planar",
     seed: int = 0,
@@ -116,6 +117,7 @@ def run(
     arm: Arm,
     tasks: PointTasks,
     operator: Operator | None = None,
+    *,
     scenarios: Sequence[Scenario] = SCENARIOS,
     stick: Stick | None = None,
     rules: Rules | None = None,
@@ -166,10 +168,19 @@ def drive_tasks(
 ) -> Trials:
     """As :func:`holdfast.teleop.drive`, for N tasks under scenarios (N,), indices from 0; a plant for each scenario."""
     failed = np.array([s.failed for s in scenarios], dtype=bool)[scenario]
-    return drive(plants, scenario, tasks.q0, tasks.target, tasks.healthy(failed), operator, stick, rules)
+    return drive(
+        plants,
+        scenario,
+        tasks.q0,
+        target=tasks.target,
+        healthy=tasks.healthy(failed),
+        operator=operator,
+        stick=stick,
+        rules=rules,
+    )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class TaskBank:
     """N tasks and how the computer did them in S scenarios.
 
@@ -195,7 +206,14 @@ class TaskBank:
         shape = (len(scenarios), len(tasks))
         values = measures(trials).reshape(*shape, RECORDED)
         combined = cpm(values)
-        return cls(tasks, tuple(scenarios), values, trials.end.reshape(shape), combined.values, combined.normalisers)
+        return cls(
+            tasks=tasks,
+            scenarios=tuple(scenarios),
+            measures=values,
+            end=trials.end.reshape(shape),
+            cpm=combined.values,
+            normalisers=combined.normalisers,
+        )
 
     def __len__(self) -> int:
         return len(self.tasks)
@@ -231,6 +249,7 @@ def task_bank(
     arm: Arm,
     per_joint: int = 400,
     joints: Sequence[int | str] | None = None,
+    *,
     distance: float = DISTANCE,
     task: str | Task | Sequence[str] = "planar",
     seed: int = 0,
@@ -242,5 +261,5 @@ def task_bank(
 
     Source: Goel et al. 2003, section 5.
     """
-    tasks = random_tasks(arm, per_joint, joints, distance, task, seed)
-    return TaskBank.of(tasks, run(arm, tasks, None, scenarios, stick, rules, task), scenarios)
+    tasks = random_tasks(arm, per_joint, joints, distance=distance, task=task, seed=seed)
+    return TaskBank.of(tasks, run(arm, tasks, scenarios=scenarios, stick=stick, rules=rules, task=task), scenarios)

@@ -59,7 +59,7 @@ def next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -> int:
     return int(np.lexsort((np.arange(rows), busy, done + busy))[0])
 
 
-def scenario_orders(tasks: int, scenarios: int, seed: int, subject: int) -> Indices:
+def scenario_orders(tasks: int, scenarios: int, seed: int, *, subject: int) -> Indices:
     """(tasks, scenarios) random orders of the scenarios within each task, the same for the same seed and subject number."""
     generator = np.random.default_rng(np.random.SeedSequence([seed, subject]))
     return np.asarray(generator.permuted(np.tile(np.arange(scenarios), (tasks, 1)), axis=1), dtype=np.int64)

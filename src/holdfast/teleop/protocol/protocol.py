@@ -26,7 +26,7 @@ Angles are rad. ``joint`` is the one that fails, at its start angle; none if not
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
@@ -73,6 +73,7 @@ class Training:
     at_least: int = 10
     in_a_row: int = 5
     limit: float = 55
+    _: KW_ONLY
     most: int = 100
     distance: float = 2.0
 
@@ -128,6 +129,7 @@ class Protocol:
     name: str
     arm: Arm
     arm_spec: str
+    _: KW_ONLY
     arm_file: Path | None
     rows: Task
     rate: float
@@ -166,7 +168,7 @@ class Protocol:
             subject: Running number, which with the seed makes the orders of the scenarios.
         """
         tasks = self.order()[row]
-        inner = scenario_orders(len(tasks), len(self.scenarios), self.seed, subject)
+        inner = scenario_orders(len(tasks), len(self.scenarios), self.seed, subject=subject)
         return np.column_stack([np.repeat(tasks, len(self.scenarios)), inner.ravel()])
 
     def with_tasks(self, tasks: PointTasks, notes: Sequence[str] | None = None) -> Protocol:
@@ -312,7 +314,7 @@ def _protocol(model: _File, folder: Path) -> Protocol:
         cycle_limit=model.cycle_limit,
         subjects=model.subjects,
         seed=model.seed,
-        scenarios=tuple(Scenario(k + 1, s.law, s.failed, s.options) for k, s in enumerate(model.scenarios)),
+        scenarios=tuple(Scenario(k + 1, s.law, s.failed, options=s.options) for k, s in enumerate(model.scenarios)),
         training=Training(**model.training.model_dump()),
         rating=tuple(model.rating),
         tasks=PointTasks(

@@ -44,7 +44,7 @@ class Who(StrEnum):
     COMPUTER = "computer"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Subject:
     """One subject.
 
@@ -69,7 +69,7 @@ class Subject:
     note: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Entry:
     """One trial as it stands in the records, without its cycles.
 
@@ -109,7 +109,16 @@ class Entry:
 def read_subject(row: tuple[Any, ...]) -> Subject:
     """From the columns ``SUBJECT``."""
     code, number, square_row, kind, state, since, answers, note = row
-    return Subject(code, number, square_row, Who(kind), State(state), since, json.loads(answers), note)
+    return Subject(
+        code=code,
+        number=number,
+        row=square_row,
+        kind=Who(kind),
+        state=State(state),
+        since=since,
+        answers=json.loads(answers),
+        note=note,
+    )
 
 
 def read_entry(row: tuple[Any, ...]) -> Entry:

@@ -46,7 +46,7 @@ class Records:
         read_only: Nothing can be changed, as the folder cannot be written.
     """
 
-    def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol, read_only: bool = False) -> None:
+    def __init__(self, folder: Path, connection: sqlite3.Connection, protocol: Protocol, *, read_only: bool = False) -> None:
         self.folder, self._db, self.protocol, self.read_only = folder, connection, protocol, read_only
         self._chain = Chain(connection, folder, beside(protocol))
         self._depth, self._place = 0, place(folder)
@@ -72,7 +72,8 @@ class Records:
         Raises:
             StoreError: There is none, it is damaged, or of another format.
         """
-        return cls(Path(folder), *connect(Path(folder)))
+        connection, protocol, read_only = connect(Path(folder))
+        return cls(Path(folder), connection, protocol, read_only=read_only)
 
     def close(self) -> None:
         """Close the file."""
@@ -234,7 +235,7 @@ class Records:
 
     # ---- trials ----------------------------------------------------------------------------------------------------
 
-    def begin_trial(self, subject: str, kind: Kind, position: int, scenario: int, tasks: PointTasks, task: int = -1) -> int:
+    def begin_trial(self, subject: str, kind: Kind, position: int, *, scenario: int, tasks: PointTasks, task: int = -1) -> int:
         """A trial begins.
 
         Args:
@@ -268,7 +269,7 @@ class Records:
             self._chain.begin(cursor.lastrowid, subject)
         return cursor.lastrowid
 
-    def append(self, trial: int, first: int, time: Array, velocity: Array, q: Array) -> None:
+    def append(self, trial: int, first: int, time: Array, *, velocity: Array, q: Array) -> None:
         """Cycles of a trial; when this returns they are on the disk.
 
         Args:
@@ -344,6 +345,7 @@ class Records:
         kind: str,
         subject: str | None = None,
         trial: int | None = None,
+        *,
         k: int | None = None,
         data: Mapping[str, Any] | None = None,
     ) -> None:

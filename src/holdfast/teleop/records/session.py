@@ -16,7 +16,7 @@ from holdfast.teleop.trials.recordings import End
 from holdfast.teleop.trials.scenarios import PointTasks
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Next:
     """The next trial of a session.
 
@@ -91,7 +91,7 @@ class Session:
                 return None
             k = len(training)
             task = training_tasks(protocol, self.subject.number).take(np.array([k]))
-            return Next(Kind.TRAINING, k, -1, training_scenario(protocol), task)
+            return Next(kind=Kind.TRAINING, position=k, task=-1, scenario=training_scenario(protocol), tasks=task)
         position = len(trials)
         if position >= len(self._order):
             if self.subject.state != State.COMPLETED:
@@ -99,7 +99,9 @@ class Session:
                 self.subject = self.records.subject(code)
             return None
         number, scenario = (int(v) for v in self._order[position])
-        return Next(Kind.TRIAL, position, number, scenario, protocol.tasks.take(np.array([number])))
+        return Next(
+            kind=Kind.TRIAL, position=position, task=number, scenario=scenario, tasks=protocol.tasks.take(np.array([number]))
+        )
 
     def progress(self) -> str:
         """One phrase for people."""

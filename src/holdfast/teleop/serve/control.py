@@ -190,7 +190,7 @@ class Control:
                 there = {e["trial"] for e in records.events(DIFFERS)}
                 for entry, data in differing:
                     if entry.id not in there:
-                        records.event(DIFFERS, entry.subject, entry.id, None, data)
+                        records.event(DIFFERS, entry.subject, entry.id, k=None, data=data)
 
         self.writer.put(note, lambda _: self.changed())
 
@@ -220,7 +220,7 @@ class Control:
                 raise InputError(f"all sessions are paused; {subject} goes on when all do")
             (self._paused.add if paused else self._paused.discard)(subject)
         kind = _PAUSED if paused else _GOES_ON
-        await self.writer.do(lambda records: records.event(kind, subject, None, None, _EXPERIMENTER))
+        await self.writer.do(lambda records: records.event(kind, subject, None, k=None, data=_EXPERIMENTER))
         for code, page in self._pages.items():
             if subject in (None, code):
                 page.pause(self.is_paused(code))

@@ -171,7 +171,7 @@ class Station:
         if len(earlier) + len(said) > _MOST_ANSWERS:
             raise InputError(f"a subject has at most {_MOST_ANSWERS} answers")
         self.records.set_answers(self.code, {**earlier, message.form: now(), **said})
-        self.records.event("answers", self.code, None, None, {"form": message.form, **said})
+        self.records.event("answers", self.code, None, k=None, data={"form": message.form, **said})
         return None
 
     @_apply.register
@@ -183,7 +183,7 @@ class Station:
             raise InputError(
                 f"{message.kind} {message.position + 1} was begun, and {todo.kind.value} {todo.position + 1} is the next"
             )
-        self.records.begin_trial(self.code, todo.kind, todo.position, todo.scenario, todo.tasks, todo.task)
+        self.records.begin_trial(self.code, todo.kind, todo.position, scenario=todo.scenario, tasks=todo.tasks, task=todo.task)
         return None
 
     @_apply.register
@@ -199,7 +199,7 @@ class Station:
             raise InputError(f"a command of {fastest:g} m/cycle is beyond the stick's limit of {protocol.stick.limit:g}")
         if protocol.cycle_limit is not None and message.first + len(velocity) > protocol.cycle_limit:
             raise InputError(f"a trial has at most {protocol.cycle_limit} cycles")
-        self.records.append(trial.id, message.first, np.array(message.time), velocity, np.array(message.q))
+        self.records.append(trial.id, message.first, np.array(message.time), velocity=velocity, q=np.array(message.q))
         return None
 
     @_apply.register
@@ -228,7 +228,7 @@ class Station:
     @_apply.register
     def _(self, message: messages.EventMessage, entry: Entry | None) -> int | None:
         trial = None if entry is None or entry.ended is not None else entry.id
-        self.records.event(message.kind, self.code, trial, None, message.data)
+        self.records.event(message.kind, self.code, trial, k=None, data=message.data)
         return None
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +37,7 @@ class Rules:
     radius: float = 0.1
     at_rest: bool = False
     cycle_limit: int = 1000
+    _: KW_ONLY
     still: float = 1e-6
     patience: int = 50
 
@@ -55,7 +56,7 @@ class Operator(ABC):
         """A batch of trials begins: tool points (N, m) and targets (N, m), m."""
 
     @abstractmethod
-    def wanted(self, rows: Indices, cycle: int, x: Array, target: Array) -> Array:
+    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """The velocity (K, m) that the stick is moved for, m/cycle, before dead zone and limit.
 
         Args:
@@ -88,7 +89,7 @@ class Computer(Operator):
     def begin(self, x: Array, target: Array) -> None:
         """See :meth:`Operator.begin`."""
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, target: Array) -> Array:
+    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
         return self.gain * (target - x)
 
@@ -104,7 +105,7 @@ class Recorded(Operator):
         if len(x) != len(self._trials):
             raise InputError(f"{len(self._trials)} recorded trials cannot drive {len(x)} others; give the same trials")
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, target: Array) -> Array:
+    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
         trials = self._trials
         out = np.zeros((rows.size, trials.velocity.shape[1]))
@@ -122,6 +123,7 @@ def drive(
     plants: Sequence[Plant],
     plant_of: ArrayLike,
     q0: ArrayLike,
+    *,
     target: ArrayLike,
     healthy: ArrayLike,
     operator: Operator,
@@ -164,7 +166,7 @@ def drive(
     rows = np.arange(count)
     recorded: list[tuple[Indices, Array, Array, Array, Array]] = []
     for cycle in range(rule.cycle_limit + 1):
-        wanted = operator.wanted(rows, cycle, x, goal[rows])
+        wanted = operator.wanted(rows, cycle, x, target=goal[rows])
         velocity = wanted if stick is None else stick.limited(wanted)
         at_rest = np.asarray(~velocity.any(axis=1))
         inside = np.linalg.norm(goal[rows] - x, axis=1) <= rule.radius

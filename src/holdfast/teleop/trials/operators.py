@@ -6,7 +6,7 @@ The parameters are a plausible population, never fitted to the paper's statistic
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import KW_ONLY, dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,6 +45,7 @@ class Person:
     delay: float = 0.24
     lag: float = 0.15
     noise: float = 0.1
+    _: KW_ONLY
     bias: float = 0.09
     slowing: float = 0.8
     look_back: float = 1.0
@@ -96,7 +97,7 @@ class SimulatedPeople(Operator):
         seed: Of the noise and of misjudged directions.
     """
 
-    def __init__(self, people: Sequence[Person], rate: float, stick: Stick, radius: float, seed: int = 0) -> None:
+    def __init__(self, people: Sequence[Person], rate: float, stick: Stick, *, radius: float, seed: int = 0) -> None:
         self._people, self._rate, self._stick, self._radius = list(people), rate, stick, radius
         self._generator = np.random.default_rng(seed)
 
@@ -120,7 +121,7 @@ class SimulatedPeople(Operator):
         self._side = np.where(self._generator.random(count) < 0.5, -1.0, 1.0)
         self._seen = np.zeros((3 + int(np.ceil((self._delay + self._look_back).max())), count, m))  # of the last cycles
 
-    def wanted(self, rows: Indices, cycle: int, x: Array, target: Array) -> Array:
+    def wanted(self, rows: Indices, cycle: int, x: Array, *, target: Array) -> Array:
         """See :meth:`Operator.wanted`."""
         self._seen[cycle % len(self._seen), rows] = x
         self._shake()
@@ -191,7 +192,7 @@ def _turned(direction: Array, angle: Array, aside: Array) -> Array:
     return np.asarray(np.cos(angle)[:, None] * direction + np.sin(angle)[:, None] * across)
 
 
-def rate(time: ArrayLike, ideal: ArrayLike, steps: int = 4, seed: int = 0) -> NDArray[np.int64]:
+def rate(time: ArrayLike, ideal: ArrayLike, steps: int = 4, *, seed: int = 0) -> NDArray[np.int64]:
     """What a simulated person says about the comfort of trials: by how many times the ideal time they took.
 
     The first step ends at 1.5 times, each further one 1.6 times later (with four steps: 1.5, 2.4, 3.8), all blurred by a

@@ -53,7 +53,7 @@ class RecordedCycles:
     first: NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Trials:
     """N recorded trials; their C cycles lie one after the other, trial i's at ``first[i]`` to ``first[i + 1]``.
 
@@ -118,15 +118,15 @@ class Trials:
         first = np.concatenate([[0], np.cumsum(sizes)])
         cycles = np.repeat(self.first[chosen] - first[:-1], sizes) + np.arange(first[-1])
         return Trials(
-            self.velocity[cycles],
-            self.q[cycles],
-            self.x[cycles],
-            self.actual[cycles],
-            first,
-            self.q_end[chosen],
-            self.x_end[chosen],
-            self.target[chosen],
-            self.end[chosen],
+            velocity=self.velocity[cycles],
+            q=self.q[cycles],
+            x=self.x[cycles],
+            actual=self.actual[cycles],
+            first=first,
+            q_end=self.q_end[chosen],
+            x_end=self.x_end[chosen],
+            target=self.target[chosen],
+            end=self.end[chosen],
         )
 
     @staticmethod

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,7 @@ class Scenario:
     number: int
     law: str
     failed: bool
+    _: KW_ONLY
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property

@@ -43,9 +43,9 @@ def blocks(f: Facts) -> list[Block]:
         rows.position,
         shown,
         views,
-        f.log,
-        not f.larger,
-        figures.plain(f"{average.lower()} {f.index.name}"),
+        log=f.log,
+        smaller_is_better=not f.larger,
+        label=figures.plain(f"{average.lower()} {f.index.name}"),
         weights=rows.weight,
     )
     text = (

@@ -31,7 +31,7 @@ def blocks(f: Facts) -> list[Block]:
         f"{k + 1} {f.a.arm.joint_names[k]}{'' if angle is None else f' {_angle(f, k, angle)}'}" for k, angle in locks.items()
     ]
     what = f"{'weight of ' if f.d.weighted else ''}poses still reached once the joint has locked"
-    figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, _whole(f), "least")
+    figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, total=_whole(f), stress="least")
     given = [angle is not None for angle in locks.values()]
     where = "where it stood at another pose of the region, drawn at random"
     if all(given):
@@ -111,4 +111,4 @@ def before_and_after_figure(
 ) -> Figure:
     """Maps of the share of poses (N, 3), m, that are reached (N,) before and after a lock, by weight (N,) if there is one."""
     panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
-    return maps.share_figure(position, panels, view, "share of the poses reached", weights=weights)
+    return maps.share_figure(position, panels, view, label="share of the poses reached", weights=weights)

@@ -25,7 +25,7 @@ def blocks(f: Facts) -> list[Block]:
     if scene.box is not None:
         legend.append(("box", "positions of the region"))
     image = figures.svg(
-        scenes.view_figure(scene, f.views, f.scale, f.axis_label, legend),
+        scenes.view_figure(scene, f.views, f.scale, label=f.axis_label, legend=legend),
         "views",
         f"The arm and the {f.noun}s of the region, by index",
     )

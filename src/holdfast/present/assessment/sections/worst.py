@@ -34,7 +34,7 @@ def blocks(f: Facts) -> list[Block]:
             [names[k] for k in chosen],
             counts[chosen].tolist(),
             f"{'weight of ' if weighted else ''}{f.noun}s at which this failure is the worst",
-            total,
+            total=total,
         )
         whole = f"the weight, {total:,.4g}, of the" if weighted else f"{total:,}"
         text = f"Of {whole} {f.reached} that are not singular; where several failures are equally bad, the first counts."
