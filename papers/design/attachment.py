@@ -96,7 +96,7 @@ def figure(runs: dict[str, hf.Assessment], path: Path) -> None:
         drawn = Figure(figsize=(8, 4.4), layout="constrained")
         axes = drawn.add_subplot()
         label = "worst-case relative manipulability at the best configuration of a pose (no unit)"
-        draw_cdf(axes, curves, [], label, "share of poses below; not reached: 0")
+        draw_cdf(axes, curves, [], xlabel=label, ylabel="share of poses below; not reached: 0")
         axes.axhline(0.05, color=SOFT, linewidth=1.0, linestyle=(0, (1.2, 1.6)))
         axes.annotate("5 %: what 95 % of the poses have", (0.56, 0.05), (0, 3), textcoords="offset points", ha="right")
         axes.axvline(np.sqrt(3 / 9), color=SOFT, linewidth=1.0)

@@ -66,7 +66,9 @@ def _difficulty(a: Analysis) -> Figure:
     for c in a.correlations:
         if c.first in _SCALES:
             x, y = (table[name].to_numpy(dtype=np.float64) for name in (c.first, c.second))
-            panels.append(Scatter(x, y, _SCALES[c.first], _SCALES[c.second], c, a.groups.of_task))
+            panels.append(
+                Scatter(x=x, y=y, xlabel=_SCALES[c.first], ylabel=_SCALES[c.second], correlation=c, groups=a.groups.of_task)
+            )
     return scatter_figure(panels, a.groups.names)
 
 
@@ -80,7 +82,14 @@ def _motions(s: Study, task: int) -> Figure:
             path = s.paths(who, task, c.scenario)
             if path is not None:
                 motions.append(
-                    Motion(path, f"{name}, {c.label}", p.tasks.target[k], p.radius, whole, left if c.failed else None)
+                    Motion(
+                        path=path,
+                        title=f"{name}, {c.label}",
+                        target=p.tasks.target[k],
+                        radius=p.radius,
+                        whole=whole,
+                        left=left if c.failed else None,
+                    )
                 )
     return motions_figure(motions)
 

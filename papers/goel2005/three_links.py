@@ -179,7 +179,7 @@ def manifold(place: ArrayLike, count: int) -> Array:
     """(count, 3) configurations of a place, rad, equally far apart along its self-motion manifold in joint space."""
     pose = np.eye(4)
     pose[:2, 3] = place
-    return configurations_at(law().arm, law().task, pose[None], count, 0)[1]
+    return configurations_at(law().arm, law().task, pose[None], count=count, seed=0)[1]
 
 
 def claims(found: dict[str, hf.Runs]) -> list[Claim]:

@@ -136,7 +136,12 @@ def figure_10(w: hf.Workspace, path: Path) -> None:
     from holdfast.report import Plane, place_maps
 
     plane = Plane(
-        w.places.points[:, :2], ("x, m", "y, m"), w.places.cells, w.places.axes, (float(TARGET[0]), float(TARGET[1])), "target"
+        points=w.places.points[:, :2],
+        labels=("x, m", "y, m"),
+        cells=w.places.cells,
+        axes=w.places.axes,
+        mark=(float(TARGET[0]), float(TARGET[1])),
+        mark_label="target",
     )
     m = w.measures
     rows = {of: np.stack([m[f"{of}{what}"][:, 3] for what in ("100", "avg", "sens")], axis=1) for of in ("R", "F")}
@@ -148,7 +153,7 @@ def figure_10(w: hf.Workspace, path: Path) -> None:
         f"target{unknown}"
     )
     columns = ("R100, F100", "Ravg, Favg", "Rsens, Fsens")
-    save_png(place_maps(plane, rows, columns, "percent", caption), path, dpi=110)
+    save_png(place_maps(plane, rows, columns, label="percent", caption=caption), path, dpi=110)
 
 
 def work(w: hf.Workspace, seconds: float) -> list[str]:

@@ -129,7 +129,7 @@ def figure(found: dict[Setting, list[Row]], settings: Sequence[Setting], title: 
         [(f"Panda, position, each joint locked: {title}", curves)],
         [Mark(1.0, "1 mm")],
         "largest distance between kinematic and MuJoCo tool path, mm",
-        f"share of {len(found[settings[0]])} runs",
+        ylabel=f"share of {len(found[settings[0]])} runs",
         log=True,
     )
     save_png(made, HERE / file)

@@ -65,9 +65,9 @@ def draw_outcomes(p: Part, file: Path) -> None:
         rows = [r for r in p["outcomes"] if r["failure"] == failure]
         shares = np.array([[r[o] for o in OUTCOMES] for r in rows])
         low, high = (np.array([r[f"converged_{end}"] for r in rows]) for end in ("low", "high"))
-        stacks.append(Stack(failure, p["names"], shares, low, high, rows[0]["reachable"]))
+        stacks.append(Stack(name=failure, bars=p["names"], shares=shares, low=low, high=high, level=rows[0]["reachable"]))
     label = f"share of {p['motions']} motions, each law and failure; {title(p)}"
-    save_png(stack_figure(stacks, OUTCOMES, label, "targets still within reach"), file, dpi=80)
+    save_png(stack_figure(stacks, OUTCOMES, label, level="targets still within reach"), file, dpi=80)
 
 
 def draw_gains(parts: Sequence[Part], file: Path) -> None:
@@ -80,7 +80,8 @@ def draw_gains(parts: Sequence[Part], file: Path) -> None:
         every = []
         for name in parts[0]["names"][1:]:
             rows = [gains(p, name) for p in parts]
-            every.append(Gains(name, *(np.array([r[f"{of}{end}"] for r in rows]) for end in ("", "_low", "_high"))))
+            value, low, high = (np.array([r[f"{of}{end}"] for r in rows]) for end in ("", "_low", "_high"))
+            every.append(Gains(label=name, value=value, low=low, high=high))
         panels.append((label, every))
     save_png(gain_figure([title(p) for p in parts], panels), file, dpi=80)
 

@@ -142,7 +142,7 @@ def _at(points: Array) -> Array:
 # ---- configurations there ----------------------------------------------------------------------------------------
 
 
-def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int) -> tuple[Index, Array]:
+def configurations_at(arm: Arm, task: Task, places: Array, *, count: int, seed: int) -> tuple[Index, Array]:
     """Configurations of places (P, 4, 4): which place each belongs to (R,), and they (R, n), in order of places.
 
     With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
@@ -204,7 +204,7 @@ def picked_at(
     Returns:
         Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
     """
-    owner, found = configurations_at(arm, task, places, count, seed)
+    owner, found = configurations_at(arm, task, places, count=count, seed=seed)
     # Of several curves some points of each: a random choice of all.
     order = np.lexsort([generator.random(len(owner)), owner])
     owner, found = owner[order], found[order]

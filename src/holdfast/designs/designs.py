@@ -66,7 +66,7 @@ class Checked:
         size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
         ends = np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share)) / size
         low, middle, high = d.quantile(np.clip([ends[0], share, ends[1] + 1 / size], 0, 1), reachable_only=False).tolist()
-        return cls(d, Interval(middle, low if ends[0] > 0 else 0.0, high, confidence))
+        return cls(d, Interval(value=middle, low=low if ends[0] > 0 else 0.0, high=high, confidence=confidence))
 
 
 @dataclass(frozen=True)

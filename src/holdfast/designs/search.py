@@ -103,7 +103,7 @@ def design(
             raise InputError(f"{what} is {count}; it must be {least} or more")
     space = design_space(arm, vary)
     region = _own_region(arm) if region is None else region
-    family = Family(space, objective, task, failures, length)
+    family = Family(space, objective, task, failures=failures, length=length)
     search = _Search(family, region, level, poses, seed)
     plan = {
         "kind": "design",

@@ -53,14 +53,17 @@ def panels(
         words = axis_label(across[0]), axis_label(across[1])
         where = None if mark is None else (float(across[0] @ mark), float(across[1] @ mark))
         points, told = places.points @ across.T, ""
-        plane, shown = Plane(points, words, places.cells, places.axes, where, "target"), dict(rows)
+        plane, shown = (
+            Plane(points=points, labels=words, cells=places.cells, axes=places.axes, mark=where, mark_label="target"),
+            dict(rows),
+        )
         if places.cells is None and (gathered or axes is not None):
             pairs = {word: binned(points, v, _BINS) for word, v in rows.items()}
             first = next(iter(pairs.values()))[0]
             plane = replace(first, labels=words, mark=where, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
             told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        found[name] = place_maps(plane, shown, columns, label, caption + told)
+        found[name] = place_maps(plane, shown, columns, label=label, caption=caption + told)
     return found
 
 
