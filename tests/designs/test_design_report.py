@@ -57,6 +57,12 @@ def found(rng) -> hf.Designs:
     )
 
 
+def test_its_figures_are_given(found):
+    assert list(found.figures()) == ["front", "arms"]
+    assert list(replace(found, best=0).figures()) == ["front"]
+    assert found._repr_html_().count("<svg ") == 1
+
+
 def test_the_page_says_what_to_build(found):
     page = render(report.build(found))
     check(page)

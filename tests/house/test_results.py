@@ -147,6 +147,8 @@ def test_a_result_says_what_it_holds(name):
 def test_a_presenter_is_there_and_its_class_is_a_result(name):
     for module in filter(None, PRESENTERS[name]):
         import_module(f"holdfast.present.{module}")
+    for function in ("write", "save", "figures", "show", "in_notebook"):
+        assert inspect.isfunction(presenter([name], function)), function
     (result,) = [public()[each][0] for each in RESULTS if each.rpartition(".")[2] == name]
     assert issubclass(result, Result)
 

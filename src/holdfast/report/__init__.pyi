@@ -41,5 +41,5 @@ from holdfast.report.places import binned as binned
 from holdfast.report.places import place_maps as place_maps
 from holdfast.report.scenes import Scale as Scale
 from holdfast.report.scenes import Scene as Scene
-from holdfast.report.scenes import View as View
 from holdfast.report.scenes import view_figure as view_figure
+from holdfast.report.views import View as View
