@@ -10,7 +10,6 @@ Every page has one Python session and one temporary folder, shared by its direct
 ``module-example``: the example in a module's docstring.
 ``casadi-operations``: the CasADi operations that the compiled backend translates, found by trying.
 ``registered``: the documented constructors of a registry, ``INDICES``, ``LAWS`` or ``SUSCEPTIBILITIES``.
-``result-options``: what methods of results take beyond those of the base class, as a table.
 ``registry``: everything of a kind that has a name (``index``, ``law`` or ``susceptibility``), as a table.
 
 The role ``cite`` refers to an entry of the list of references.
@@ -208,25 +207,6 @@ class Constructors(SphinxDirective):
         return self.parse_text_to_nodes(text)
 
 
-class ResultOptions(SphinxDirective):
-    """What the methods of each result take beyond what all take, from the functions that present it."""
-
-    def run(self) -> list[nodes.Node]:
-        from holdfast.present import PRESENTERS, presenter
-
-        functions = {"report": "write", "save": "save", "figures": "figures", "to_dict": "to_dict"}
-        rows = ["| result | method | takes |", "|---|---|---|"]
-        for name in PRESENTERS:
-            for method, function in functions.items():
-                with contextlib.suppress(AttributeError):  # nothing gives the numbers of a class that has them itself
-                    made = presenter([name], function)
-                    parameters = [*inspect.signature(made).parameters.values()][2 if method in ("report", "save") else 1 :]
-                    more = [f"`{str(p.replace(annotation=p.empty))}`" for p in parameters if p.name != "command"]
-                    if more and made.__module__ != "holdfast.present.results":
-                        rows.append(f"| {{class}}`.{name}` | `{method}` | {', '.join(more)} |")
-        return self.parse_text_to_nodes("\n".join(rows))
-
-
 def _codes(texts: list[str]) -> nodes.Node:
     items = nodes.bullet_list(classes=["operations"])
     for text in texts:
@@ -252,6 +232,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("casadi-operations", CasadiOperations)
     app.add_directive("registry", Registered)
     app.add_directive("registered", Constructors)
-    app.add_directive("result-options", ResultOptions)
     app.add_role("cite", Cite())
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -30,14 +30,14 @@ class Person:
 
     Attributes:
         delay: From what is seen to what the end effector begins to do, s. About 0.24 s for a simple reaction: Card,
-        Moran, Newell
-            1983, the model human processor.
+            Moran, Newell 1983, the model human processor.
         lag: Time constant of hand and stick, s: a first-order lag; 0.1 to 0.2 s: McRuer and Jex 1967.
-        noise: Standard deviation of the command, as a share of its size: Harris and Wolpert 1998, noise grows with the signal.
+        noise: Standard deviation of the command, as a fraction of its size: Harris and Wolpert 1998, noise grows with the
+            signal.
         bias: The direction is misjudged by this angle throughout a trial, rad; drawn anew, with its sign, for each trial.
         slowing: The speed is the distance to go divided by this time, s, within the limit of the stick.
-        look_back: If the end effector is farther from the target than so long ago, s, or stood still, the straight way
-        is given up ...
+        look_back: If the end effector is farther from the target than this long ago, s, or was still, the straight way is
+            given up ...
         turn: ... for a while, for one turned away by this angle, rad; left and right by turns, farther each time.
         gives_up: Time after which the trial is aborted, s.
     """
