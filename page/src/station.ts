@@ -11,7 +11,7 @@ import type { Rules } from "./run";
 import { Frame } from "./screens/frame";
 import { Stick } from "./stick";
 import type { Storage } from "./storage";
-import type { Study } from "./study";
+import type { Experiment } from "./experiment";
 import { sentence, Texts } from "./texts";
 
 /** Where the session stands. */
@@ -58,7 +58,7 @@ export class Station {
   private stopped = false;
 
   constructor(
-    readonly study: Study,
+    readonly experiment: Experiment,
     readonly arm: Arm,
     readonly storage: Storage,
     readonly addresses: Addresses,
@@ -66,9 +66,9 @@ export class Station {
     /** A session that this page was told to go on with. */
     handed: string | null,
   ) {
-    this.texts = new Texts(study.texts);
-    this.stick = new Stick(study.stick.limit, study.stick.dead_zone);
-    this.rules = { radius: study.radius, cycleLimit: study.cycle_limit };
+    this.texts = new Texts(experiment.texts);
+    this.stick = new Stick(experiment.stick.limit, experiment.stick.dead_zone);
+    this.rules = { radius: experiment.radius, cycleLimit: experiment.cycle_limit };
     this.robot = robotSeed === null ? null : new Random(robotSeed);
     this.frame = new Frame(this.texts);
     const kept = storage.kept;

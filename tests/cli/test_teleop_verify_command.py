@@ -17,7 +17,7 @@ BITS = int(os.environ.get("HOLDFAST_FLIPS", "400"))
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("verified") / "study"
-    flips.study(folder)
+    flips.experiment(folder)
     return folder
 
 

@@ -3,7 +3,7 @@
 import { circle, line, Surface } from "./canvas";
 import { BLUE, FAINT, INK, ORANGE, SKY, SOFT } from "./palette";
 import { point, task } from "./projection";
-import type { View } from "../study";
+import type { View } from "../experiment";
 
 export interface ArmScene {
   /** Base, joints and tool point, m. */

@@ -1,6 +1,6 @@
 /** What holds the arm's stick: a gamepad, the mouse, the keys, or a simulated person. */
 
-import type { View } from "../study";
+import type { View } from "../experiment";
 
 export type Kind = "gamepad" | "pointer" | "keys" | "robot";
 

@@ -2,7 +2,7 @@
 
 import { button, h, paragraphs } from "../dom";
 import type { Station } from "../station";
-import type { Form, Question } from "../study";
+import type { Form, Question } from "../experiment";
 
 type Answer = string | number | boolean;
 

@@ -87,7 +87,7 @@ class Setup {
           h("div", { class: "options" }, ...options),
           h(
             "div",
-            { class: "try", "data-views": this.station.study.views.length },
+            { class: "try", "data-views": this.station.experiment.views.length },
             ...this.velocities.elements,
             this.how,
           ),

@@ -46,7 +46,7 @@ _open = urllib.request.build_opener(urllib.request.ProxyHandler({})).open
 @pytest.fixture(scope="module")
 def folder(protocol, tmp_path_factory):
     """An experiment with one simulated subject who is done."""
-    made = tmp_path_factory.mktemp("made") / "study"
+    made = tmp_path_factory.mktemp("made") / "experiment"
     with Records.create(made, protocol) as records:
         give_up(records, records.add_subject(kind=Who.SIMULATED))
         records.set_state("S01", State.COMPLETED)
@@ -316,14 +316,14 @@ def test_the_export_is_that_of_the_records(http, folder, station, rng, tmp_path)
     client.settle()
     status, content, headers = ask(f"{http}/experimenter/export.zip")
     assert status == 200
-    assert headers["content-disposition"] == 'attachment; filename="study.zip"'
+    assert headers["content-disposition"] == 'attachment; filename="experiment.zip"'
     with Records.open(folder) as records:
         files = tables.export(records, tmp_path)
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         assert archive.testzip() is None
-        assert {Path(n) for n in archive.namelist()} == {Path("study") / f.name for f in files}
+        assert {Path(n) for n in archive.namelist()} == {Path("experiment") / f.name for f in files}
         for file in files:
-            assert archive.read(f"study/{file.name}") == file.read_bytes(), file.name
+            assert archive.read(f"experiment/{file.name}") == file.read_bytes(), file.name
 
 
 # ---- the report ------------------------------------------------------------------------------------------------------------
@@ -387,16 +387,16 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
     monkeypatch.setattr(results, "computer_table", lambda _: None)
     monkeypatch.setattr(tables, "hand_paths", lambda _: None)
     monkeypatch.setattr(apart.os, "nice", lambda _: 0)
-    study = tmp_path / "study"
-    shutil.copytree(folder, study)
-    with Records.open(study) as records:
+    experiment = tmp_path / "experiment"
+    shutil.copytree(folder, experiment)
+    with Records.open(experiment) as records:
         programs = [s.code for s in records.subjects() if records.progress().get((s.code, Kind.TRIAL))]
-    assert apart._main("report", str(study), str(tmp_path), "refuse") == 0
-    with Records.open(study) as records:
+    assert apart._main("report", str(experiment), str(tmp_path), "refuse") == 0
+    with Records.open(experiment) as records:
         for code in ("P1", "P2", "P3"):
             give_up(records, records.add_subject(code, Who.PERSON))
         records.set_state("P3", State.DROPPED)
-    assert apart._main("report", str(study), str(tmp_path), "refuse") == 0
+    assert apart._main("report", str(experiment), str(tmp_path), "refuse") == 0
     assert [r.subjects for r in written] == [programs, ["P1", "P2"]]
     dropped, simulated = written[1].notes[1:]
     assert dropped.startswith("dropped out, and not part of any number: ")
@@ -413,7 +413,7 @@ def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
 
 
 def test_what_is_read_is_of_one_moment(tmp_path, protocol):
-    with Records.create(tmp_path / "study", protocol) as writer, Records.open(tmp_path / "study") as reader:
+    with Records.create(tmp_path / "experiment", protocol) as writer, Records.open(tmp_path / "experiment") as reader:
         writer.add_subject("A")
         with reader.reading():
             assert len(reader.subjects()) == 1
