@@ -14,7 +14,7 @@ import type { Storage } from "./storage";
 import type { Experiment } from "./experiment";
 import { sentence, Texts } from "./texts";
 
-/** Where the session stands. */
+/** How far the session is. */
 export interface Progress {
   /** Cycles of each training task; null where it was not completed. */
   training: (number | null)[];
@@ -54,7 +54,7 @@ export class Station {
   private lostAt: number | null = null;
   /** Called when nothing waits any more, once the session is over. */
   private finished: (() => void) | null = null;
-  /** The session cannot go on in this page. */
+  /** The session cannot continue in this page. */
   private stopped = false;
 
   constructor(
@@ -63,7 +63,7 @@ export class Station {
     readonly storage: Storage,
     readonly addresses: Addresses,
     readonly robotSeed: number | null,
-    /** A session that this page was told to go on with. */
+    /** A session that this page was told to resume. */
     handed: string | null,
   ) {
     this.texts = new Texts(experiment.texts);
@@ -90,7 +90,7 @@ export class Station {
     window.addEventListener("pageshow", (event) => event.persisted && location.reload());
   }
 
-  /** Whether there is a session to go on with. */
+  /** Whether there is a session to resume. */
   get resumable(): boolean {
     return this.session !== null;
   }

@@ -16,7 +16,7 @@ from holdfast.teleop.protocol.protocol import Protocol, read_protocol
 from holdfast.teleop.records.check import replay
 from holdfast.teleop.records.entries import Kind
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.tables import computer_table, hand_paths, trial_table
+from holdfast.teleop.records.tables import computer_table, tool_paths, trial_table
 from holdfast.teleop.rehearsal import simulate_experiment
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def _kept(records: Records, a: Analysis) -> Paths:
     """The paths of the tasks that are drawn, without the records."""
     from holdfast.teleop.analysis.tables import median_operator
 
-    path = hand_paths(records)
+    path = tool_paths(records)
     kept: dict[tuple[str | None, int, int], Array | None] = {}
     for task in shown(a).values():
         k = median_operator(a.observed, a.observed.tasks.index(task), a.observed.index(a.conditions[0].scenario))

@@ -99,7 +99,7 @@ def test_an_experiment_is_watched_and_led(contexts, parts):
     robot.get_by_test_id("paused").wait_for()
     assert at("note").input_value() == "A chair fell over, tw"
 
-    # The session goes on in another page, which still has to be let go on.
+    # The session has moved to another page, which is still paused.
     at("resume").click()
     at("confirm-no").click()
     assert at("resume-url").count() == 0

@@ -257,8 +257,8 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     v = np.zeros((1, 2))
     before = records.trials(records.entries()).q.copy()
     for trial, first, velocity, configuration, message in [
-        (number, 9, v, q[None], "goes on with cycle 7, not 9"),
-        (number, 6, v, q[None], "goes on with cycle 7, not 6"),
+        (number, 9, v, q[None], "continues with cycle 7, not 9"),
+        (number, 6, v, q[None], "continues with cycle 7, not 6"),
         (99, 0, v, q[None], "does not exist"),
         (number, 7, np.zeros((1, 3)), q[None], "need commands"),
         (number, 7, v, np.full((1, 3), np.nan), "NaN"),

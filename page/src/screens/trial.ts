@@ -1,4 +1,4 @@
-/** One trial: wait for the trigger, steer, come to rest inside the circle. Broken off trials are done again at once. */
+/** One trial: wait for the trigger, steer, stop inside the circle. Broken off trials are done again at once. */
 
 import { button, h } from "../dom";
 import { Run, type Ending, type Task } from "../run";

@@ -234,7 +234,7 @@ def test_pauses(http, folder, station):
     post(http, "pause", subject=None, paused=True)
     assert told() == (True, True)
     status, said, _ = ask(f"{http}/experimenter/pause", {"subject": code, "paused": False})
-    assert (status, json.loads(said)["error"]) == (400, f"all sessions are paused; {code} goes on when all do")
+    assert (status, json.loads(said)["error"]) == (400, f"all sessions are paused; {code} resumes when all do")
     post(http, "pause", subject=None, paused=False)
     assert told() == (False, False)
     with Records.open(folder) as records:
@@ -265,7 +265,7 @@ def test_a_session_is_ended(http, folder, protocol, station, rng):
         assert len(records.entries(code)) == 1
     status, said, _ = ask(f"{http}/experimenter/resume", {"subject": code})
     assert status == 400
-    assert "cannot go on" in json.loads(said)["error"]
+    assert "cannot be resumed" in json.loads(said)["error"]
 
 
 def test_a_session_goes_on_in_another_page(http, protocol, station, rng):
@@ -379,13 +379,13 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
         subjects: list[str]
         notes: tuple[str, ...] = ("a note",)
 
-        def write(self, out, protocol, paths):
+        def save(self, out, protocol, paths):
             written.append(self)
 
     written: list[Result] = []
     monkeypatch.setattr(computation, "analyse", lambda table, *_, **options: Result(sorted(set(table["subject"]))))
     monkeypatch.setattr(results, "computer_table", lambda _: None)
-    monkeypatch.setattr(tables, "hand_paths", lambda _: None)
+    monkeypatch.setattr(tables, "tool_paths", lambda _: None)
     monkeypatch.setattr(apart.os, "nice", lambda _: 0)
     experiment = tmp_path / "experiment"
     shutil.copytree(folder, experiment)
@@ -407,7 +407,7 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
 def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
     with pytest.raises(InputError, match="holds no experiment"):
         asyncio.run(apart.apart("export", str(tmp_path), str(tmp_path)))
-    with pytest.raises(HoldfastError, match="the dance failed; the reason stands where the server was started"):
+    with pytest.raises(HoldfastError, match="the dance failed; the terminal in which the server was started shows why"):
         asyncio.run(apart.apart("dance", str(folder), str(tmp_path)))
     assert "KeyError: 'dance'" in caplog.text
 

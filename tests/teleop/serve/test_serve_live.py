@@ -132,7 +132,7 @@ def test_the_experimenter_watches_and_acts(experiment):
             for act in (control.note("X", ""), control.drop("X"), control.new_key("X"), control.pause("X", True)):
                 with pytest.raises(hf.InputError, match="no subject X"):
                     await act
-            with pytest.raises(hf.InputError, match="cannot go on"):
+            with pytest.raises(hf.InputError, match="cannot be resumed"):
                 await control.new_key("P1")
             with pytest.raises(hf.InputError, match="10,000"):
                 await control.note("P2", "x" * 10_001)
