@@ -214,6 +214,7 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
 
 def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
     found = design_for_convergence(planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, designs=4, climbs=0, keep_reach=True)
+    assert list(found.figures()) == ["parameters"]
     text = found.report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(text)
     assert f"The best design has guaranteed {percent(float(found.measures['guaranteed'][found.best]))}" in unescape(text)

@@ -50,7 +50,7 @@ class Beginnings:
                 generator = np.random.default_rng(np.random.SeedSequence([self._seed, first]))
                 owner, _, q = picked_at(arm, task, poses, self._count, self._seed, generator)
             else:
-                owner, q = configurations_at(arm, task, poses, self._count, self._seed)
+                owner, q = configurations_at(arm, task, poses, count=self._count, seed=self._seed)
             self._known[first, stop] = owner, q
         return self._known[first, stop]
 

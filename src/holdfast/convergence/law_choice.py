@@ -58,7 +58,7 @@ class LawChoice(Result):
         """How much more often the hand arrives under a law than under another, on the same failures.
 
         The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
-        (:meth:`holdfast.probability.intervals.Difference.of_fractions`).
+        (:meth:`holdfast.probability.Difference.of_fractions`).
 
         Raises:
             InputError: No such law or joint, or no place with a motion.

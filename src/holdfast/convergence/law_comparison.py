@@ -199,7 +199,7 @@ class LawComparison(Result):
         """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
 
         Paired: for one joint by the method of Newcombe with exact limits
-        (:meth:`holdfast.probability.intervals.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
+        (:meth:`holdfast.probability.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
         mean over the joints of each motion, because the runs of a motion go together, with the interval of fractions, which
         always covers.
 
@@ -237,7 +237,7 @@ class LawComparison(Result):
 
         Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
         moving count as they stood when time was up. Errors have no bound, so the interval is Student's t, which may cover too
-        little for few motions of which a few differ much (:meth:`holdfast.probability.intervals.Difference.of_means`).
+        little for few motions of which a few differ much (:meth:`holdfast.probability.Difference.of_means`).
 
         Args:
             law: Its name.

@@ -132,7 +132,7 @@ class Workspace(Result):
         values = self.measures[name]
         known = (~np.isnan(values)).sum(axis=0).tolist()
         hits = (values >= 100 - 1e-9).sum(axis=0).tolist()
-        none = Interval(np.nan, np.nan, np.nan, confidence)
+        none = Interval(value=np.nan, low=np.nan, high=np.nan, confidence=confidence)
         return tuple(Interval.of(h, k, confidence) if k else none for h, k in zip(hits, known, strict=True))
 
     def to_xarray(self) -> xr.Dataset:

@@ -247,7 +247,7 @@ def _exact(
 
 
 def planar_measures(radial: Radial) -> dict[str, Array]:
-    """The measures of :class:`ConvergenceDesigns`, (D,) each, over the area of the rings."""
+    """The measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, over the area of the rings."""
     area = radial.area
     in_reach, stuck = ((area * x).sum(axis=2) for x in (radial.in_reach, radial.stuck))
     with np.errstate(invalid="ignore", divide="ignore"):

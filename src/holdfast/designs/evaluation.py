@@ -31,7 +31,7 @@ _IK_ROWS, _ASCENT_ROWS = 500, 100  # steps for each design and pose (measured: 5
 _ROWS = 1 << 16  # starts side by side; no result depends on it
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Evaluated:
     """D designs at P poses.
 
@@ -53,12 +53,12 @@ class Evaluated:
 
     def take(self, designs: Any) -> Evaluated:
         """Some of the designs."""
-        return Evaluated(*(getattr(self, name)[designs] for name in self.__dataclass_fields__))
+        return Evaluated(**{name: getattr(self, name)[designs] for name in self.__dataclass_fields__})
 
     @staticmethod
     def joined(parts: list[Evaluated]) -> Evaluated:
         """Several, one after the other."""
-        return Evaluated(*(np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__))
+        return Evaluated(**{name: np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__})
 
     @property
     def extended(self) -> Array:
@@ -118,7 +118,14 @@ class Evaluator:
     def _empty(self) -> Evaluated:
         p, n, k = len(self.poses), self.family.arm.n, len(self.family.space.parameters)
         nothing, none = np.empty((0, p)), np.empty((0, p), dtype=bool)
-        return Evaluated(np.empty((0, k)), np.empty((0, p, n)), nothing, none, nothing, np.empty((0, p, _KEPT, n)))
+        return Evaluated(
+            values=np.empty((0, k)),
+            q=np.empty((0, p, n)),
+            value=nothing,
+            reached=none,
+            miss=nothing,
+            kept=np.empty((0, p, _KEPT, n)),
+        )
 
     def _grown(self, values: Array, near: Evaluated, fresh: int) -> Evaluated:
         space = self.family.space
@@ -169,12 +176,12 @@ class Evaluator:
         miss = np.where(reached, 0.0, miss)
         shape = (d, p)
         return Evaluated(
-            values,
-            nearest.reshape(*shape, n),
-            best.reshape(shape),
-            reached.reshape(shape),
-            miss.reshape(shape),
-            kept.reshape(*shape, _KEPT, n),
+            values=values,
+            q=nearest.reshape(*shape, n),
+            value=best.reshape(shape),
+            reached=reached.reshape(shape),
+            miss=miss.reshape(shape),
+            kept=kept.reshape(*shape, _KEPT, n),
         )
 
     def _random(self, values: Array, owner: Index, number: Index) -> Array:

@@ -144,6 +144,7 @@ class Family:
         space: DesignSpace,
         objective: str = "relative-manipulability",
         task: str | Task | Sequence[str] = "pose",
+        *,
         failures: FailureSpec = "single",
         length: float | None = None,
     ) -> None:

@@ -32,7 +32,7 @@ _CURVED = 1e-2  # of the quadratic program: steps of this size are worth a chang
 _SMALL = 1e-8  # what counts as 0 of the conditions
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sensitivity:
     """R designs and poses.
 
@@ -65,7 +65,7 @@ def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensit
     for rows, solve in ((np.flatnonzero(reached), _of_reached), (np.flatnonzero(~reached), _of_missed)):
         if rows.size:
             q[rows], value[rows], gradient[rows], exact[rows] = solve(evaluator, found.values, chosen[rows], q[rows])
-    return Sensitivity(q, value, gradient, exact)
+    return Sensitivity(q=q, value=value, gradient=gradient, exact=exact)
 
 
 def _by_limits(evaluator: Evaluator, force: Array) -> Array:

@@ -42,7 +42,7 @@ class Reaches:
 
         Args:
             values: (D, k).
-            limits: Finite limits (D, n) to begin between, :meth:`holdfast.designs.evaluation.Evaluator.finite_limits`.
+            limits: Finite limits (D, n) to begin between, :meth:`holdfast.designs.Evaluator.finite_limits`.
         """
         d, n = len(values), self._family.arm.n
         low, high = limits

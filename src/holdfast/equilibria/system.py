@@ -125,7 +125,7 @@ class RestSystem:
 
 @lru_cache(maxsize=64)
 def idle_joints(law: Law) -> tuple[int, ...]:
-    """Joints that do not move the task at any configuration, from 0."""
+    """Joints that do not move the task of a law at any configuration, by index from 0; stationary points have them at 0."""
     form = law.quadratic()
     if form is not None and not np.array_equal(form[0], np.diag(np.diag(form[0]))):
         return ()
