@@ -61,7 +61,7 @@ def test_the_law_of_designs_is_the_law_of_each(rng):
     rates = law.velocity(joints.configurations(values, q), v)
     expected = hf.control.pseudoinverse(joints.space.arm_of(values), "planar").velocity(q, v)
     np.testing.assert_allclose(rates[:, joints.moving], expected, atol=1e-9)
-    assert not rates[:, joints.standing].any()
+    assert not rates[:, joints.varied].any()
 
 
 def test_sinks_are_those_that_tracing_finds_for_one_target():
@@ -240,7 +240,7 @@ def test_arrivals_of_designs_by_runs_of_scipy():
         q0[j] = at[d, t, c, j]
         run = oracles.planar_run(designs[d], 0.1, q0, goals[t], j, 500.0, 1e-3)
         arrived[d, t, c, j] = run.t_events[0].size
-    np.testing.assert_array_equal(found.arrived[:, :2], arrived)
+    np.testing.assert_array_equal(found.converged[:, :2], arrived)
     np.testing.assert_allclose(found.arrival, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
     np.testing.assert_allclose(found.reached, 2 / 3)
 

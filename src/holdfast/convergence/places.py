@@ -1,4 +1,4 @@
-"""Places of the hand from which, or to which, an arm moves: lattices, lists and random ones; and configurations there."""
+"""Places of the tool from which, or to which, an arm moves: lattices, lists and random ones; and configurations there."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _TRIES = 8  # random starts of inverse kinematics for each configuration that is
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places of the hand.
+    """Places of the tool.
 
     Attributes:
         poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
@@ -92,7 +92,7 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
 
 
 def random_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
-    """Where the hand is at ``count`` random configurations, uniform within the joint limits."""
+    """Where the tool is at ``count`` random configurations, uniform within the joint limits."""
     from holdfast.arm.configurations import finite_limits
 
     low, high = finite_limits(arm)

@@ -198,7 +198,7 @@ class Designs(Result):
 
 
 def chosen(x: float) -> str:
-    """A share that somebody chose."""
+    """A share that was chosen."""
     return f"{100 * x:.4g} %"
 
 

@@ -40,7 +40,7 @@ class Evaluated:
         q: (D, P, n) the best configuration found, rad and m; where the pose is not reached the one that comes nearest.
         value: (D, P) the index there; 0 where the pose is not reached.
         reached: (D, P) a configuration within the limits was found.
-        miss: (D, P) how near the hand came where it was not: length of the task's error, m and rad; 0 where it was.
+        miss: (D, P) how near the end effector came where it was not: length of the task's error, m and rad; 0 where it was.
         kept: (D, P, K, n) configurations to begin from nearby, best first; NaN where there are fewer.
     """
 
@@ -62,7 +62,8 @@ class Evaluated:
 
     @property
     def extended(self) -> Array:
-        """(D, P) the index; where the pose is not reached, less than 0 by how far the hand stays away, as one per m and rad.
+        """(D, P) the index; where the pose is not reached, less than 0 by how far the end effector stays away, as one per m and
+        rad.
 
         So that a search is drawn towards poses that a design does not reach yet.
         """
@@ -196,7 +197,7 @@ class Evaluator:
         return made_finite(*self.family.limits(values), self.family.prismatic)
 
     def _arrived(self, values: Array, owner: Index, q: Array, nearest: Array, miss: Array) -> tuple[Index, Array]:
-        """Inverse kinematics from starts q (R, n): those that arrived. Where the others ended is noted if it is nearest."""
+        """Inverse kinematics from starts q (R, n): those that converged. Where the others ended is noted if it is nearest."""
         design, pose = np.divmod(owner, len(self.poses))
         low, high = self.family.limits(values)
         parameters = np.concatenate([self._targets[pose], values[design]], axis=1)

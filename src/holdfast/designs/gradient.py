@@ -195,7 +195,7 @@ class _Problem:
         return np.asarray(np.einsum("rim,ri->rm", inverse, np.nan_to_num(pull)))
 
     def solved(self, start: _Point) -> tuple[_Point, NDArray[np.bool_]]:
-        """Newton's method from nearby, with the constraints that are active sought on the way; and where it arrived."""
+        """Newton's method from nearby, with the active constraints sought on the way; and where it ended."""
         q, n = start.q.copy(), self._n
         failures, force = start.failures, start.force
         active = failures > 1e-3
@@ -257,7 +257,7 @@ class _Problem:
             force = np.where(go, step[:, r + 1 + f :], force)
             ahead = scores + np.einsum("rfi,ri->rf", slopes, move)
             level = np.where(active, ahead, np.inf).min(axis=1)
-            # What lets go leaves the set, what would be crossed joins it.
+            # What is no longer active leaves the set, what would be crossed joins it.
             active = np.where(go, np.where(active, failures >= -1e-9, ahead < level[:, None] - 1e-9), active)
             failures = np.where(active, failures, 0.0)
             reach = q + move

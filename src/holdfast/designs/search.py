@@ -82,7 +82,7 @@ def design(
         climbs: Climbs; the first half for the greatest value, the others for a given reach each, along the front.
         fresh: Poses of the final check.
         seed: The same seed gives the same result, whatever the number of threads.
-        store: Folder in which a search that was stopped is remembered and goes on.
+        store: Folder from which a stopped search resumes.
         progress: Called with (done, in all), in designs.
 
     Returns:

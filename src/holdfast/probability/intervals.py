@@ -213,6 +213,6 @@ class Sums:
 
 
 def check_confidence(confidence: float) -> None:
-    """Refuse what is no confidence."""
+    """Raise :class:`InputError` unless it lies between 0 and 1."""
     if not 0 < confidence < 1:
         raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")

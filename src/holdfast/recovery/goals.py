@@ -138,7 +138,7 @@ def rows_to_give_up(
 
 
 def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:
-    """From q (n,) where the other rows are met, the rows lost missed by as little as can be had next to it."""
+    """From q (n,) where the other rows are met, the rows lost missed by as little as possible."""
     arm, clearance = solver.arm, space.clearance
     kept = [k for k in range(solver.rows.m) if k not in lost]
 

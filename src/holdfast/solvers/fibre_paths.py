@@ -1,4 +1,4 @@
-"""The best motion of the joints along a path of the hand: dynamic programming over sampled self-motion manifolds."""
+"""The best motion of the joints along a path of the end effector: dynamic programming over sampled self-motion manifolds."""
 
 from __future__ import annotations
 
