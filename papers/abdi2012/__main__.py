@@ -10,9 +10,8 @@ from scipy import stats
 
 import holdfast as hf
 from holdfast.assessment import structure
-from holdfast.regions.region import builtin_region
-from holdfast.report import Scale, Scene, View, view_figure
-from holdfast.report.figures import style
+from holdfast.regions import builtin_region
+from holdfast.report import Scale, Scene, View, style, view_figure
 from papers.claims import Claim, Verdict, table
 
 HERE = Path(__file__).parent

@@ -39,7 +39,7 @@ def test_a_calm_motion(calm, tmp_path):
     html = file.read_text(encoding="utf-8")
     check(html, scripts=1)
     for text in (
-        "The hand stays on its path",
+        "The end effector stays on its path",
         "best of each pose",
         "best continuous motion",
         "Nothing: no algorithmic singularity",

@@ -14,8 +14,11 @@ from holdfast.report.views import View
 
 def test_bars_say_what_they_are(rng):
     shares = rng.dirichlet(np.ones(4), size=3)
-    stacks = [Stack(name, ["a $ law", "b", "c"], shares, shares[:, 0] - 0.1, shares[:, 0] + 0.1, 0.5) for name in ("x", "y")]
-    figure = stack_figure(stacks, ["converged", "stuck", "moving", "undecided"], "share of 100 runs", "within reach")
+    stacks = [
+        Stack(name=name, bars=["a $ law", "b", "c"], shares=shares, low=shares[:, 0] - 0.1, high=shares[:, 0] + 0.1, level=0.5)
+        for name in ("x", "y")
+    ]
+    figure = stack_figure(stacks, ["converged", "stuck", "moving", "undecided"], "share of 100 runs", level="within reach")
     text = str(svg(figure, "a", "bars"))
     check(f"<html>{text}</html>")
     for word in ("a $ law", "share of 100 runs", "undecided", "95 % interval of converged", "within reach"):
@@ -31,7 +34,7 @@ def test_quantiles_and_differences_are_where_they_belong(rng):
     medians = [line.get_xdata()[0] for line in figure.axes[0].get_lines()]
     np.testing.assert_allclose(medians, quantiles[:, 2])
     value = rng.normal(size=3)
-    gains = [Gains(name, value, value - 1, value + 1) for name in ("b", "c")]
+    gains = [Gains(label=name, value=value, low=value - 1, high=value + 1) for name in ("b", "c")]
     text = str(svg(gain_figure(["joint1", "joint2", "any"], [("share", gains), ("error, m", gains)]), "g", "gains"))
     check(f"<html>{text}</html>")
     assert "error, m" in text

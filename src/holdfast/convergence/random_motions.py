@@ -1,4 +1,4 @@
-"""Random point-to-point motions: where a hand starts, and where it is sent."""
+"""Random point-to-point motions: where the end effector starts, and where it is sent."""
 
 from __future__ import annotations
 

@@ -26,9 +26,9 @@ def stationary_points(law: Law, target: ArrayLike, locked: LockedAnywhere, *, se
 def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int = ...) -> StationaryPoints | Curves: ...
 @checked
 def stationary_points(law: Law, target: ArrayLike, locked: Locked, *, seed: int = 0) -> StationaryPoints | Curves:
-    """Where the arm can come to rest while its controller does not know that joints have locked.
+    """Where the arm can stop while its controller does not know that joints have locked.
 
-    With ``{joint: value}``, all points of rest that were found for these values of the locked joints: solutions, where the
+    With ``{joint: value}``, all stationary points that were found for these values of the locked joints: solutions, where the
     target is reached, and erroneous ones, where only locked joints are commanded. They are looked for from random starts, until
     three waves of 256 starts bring nothing new. With one joint and no value, ``{joint: None}``, it may be anywhere: the curves
     that the erroneous points make as its value changes are traced; see :class:`holdfast.equilibria.Curves`.

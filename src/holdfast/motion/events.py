@@ -48,6 +48,10 @@ class Curvature:
 
     The curvature is the central difference of the projected gradient: exact derivatives through the null space take
     seconds to compile, and 9 digits are enough to say where it vanishes.
+
+    Args:
+        objective: Whose slope and curvature.
+        task: That the self-motion leaves alone.
     """
 
     def __init__(self, objective: Objective, task: Task) -> None:
@@ -150,7 +154,7 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
         )
     add("rate cap", c.self_motion < 1 - 1e-9, lambda when: f"{when}: {cap} slows the self-motion; the tool is not affected")
     add(
-        "hand slowed",
+        "end effector slowed",
         c.task_share < 1 - 1e-9,
         lambda when: f"{when}: joint limits leave no motion that keeps up: the end effector falls behind its path",
     )

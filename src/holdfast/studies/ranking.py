@@ -1,4 +1,4 @@
-"""Which arm for what: of each question that a study answers, how the arms stand, and whether the first is really ahead."""
+"""Which arm for what: for each question of a study the ranking of the arms, and whether the first is really ahead."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NOT_ZERO = ("mean-singular-value",)  # at a singular configuration
 
 @dataclass(frozen=True)
 class Standing:
-    """How the arms stand at one question.
+    """The ranking of the arms for one question.
 
     Attributes:
         question: For people, short.
@@ -98,7 +98,7 @@ def standings(
         more = f", {task}" if len({d.labels["task"] for d in laws}) > 1 else ""
         joints = counted_range([len(d.arrives) - 1 for d in mine_])
         about = f"{counted_range([d.motions for d in mine_])} motions × {joints} joints"
-        out.append(Standing(f"arrives under {law}{more}", about, tuple(entries), law + more))
+        out.append(Standing(f"converges under {law}{more}", about, tuple(entries), law + more))
     return out
 
 

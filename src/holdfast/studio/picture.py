@@ -33,7 +33,7 @@ def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str
 
     Args:
         machine: The arm.
-        state: Where it stands, and what has failed.
+        state: Its configuration, and what has failed.
         ghosts: (n,) configurations of other arms in the picture, green and orange.
     """
     from matplotlib.figure import Figure

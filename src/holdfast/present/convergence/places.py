@@ -52,15 +52,15 @@ def panels(
         right, up = task.rows[:2, :3] if axes is None else np.eye(3)[list(axes)]
         view = View(right, up, name)
         where = None if mark is None else tuple(view.of(mark).tolist())
-        points, told = view.of(places.points), ""
-        plane, shown = Plane(points, view.names, places.cells, places.axes, where, "target"), dict(rows)
+        points, told, shown = view.of(places.points), "", dict(rows)
+        plane = Plane(points=points, labels=view.names, cells=places.cells, axes=places.axes, mark=where, mark_label="target")
         if places.cells is None and (gathered or axes is not None):
             pairs = {word: binned(points, v, _BINS) for word, v in rows.items()}
             first = next(iter(pairs.values()))[0]
             plane = replace(first, labels=view.names, mark=where, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
             told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        found[name] = place_maps(plane, shown, columns, label, caption + told)
+        found[name] = place_maps(plane, shown, columns, label=label, caption=caption + told)
     return found
 
 

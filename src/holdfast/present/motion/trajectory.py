@@ -23,7 +23,7 @@ from holdfast.words import as_given, capitalised
 
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS = {"hand slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+_SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
 
 
 @says("drawing the report")
