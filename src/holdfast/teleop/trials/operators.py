@@ -18,7 +18,7 @@ from holdfast.teleop.trials.stick import Stick
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_STOPS, _STARTS_AGAIN = 0.6, 0.9  # of the circle's radius: where the stick is let go, and where it is taken up again
+_STOPS, _STARTS_AGAIN = 0.6, 0.9  # of the circle's radius: where the stick is released, and where it is used again
 _NOISE_MEMORY = 0.2  # s
 _HELD = 1.5  # s: how long another direction is tried
 _LOST = 0.05  # m: farther from the target by so much than one look-back ago is "moving away"
@@ -152,10 +152,10 @@ class SimulatedPeople(Operator):
         """What was to be seen at a time (K,), cycles; from before the start only the start."""
         past = np.maximum(time, 0.0)
         low = np.floor(past).astype(np.int64)
-        share = (past - low)[:, None]
+        fraction = (past - low)[:, None]
         length = len(self._seen)
-        # The share is 0 where there is no later cycle yet.
-        return np.asarray((1 - share) * self._seen[low % length, rows] + share * self._seen[(low + 1) % length, rows])
+        # The fraction is 0 where there is no later cycle yet.
+        return np.asarray((1 - fraction) * self._seen[low % length, rows] + fraction * self._seen[(low + 1) % length, rows])
 
     def _shake(self) -> None:
         """Noise of unit variance that lasts for a while, for all trials, whether they are over or not."""
