@@ -237,7 +237,7 @@ def test_an_argument_named_progress_is_told():
 
 QUICK = {
     "load": "reads a file",
-    "compare": "compares what is computed",
+    "compare_assessments": "compares what is computed",
     "set_threads": "sets a number",
     "susceptibility": "is a module, and a function of one configuration",
     "self_motion": "is one of fibres, which says so",
