@@ -34,7 +34,7 @@ def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tm
         found.hopeless,
         found.reached,
     ]
-    assert data["found_share"] == found.found / found.reached
+    assert data["found_fraction"] == found.found / found.reached
     assert (data["capsules"], data["radius_m"], data["margin_m"]) == ("given radius", 0.13, 0.01)
     assert data["pairs_checked"] == thick.pair_names
     assert ask(*common)["clearance"] is None

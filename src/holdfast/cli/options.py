@@ -77,7 +77,7 @@ QOption = Annotated[
     list[str],
     typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
 ]
-DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")]
+DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
 PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
 SeedOption = Annotated[int, typer.Option("--seed", help="Of all random draws.")]
 FailuresOption = Annotated[
@@ -104,7 +104,7 @@ PayloadOption = Annotated[
     str | None,
     typer.Option(
         "--payload",
-        help="A point mass in the hand: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
+        help="A point mass in the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
         show_default=False,
     ),
 ]
@@ -186,7 +186,7 @@ def check_unit_of_places(arm: Arm, places: NDArray[np.float64], option: str) -> 
 
 
 def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") -> NDArray[np.float64]:
-    """Joint values separated by commas or spaces; with degrees, of the turning joints (sliding ones stay in m)."""
+    """Joint values separated by commas or spaces; with degrees, of the revolute joints (sliding ones stay in m)."""
     q = read_numbers(option, text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():

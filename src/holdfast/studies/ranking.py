@@ -98,7 +98,7 @@ def standings(
         more = f", {task}" if len({d.labels["task"] for d in laws}) > 1 else ""
         joints = counted_range([len(d.arrives) - 1 for d in mine_])
         about = f"{counted_range([d.motions for d in mine_])} motions × {joints} joints"
-        out.append(Standing(f"arrives under {law}{more}", about, tuple(entries), law + more))
+        out.append(Standing(f"converges under {law}{more}", about, tuple(entries), law + more))
     return out
 
 

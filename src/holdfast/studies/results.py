@@ -237,7 +237,7 @@ def bank(study: Study, cell: int) -> Table | None:
     for k, case in enumerate(("healthy", "failed")):
         there = end[..., k] == End.ARRIVED
         share = Interval.of(int(there.sum()), there.size)
-        found[f"arrived, {case}"] = (100 * share.value, 100 * share.low, 100 * share.high)
+        found[f"reached, {case}"] = (100 * share.value, 100 * share.low, 100 * share.high)
         middle = float(np.median(cycles[..., k][there])) if there.any() else np.nan
         found[f"time, {case}"] = (middle, np.nan, np.nan)
     return Table(labels_of(study, cell), len(end), found)

@@ -47,7 +47,7 @@ def command(
         str,
         typer.Option(
             "--maximise",
-            help="Index of which a quantile over the region is made as great as can be; or convergence: that the arm arrives "
+            help="Index of which a quantile over the region is made as great as can be; or convergence: that the arm reaches the target "
             "after a lock that its controller does not know of.",
         ),
     ] = "relative-manipulability",

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     path: Annotated[
-        Path, typer.Argument(metavar="PATH", help="Path file of the hand (YAML): line, arc or poses.", show_default=False)
+        Path, typer.Argument(metavar="PATH", help="Path file of the end effector (YAML): line, arc or poses.", show_default=False)
     ],
     minimise: Annotated[
         str | None,
@@ -71,7 +71,7 @@ def command(
         str | None,
         typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False),
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     gain: Annotated[
         float | None, typer.Option("--gain", help="Of the law. Default: so that it hardly lags.", show_default=False)
     ] = None,
@@ -89,7 +89,7 @@ def command(
         typer.Option("--duration", help="s; instead of the file's, needed if it has no timing.", show_default=False),
     ] = None,
     best: Annotated[
-        bool, typer.Option("--best", help="Also the best of each pose over its whole self-motion (one or two joints to spare).")
+        bool, typer.Option("--best", help="Also the best of each pose over its whole self-motion (one or two degrees of redundancy).")
     ] = False,
     torque_bound: Annotated[
         float | None,
@@ -116,7 +116,7 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Follow a path with the hand while the self-motion prepares the arm for a joint failure.
+    """Follow a path with the end effector while the self-motion prepares the arm for a joint failure.
 
     Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
     """

@@ -40,12 +40,12 @@ def command(
         typer.Option("--brake", help="Brakes act after so many ms. May be given again.", show_default="50, 100 and 200"),
     ] = None,
     limits: Annotated[
-        bool, typer.Option("--limits", help="The joint's limits stop it (those of sliding joints always do).")
+        bool, typer.Option("--limits", help="The joint's limits stop it (those of prismatic joints always do).")
     ] = False,
     duration: Annotated[
         float | None, typer.Option("--duration", help="At most so many seconds. Default: until at rest.", show_default=False)
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

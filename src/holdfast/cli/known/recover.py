@@ -59,14 +59,14 @@ def command(
     ] = None,
     task: Annotated[
         str | None,
-        typer.Option("--task", help=f"{TASK_HELP} With it, home and q: mean the hand's pose there.", show_default=False),
+        typer.Option("--task", help=f"{TASK_HELP} With it, home and q: mean the end effector's pose there.", show_default=False),
     ] = None,
     path: Annotated[
         Path | None,
-        typer.Option("--path", help="Path file (YAML): the rest of the hand's path, to be finished first.", show_default=False),
+        typer.Option("--path", help="Path file (YAML): the rest of the end effector's path, to be finished first.", show_default=False),
     ] = None,
     degrees: Annotated[
-        bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (sliding joints stay in m).")
+        bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
     ] = False,
     metric: Annotated[
         str, typer.Option("--metric", help="What is short: travel (of the joints) or time (at the velocity limits).")
@@ -101,7 +101,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """My joint is stuck now: what is left of the workspace, can the task be finished, and which is the shortest way home?
+    """My joint is stuck now: what is left of the workspace, can the task be finished, and which is the shortest route?
 
     Exit code 0 only if everything that was asked for is met; 3 if a row, a lock, a limit or the goal had to be dropped.
 

@@ -49,7 +49,7 @@ def command(
     pose: PoseOption = None,
     task: TaskOption = None,
     bounds: Annotated[bool, typer.Option("--bounds", help="Also where each joint may lock without losing the target.")] = False,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (prismatic joints stay in m).")] = False,
     spacing: Annotated[float, typer.Option("--spacing", help="Of the points, rad.")] = 0.05,
     seed: SeedOption = 0,
     base: BaseOption = None,

@@ -29,7 +29,7 @@ def tasks(
         bool,
         typer.Option(
             "--special/--no-special",
-            help="Also the most disorienting task, and one in which the failed arm is drawn to where it stands still.",
+            help="Also the most disorienting task, and one in which the failed arm is drawn to where it is still.",
         ),
     ] = True,
     task: Annotated[

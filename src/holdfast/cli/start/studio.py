@@ -41,7 +41,7 @@ def command(
         str | None,
         typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False),
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
     lock: Annotated[
         list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.", show_default=False)

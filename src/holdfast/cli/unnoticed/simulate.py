@@ -73,7 +73,7 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate an arm whose controller does not know that joints have locked: does the hand still arrive?
+    """Simulate an arm whose controller does not know that joints have locked: does the end effector still reach the target?
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """

@@ -155,7 +155,7 @@ def _worst(row: dict[str, Any], a: Assessment, before: str) -> str:
     if name is None:
         return "–"
     failed = a.index.failures[a.index.failure_names.index(name)]
-    return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_share'])})"
+    return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_fraction'])})"
 
 
 def figures(c: Comparison) -> dict[str, Figure]:

@@ -103,7 +103,7 @@ def _clearance(result: Assessment) -> dict[str, Any] | None:
         "best_without_regard": found.blocked if chosen else None,
         "none_clear": found.hopeless if chosen else None,
     }
-    shares = {f"{name}_share": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
+    shares = {f"{name}_fraction": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
     return {"reached": found.reached, **counts, **shares, **shape_summary(clearance, found.margin)}
 
 

@@ -126,7 +126,7 @@ def _outcomes(c: LawComparison) -> list[Block]:
         Picture(
             image,
             f"How {counted(len(c), 'motion')} ended under each law, healthy and with each joint locked from the start. Bars "
-            "end at 1; converged is at the target, stuck is at rest elsewhere, moving never comes to rest.",
+            "end at 1; converged is at the target, stuck is at rest elsewhere, moving never stops.",
         ),
         Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True),
     ]

@@ -95,7 +95,7 @@ def measure_maps(
         "reach": (REACH, "of the way, percent", "R: share of the way on which the joint may lock and the target stays in reach")
     }
     if failures:
-        told["finish"] = (FINISH, "percent", f"F: share of that part from which the failed arm arrives; {failures}")
+        told["finish"] = (FINISH, "percent", f"F: share of that part from which the failed arm reaches the target; {failures}")
     found = {}
     for word, (names, label, second) in told.items():
         rows = {name: measures[name] for name in names}

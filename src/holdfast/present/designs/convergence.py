@@ -23,7 +23,7 @@ from holdfast.words import fixed, percent
 _MEANINGS = {
     "guaranteed": "share of the targets, by area, that the arm reaches whatever lock leaves them within reach",
     "free": "share of the locks that leave the target within reach after which nothing holds the arm away from it",
-    "arrival": "share of all locks after which the arm reaches its target; a target out of reach counts as 0",
+    "converged": "share of all locks after which the arm reaches its target; a target out of reach counts as 0",
     "reached": "share of the targets within reach of the healthy arm",
 }
 
@@ -73,7 +73,7 @@ def headline(d: ConvergenceDesigns) -> str:
             f"{_share(best)} of fresh failures, the given arm in {_share(given)}: {_points(apart)} more."
         )
         return text if apart.low > 0 else f"No gain that lasts was found. {text} Search with more targets."
-    name = d.objective if d.exact else "arrival"
+    name = d.objective if d.exact else "converged"
     given_, best_ = (percent(float(d.measures[name][k])) for k in (0, d.best))
     if d.best == 0:
         return f"Nothing better than the given arm was found; {name}: {given_}, the {_MEANINGS[name]}."
@@ -99,20 +99,20 @@ def _gains(d: ConvergenceDesigns) -> list[Block]:
     ]
     if d.checked is not None:
         given, best, apart = d.checked
-        fresh: list[list[Cell]] = [["arrival", _share(given), _share(best), _points(apart)]]
+        fresh: list[list[Cell]] = [["converged", _share(given), _share(best), _points(apart)]]
         told = "On targets and failures that had no part in the search, the same for both."
         blocks.append(Table(fresh, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=told))
     else:
-        blocks.append(Text("No sink and no singular trap is no proof of arrival: limit cycles exist.", quiet=True))
+        blocks.append(Text("No sink and no singular trap is no proof of convergence: limit cycles exist.", quiet=True))
     return blocks
 
 
 def _numbers(d: ConvergenceDesigns) -> Picture:
     factors = np.array([p.shown[0] for p in d.space.parameters])
     names = [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
-    value = d.measures[d.objective if d.exact else "arrival"]
+    value = d.measures[d.objective if d.exact else "converged"]
     start = d.values[0] * factors, float(value[0])
-    figure = parameters_figure(names, d.values * factors, value, start, f"share, {d.objective}")
+    figure = parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")
     text = "Each design by one number at a time; the others differ too. Designs of the climbs crowd round the best."
     return Picture(figures.svg(figure, "parameters", "What designs are worth against each number"), text)
 
@@ -131,7 +131,7 @@ def _method(d: ConvergenceDesigns) -> list[Block]:
         "from the stationary sets of the planar arm, all targets at once"
         if d.exact
         else f"simulation: {s['targets']} targets, {s['failures']} failures of each joint at each, the same for all designs; a "
-        "joint locks where it stands in some configuration at the target, and the arm starts anywhere"
+        "joint locks where it is in some configuration at the target, and the arm starts anywhere"
     )
     facts: list[tuple[str, Cell]] = [
         ("Given arm", f"{d.law.arm.name}: {d.law.arm.source or 'no source given'}"),

@@ -165,7 +165,7 @@ def _arms(d: Designs) -> list[Block]:
     figure = arms_figure(given, best, d.index.task, d.region, d.seed)
     text = (
         "Each arm with its tool at the middle of the region (dashed), or in the middle of its joint limits if it does not get "
-        "there. Circles are joints, squares sliding joints; the orange diamond is the tool point. Equal scales."
+        "there. Circles are joints, squares prismatic joints; the orange diamond is the tool point. Equal scales."
     )
     return [Picture(figures.svg(figure, "arms", "The given arm and the best design"), text)]
 

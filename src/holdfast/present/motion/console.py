@@ -28,7 +28,7 @@ def to_dict(t: Trajectory) -> dict[str, Any]:
         "seed": t.seed,
         "duration_s": t.time[-1],
         "samples": len(t.time),
-        "hand_on_path": t.on_path,
+        "tool_on_path": t.on_path,
         "position_error_m": np.nanmax(t.position_error),
         "rotation_error_rad": np.nanmax(t.rotation_error),
         "value": _facts(t.value),

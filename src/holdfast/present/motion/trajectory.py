@@ -52,7 +52,7 @@ def build(t: Trajectory, command: str = "") -> Page:
         Section("Joint positions", f.joints()),
         Section("Torques, and how slow is slow enough", f.torques(slowness)),
         Section("Curvature along the self-motion", f.curvature()),
-        Section("Where the hand was", f.hand()),
+        Section("Where the end effector was", f.hand()),
         Section("How it was computed", f.method(command)),
     ]
     return Page(
@@ -75,7 +75,7 @@ class _Facts:
     def headline(self) -> str:
         t = self.t
         unit = f" ({t.objective.unit})" if self.unit else ""
-        hand = capitalised(t.headline) if t.on_path else "The hand does not stay on its path"
+        hand = capitalised(t.headline) if t.on_path else "The end effector does not stay on its path"
         return (
             f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
             f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
@@ -268,18 +268,18 @@ class _Facts:
         ]
 
     def hand(self) -> list[Block]:
-        """How far the hand was off its path."""
+        """How far the end effector was off its path."""
         t = self.t
         panels = [
-            Timeline([Line(1000 * t.position_error, "off", "first")], "mm", "Position of the hand off its path", (), "log")
+            Timeline([Line(1000 * t.position_error, "off", "first")], "mm", "Position of the end effector off its path", (), "log")
         ]
         if t.task.angular:
             lines = [Line(1000 * t.rotation_error, "off", "first")]
-            panels.append(Timeline(lines, "mrad", "Orientation of the hand off its path", (), "log"))
+            panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
         caption = (
-            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the hand is off."
+            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the end effector is off."
         )
-        return [self._figure(panels, "Error of the hand over time", caption)]
+        return [self._figure(panels, "Error of the end effector over time", caption)]
 
     # ---- words -------------------------------------------------------------------------------------------------
 

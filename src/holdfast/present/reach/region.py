@@ -28,7 +28,7 @@ def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
         f"size_interval_{unit}": region.size_interval,
         "confidence": None if region.exact else region.confidence,
         f"healthy_size_{unit}": region.healthy_size,
-        "share": region.share,
+        "fraction": region.share,
         "points": None if region.exact else len(region.points),
         "locked_values_per_joint": None if region.exact else region.angles,
         "lost_to": dict(zip(names, region.lost_to, strict=True)),

@@ -154,7 +154,7 @@ class _RunReport:
                 moments.append((float(t), float(np.interp(t, seen.time, seen.error)), f"{name} locks"))
         level = (self.least, "least the failed arm can have") if self.least > 1e-6 else None
         title = f"Ends {self._of('outcome')}" + ", past a joint limit" * bool(self._of("limits_passed").any())
-        return Panel(seen.time, seen.error, f"error of the hand, {self.size}", title, level, tuple(moments), log=True)
+        return Panel(seen.time, seen.error, f"error of the end effector, {self.size}", title, level, tuple(moments), log=True)
 
     @property
     def caption(self) -> str:
@@ -175,7 +175,7 @@ class _RunReport:
         """The page."""
         sections = [
             Section("The motion", [self._animation()]),
-            Section("The error of the hand", [self._error()]),
+            Section("The error of the end effector", [self._error()]),
             Section("Joint positions", [self._joints()]),
             Section("In numbers", self._numbers(command)),
         ]
@@ -202,7 +202,7 @@ class _RunReport:
         travelled = np.linalg.norm(seen.x - seen.x[0], axis=1)
         panels = [self.panel(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
         figure = motion_figure(panels, self.caption, self._xlabel)
-        return Picture(svg(figure, "error", "Error of the hand over time"), "Over time; the error on a log scale.")
+        return Picture(svg(figure, "error", "Error of the end effector over time"), "Over time; the error on a log scale.")
 
     def _joints(self) -> Picture:
         panels = []

@@ -229,7 +229,7 @@ def power_figure(a: Analysis) -> Figure:
             axes.plot(x, mine["power"], color=BLUE, linewidth=1.8, label="an effect as large as observed")
             low = f"an effect at the lower end of its {100 * a.confidence:g} % interval"
             axes.plot(x, mine["power_for_least"], color=ORANGE, linewidth=1.6, linestyle=(0, (4.5, 2)), label=low)
-            share = mine["share_of_subsets"].to_numpy(dtype=np.float64)
+            share = mine["fraction_of_subsets"].to_numpy(dtype=np.float64)
             axes.plot(x, share, "o", color=INK, markersize=4, fillstyle="none", label="share of random subsets of the subjects")
             axes.axhline(a.power, color=SOFT, linewidth=0.9, linestyle=(0, (1.2, 1.6)), label=f"power {a.power:g}")
             axes.set_xscale("log")

@@ -33,7 +33,7 @@ def blocks(f: Facts) -> list[Block]:
     what = f"{'weight of ' if f.d.weighted else ''}poses still reached once the joint has locked"
     figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, total=_whole(f), stress="least")
     given = [angle is not None for angle in locks.values()]
-    where = "where it stood at another pose of the region, drawn at random"
+    where = "where it was at another pose of the region, drawn at random"
     if all(given):
         where = "at the angle that was given"
     elif any(given):
@@ -73,7 +73,7 @@ def _angle(f: Facts, joint: int, angle: float) -> str:
 def _rule(f: Facts, joint: int, angle: float | None) -> str:
     """Where the joint stands."""
     if angle is None:
-        return "where it stood at another pose"
+        return "where it was at another pose"
     return _angle(f, joint, angle) + ("" if f.a.arm.prismatic[joint] else f" ({as_given(angle)} rad)")
 
 
