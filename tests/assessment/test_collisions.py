@@ -192,7 +192,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
     for name, count in (
         ("Configurations found that run the arm through itself", found.found),
         ("Poses at whose best configuration the arm comes closer than 0.01 m to itself", found.blocked),
-        ("… and a clear one was chosen instead", found.blocked - found.hopeless),
+        ("… and one that is clear was chosen instead", found.blocked - found.hopeless),
     ):
         assert cells[name].startswith(f"{count} ("), name
     line = collisions.summary(Facts(run, None))

@@ -74,7 +74,7 @@ def test_laws_with_their_settings():
         (["--start", "0,0,0"], "--start and --target go together"),
         (["--start", "0,0,0", "--target", "1,1", "--motions", "3"], "leave out --start and --target"),
         (["--lock", "2@0.5"], "joints lock at the start"),
-        (["--lock", "each", "--lock", "2"], "stands alone"),
+        (["--lock", "each", "--lock", "2"], "cannot be combined"),
         (["--lock", "7"], "joints 1 to 3"),
         (["--distance", "1"], "--distance has 1 numbers"),
         (["--motions", "0"], "count is 0"),

@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     path: Annotated[
-        Path, typer.Argument(metavar="PATH", help="Path file of the end effector (YAML): line, arc or poses.", show_default=False)
+        Path,
+        typer.Argument(metavar="PATH", help="Path of the end effector (YAML file): line, arc or poses.", show_default=False),
     ],
     minimise: Annotated[
         str | None,
@@ -49,7 +50,7 @@ def command(
         ),
     ] = None,
     maximise: Annotated[
-        str | None, typer.Option("--maximise", help="What it makes large; the same words.", show_default=False)
+        str | None, typer.Option("--maximise", help="What it makes large: the same choices.", show_default=False)
     ] = None,
     method: Annotated[
         str,
@@ -73,7 +74,10 @@ def command(
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     gain: Annotated[
-        float | None, typer.Option("--gain", help="Of the law. Default: so that it hardly lags.", show_default=False)
+        float | None,
+        typer.Option(
+            "--gain", help="Feedback gain of the law. Default: high enough that the arm hardly lags.", show_default=False
+        ),
     ] = None,
     wanted: Annotated[
         float | None,
@@ -89,13 +93,16 @@ def command(
         typer.Option("--duration", help="s; instead of the file's, needed if it has no timing.", show_default=False),
     ] = None,
     best: Annotated[
-        bool, typer.Option("--best", help="Also the best of each pose over its whole self-motion (one or two degrees of redundancy).")
+        bool,
+        typer.Option(
+            "--best", help="Also the best value of each pose over its whole self-motion (one or two degrees of redundancy)."
+        ),
     ] = False,
     torque_bound: Annotated[
         float | None,
         typer.Option(
             "--torque-bound",
-            help="N m: how slow must the motion be for torques to stay this close to gravity's?",
+            help="N m. How slow must the motion be for torques to stay this close to those of gravity?",
             show_default=False,
         ),
     ] = None,

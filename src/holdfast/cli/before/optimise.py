@@ -51,7 +51,7 @@ def command(
         str | None,
         typer.Option(
             "--maximise",
-            help="The same objectives. A small index, or a large torque, makes the worst configuration.",
+            help="The same choices. Maximising a torque, or minimising an index, gives the worst configuration.",
             show_default=False,
         ),
     ] = None,
@@ -78,7 +78,9 @@ def command(
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed; the same seed gives the same result.")] = 0,
+    seed: Annotated[
+        int, typer.Option("--seed", min=0, help="Seed of the random draws: the same seed gives the same result.")
+    ] = 0,
     starts: Annotated[
         int | None,
         typer.Option(

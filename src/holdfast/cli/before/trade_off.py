@@ -36,7 +36,7 @@ def command(
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the curves into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
 ) -> None:
-    """What a velocity error of the healthy arm buys after a lock that nobody notices: which pre-failure error to choose.
+    """What a velocity error of the healthy arm gains after an unnoticed lock: which pre-failure error to choose.
 
     Example: holdfast trade-off panda --task position --samples 2000 --plot trade-off.png
     """

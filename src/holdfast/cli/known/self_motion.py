@@ -48,7 +48,9 @@ def command(
     target: TargetOption = None,
     pose: PoseOption = None,
     task: TaskOption = None,
-    bounds: Annotated[bool, typer.Option("--bounds", help="Also where each joint may lock without losing the target.")] = False,
+    bounds: Annotated[
+        bool, typer.Option("--bounds", help="Also report where each joint may lock without losing the target.")
+    ] = False,
     degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (prismatic joints stay in m).")] = False,
     spacing: Annotated[float, typer.Option("--spacing", help="Of the points, rad.")] = 0.05,
     seed: SeedOption = 0,
@@ -59,10 +61,10 @@ def command(
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """All configurations of one target, and the values at which each joint may lock without losing it.
+    """Find all configurations for one target, and the values at which each joint may lock without losing it.
 
-    With one redundant joint they are curves, closed or ended by a joint limit; with more a sample. A lock keeps the target
-    within reach if and only if it lies in the range of its joint.
+    With one degree of redundancy they are curves, closed or ended by a joint limit; with more they are sampled. A lock keeps
+    the target within reach if and only if it lies in the range of its joint.
 
     Example: holdfast self-motion planar-3r --target 1.5,1.5 --bounds --plot self-motion.png
     """

@@ -23,13 +23,13 @@ def tasks(
     distance: Annotated[float, typer.Option("--distance", help="From start to target, m.")] = 2.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same tasks.")] = 0,
     select: Annotated[
-        int, typer.Option("--select", min=1, help="Tasks to choose, one from each cell as far as there are.")
+        int, typer.Option("--select", min=1, help="How many tasks to select, one from each cell as far as possible.")
     ] = 22,
     special: Annotated[
         bool,
         typer.Option(
             "--special/--no-special",
-            help="Also the most disorienting task, and one in which the failed arm is drawn to where it is still.",
+            help="Also the most disorienting task, and one in which the failed arm is drawn to an erroneous stationary point.",
         ),
     ] = True,
     task: Annotated[
@@ -41,7 +41,7 @@ def tasks(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Random tasks, each run by the computer in four scenarios, and the choice of those for an experiment.
+    """Draw random tasks, let the computer run each in four scenarios, and select those for an experiment.
 
     Example: holdfast teleop tasks --seed 1 --out bank
     """

@@ -26,7 +26,7 @@ def describe(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Show an arm, what is wrong with its data, and which joint is a single point of failure by structure.
+    """Show an arm, problems in its data, and which joints are single points of failure by structure.
 
     Example: holdfast describe pa10-7dof
     """

@@ -56,16 +56,18 @@ def command(
     ] = None,
     start: Annotated[
         str | None,
-        typer.Option("--start", help="Instead: one motion from these joint values, rad and m, ...", show_default=False),
+        typer.Option(
+            "--start", help="Instead of random motions: one motion from these joint values, rad and m, ...", show_default=False
+        ),
     ] = None,
     target: Annotated[
-        str | None, typer.Option("--target", help="... to here, as 'holdfast simulate' takes it.", show_default=False)
+        str | None, typer.Option("--target", help="... to this target, given as in 'holdfast simulate'.", show_default=False)
     ] = None,
     lock: Annotated[
         list[str] | None,
         typer.Option(
             "--lock",
-            help="JOINT that locks, alone and from the start; may be given again. Or 'each', or 'none'.",
+            help="JOINT that locks, alone and from the start, or 'each' or 'none'. May be given again.",
             show_default="each",
         ),
     ] = None,
@@ -83,10 +85,10 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Compare control laws of one arm on the same motions while a joint has locked and the controller does not know.
+    """Compare control laws of one arm on the same motions with a joint locked and a controller that does not know it.
 
-    The first law is the one that the others are compared with. Arms, tools and tasks are compared by 'holdfast assess A B C',
-    which is something else: how much dexterity a failure leaves.
+    The others are compared with the first law. 'holdfast assess A B C' compares arms, tools and tasks instead: how much
+    dexterity a failure leaves.
 
     Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
     """
@@ -115,7 +117,7 @@ def _locks(arm: Arm, given: list[str] | None) -> Literal["each"] | list[int] | N
         return None
     for text in given:
         if text in ("each", "none"):
-            raise InputError(f"--lock {text} stands alone; leave out the other --lock")
+            raise InputError(f"--lock {text} cannot be combined; leave out the other --lock")
         if "@" in text and text not in arm.joint_names:
             raise InputError(f"--lock '{text}': in a comparison joints lock at the start; give {text.partition('@')[0]} alone")
     return [read_joint(arm, text) for text in given]

@@ -40,7 +40,10 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     start: Annotated[
-        str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
+        str,
+        typer.Option(
+            "--start", help="Joint values at the start, rad and m, separated by commas or spaces.", show_default=False
+        ),
     ],
     target: TargetOption,
     lock: Annotated[
@@ -73,7 +76,7 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate an arm whose controller does not know that joints have locked: does the end effector still reach the target?
+    """Simulate an arm whose controller does not know that joints have locked: does it still reach the target?
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """

@@ -241,14 +241,14 @@ def _show_clearance(result: Assessment, out: Console) -> None:
     text = f"the arm runs through itself in {found.found / whole:.1%} of the {whole} configurations found"
     if result.optimised is not None:
         text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {too_close(found.margin)}"
-        text += ", so a clear one was chosen instead" if found.blocked else ""
+        text += ", so one that is clear was chosen instead" if found.blocked else ""
         if found.hopeless:
             text += f", but {found.hopeless} ({found.hopeless / whole:.1%}) have no clear one and count as failed"
     out.print(escape(f"{text} ({shape_text(clearance, found.margin)})"), soft_wrap=True)
 
 
 def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> None:
-    """Which joint deserves the redundant motor or brake, at the first threshold."""
+    """Which joint deserves a redundant motor or brake, at the first threshold."""
     from rich.markup import escape
     from rich.table import Table
 

@@ -30,7 +30,7 @@ def outcome_figure(c: LawComparison) -> Figure:
     return stack_figure(
         stacks,
         OUTCOMES,
-        f"share of {len(c):,} motions, each law and failure",
+        f"fraction of {len(c):,} motions, each law and failure",
         "targets still within reach",
     )
 
@@ -49,7 +49,7 @@ def gains_figure(c: LawComparison) -> Figure:
     return gain_figure(
         cases,
         [
-            (f"share that converges, minus that with {first}", more),
+            (f"fraction that converges, minus that with {first}", more),
             (f"mean end error minus that with {first}, {error_unit(c)}", nearer),
         ],
     )
@@ -67,7 +67,7 @@ def error_figure(c: LawComparison) -> Figure:
             finite = np.sort(values[np.isfinite(values)])
             curves.append(Curve(axis, np.searchsorted(finite, axis, side="right") / max(len(values), 1), name))
         panels.append((title, curves))
-    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", "share of runs with at most that", log=True)
+    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", "fraction of runs with at most that", log=True)
 
 
 def healthy_figure(c: LawComparison) -> Figure:

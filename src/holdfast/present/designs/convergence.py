@@ -21,10 +21,10 @@ from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Tabl
 from holdfast.words import fixed, percent
 
 _MEANINGS = {
-    "guaranteed": "share of the targets, by area, that the arm reaches whatever lock leaves them within reach",
-    "free": "share of the locks that leave the target within reach after which nothing holds the arm away from it",
-    "converged": "share of all locks after which the arm reaches its target; a target out of reach counts as 0",
-    "reached": "share of the targets within reach of the healthy arm",
+    "guaranteed": "fraction of the targets, by area, that the arm reaches whatever lock leaves them within reach",
+    "free": "fraction of the locks that leave the target within reach after which nothing holds the arm away from it",
+    "converged": "fraction of all locks after which the arm reaches its target; a target out of reach counts as 0",
+    "reached": "fraction of the targets within reach of the healthy arm",
 }
 
 
@@ -72,7 +72,7 @@ def headline(d: ConvergenceDesigns) -> str:
             "After a lock that the controller does not know of, the best design reaches its target in "
             f"{_share(best)} of fresh failures, the given arm in {_share(given)}: {_points(apart)} more."
         )
-        return text if apart.low > 0 else f"No gain that lasts was found. {text} Search with more targets."
+        return text if apart.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
     name = d.objective if d.exact else "converged"
     given_, best_ = (percent(float(d.measures[name][k])) for k in (0, d.best))
     if d.best == 0:
@@ -103,7 +103,7 @@ def _gains(d: ConvergenceDesigns) -> list[Block]:
         told = "On targets and failures that had no part in the search, the same for both."
         blocks.append(Table(fresh, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=told))
     else:
-        blocks.append(Text("No sink and no singular trap is no proof of convergence: limit cycles exist.", quiet=True))
+        blocks.append(Text("Having no sink and no singular trap does not prove convergence: limit cycles exist.", quiet=True))
     return blocks
 
 
@@ -113,7 +113,7 @@ def _numbers(d: ConvergenceDesigns) -> Picture:
     value = d.measures[d.objective if d.exact else "converged"]
     start = d.values[0] * factors, float(value[0])
     figure = parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")
-    text = "Each design by one number at a time; the others differ too. Designs of the climbs crowd round the best."
+    text = "Each design by one number at a time; the others differ too. Designs from the climbs crowd around the best."
     return Picture(figures.svg(figure, "parameters", "What designs are worth against each number"), text)
 
 

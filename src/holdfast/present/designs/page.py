@@ -232,7 +232,7 @@ def _distributions(d: Designs) -> list[Block]:
     ]
     unit = "" if d.index.unit == "1" else f", {d.index.unit}"
     label = figures.plain(f"worst-case {d.index.name}{unit}")
-    figure = figures.cdf_figure(curves, marks, label, ylabel="share of poses with a smaller value, F", width=8.0)
+    figure = figures.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
     samples = d.checked.best.distribution.samples
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (
@@ -246,7 +246,7 @@ def _distributions(d: Designs) -> list[Block]:
     head = ["", f"guaranteed for {chosen(d.level)} of the poses", "median", "poses reached"]
     honest = (
         f"On the {counted(d.poses, 'pose')} on which it was chosen the best design guarantees {number(seen)}; on fresh ones "
-        f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is what choosing flatters."
+        f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is the optimism of choosing on them."
     )
     return [
         Picture(figures.svg(figure, "cdf", "Cumulative distributions of the given arm and the best design"), text),

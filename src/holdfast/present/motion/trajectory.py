@@ -23,7 +23,7 @@ from holdfast.words import as_given, capitalised
 
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS = {"hand slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+_SERIOUS = {"tool slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
 
 
 @says("drawing the report")
@@ -52,7 +52,7 @@ def build(t: Trajectory, command: str = "") -> Page:
         Section("Joint positions", f.joints()),
         Section("Torques, and how slow is slow enough", f.torques(slowness)),
         Section("Curvature along the self-motion", f.curvature()),
-        Section("Where the end effector was", f.hand()),
+        Section("Error of the end effector", f.hand()),
         Section("How it was computed", f.method(command)),
     ]
     return Page(
@@ -97,12 +97,12 @@ class _Facts:
         rows += [
             ("Largest norm of the joint rates", f"{t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s"),
             ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
-            ("Hand off its path by at most", t.hand_error),
+            ("End effector off its path by at most", t.hand_error),
         ]
         if t.rate_cap is not None:
             rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))
         if (t.task_share < 1 - 1e-9).any():
-            rows.append(("Hand slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
+            rows.append(("End effector slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
         return [Table(rows)]
 
     # ---- the arm -----------------------------------------------------------------------------------------------
@@ -122,7 +122,7 @@ class _Facts:
         how = "at its own speed" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as it is"
         caption = (
             f"The arm with its joints (circles; squares slide), base (black square) and tool (orange). Dashed: the path asked "
-            f"for; blue: the way of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."
+            f"for; blue: path of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."
         )
         return [Picture(drawn, caption)]
 
@@ -271,13 +271,16 @@ class _Facts:
         """How far the end effector was off its path."""
         t = self.t
         panels = [
-            Timeline([Line(1000 * t.position_error, "off", "first")], "mm", "Position of the end effector off its path", (), "log")
+            Timeline(
+                [Line(1000 * t.position_error, "off", "first")], "mm", "Position of the end effector off its path", (), "log"
+            )
         ]
         if t.task.angular:
             lines = [Line(1000 * t.rotation_error, "off", "first")]
             panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
         caption = (
-            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the end effector is off."
+            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the end "
+            f"effector is off."
         )
         return [self._figure(panels, "Error of the end effector over time", caption)]
 
@@ -287,7 +290,7 @@ class _Facts:
         """A table of events."""
         t = self.t
         if not t.events:
-            return [Text("Nothing: no algorithmic singularity, no joint at a limit, no rate that stands out.")]
+            return [Text("Nothing: no algorithmic singularity, no joint at a limit, no outlying rate.")]
         rows = [
             [
                 Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,

@@ -53,7 +53,7 @@ def show(run: PhysicalRun, out: Console) -> None:
     out.print(table)
     facts = Table.grid(padding=(0, 2))
     facts.add_row("tool paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
-    facts.add_row("hands apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
+    facts.add_row("tools apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
     full = [f"{n} {s:.1%}" for n, s in zip(run.law.arm.joint_names, run.saturated, strict=True) if s > 0]
     facts.add_row("motors at their effort", f"{escape(', '.join(full))} of the time" if full else "none")
     out.print(facts)

@@ -191,7 +191,7 @@ class _RunReport:
         unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as it is"
         caption = (
             "The arm with its joints (circles; squares slide; orange: locked), base (black square) and tool (orange diamond). "
-            f"Ring: the target; dashed: straight to it; blue: the way of the tool; grey: the middle and the end. Played {unit}."
+            f"Ring: the target; dashed: straight to it; blue: path of the tool; grey: the middle and the end. Played {unit}."
         )
         if self.seen.time[-1] < 0.99 * float(self._of("time")):
             caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; nothing more is seen to move."

@@ -42,7 +42,7 @@ ABOUT = {
 }
 
 _COLUMNS = (
-    ("data", "simulated: the operators are no people; person: they are", ""),
+    ("data", "simulated: operators are programs; person: operators are people", ""),
     ("subject", "code", ""),
     ("task", "number, from 1", ""),
     ("scenario", "number, from 1", ""),
@@ -107,7 +107,7 @@ _COLUMNS = (
         "power with so many subjects, for the effect observed and for the lower end of its interval",
         "1",
     ),
-    ("fraction_of_subsets", "share of random subsets of so many subjects with a significant effect", "1"),
+    ("fraction_of_subsets", "fraction of random subsets of so many subjects with a significant effect", "1"),
     *((m.name, m.about, m.unit) for m in MEASURES),
     ("table|column|meaning", "of this list", ""),
     (r"[a-z0-9_]+", "cell mean of the law and group of tasks in its name", "1"),

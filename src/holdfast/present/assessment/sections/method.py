@@ -72,7 +72,7 @@ def blocks(f: Facts) -> list[Block]:
             "smallest singular value of J at most 1e-12 times the largest; the index is then "
             f"{'0' if f.larger else 'infinite'} by convention",
         ),
-        ("Failures", "a locked joint is still where it failed"),
+        ("Failures", "a locked joint stays where it failed"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
         ("Arm", a.arm.provenance),
