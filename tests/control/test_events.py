@@ -159,7 +159,7 @@ def test_events_of_made_up_motions(torque, calm):
             at_limit={"joint1": middle},
         ),
     )
-    assert set(found) == {"rate cap", "tool slowed", "near a singularity", "joint limit"}
+    assert set(found) == {"rate cap", "end effector slowed", "near a singularity", "joint limit"}
     for event in found.values():
         assert (event.start, event.end) == pytest.approx((4, 5), abs=0.01)
         assert event.text.startswith("from 4.005 s to 4.995 s: ")

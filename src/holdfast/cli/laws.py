@@ -35,14 +35,16 @@ LawsOption = Annotated[
         show_default="pseudoinverse and failure-tolerant",
     ),
 ]
-GainOption = Annotated[float, typer.Option("--gain", help="Ke, per s or per cycle.")]
+GainOption = Annotated[float, typer.Option("--gain", help="Feedback gain Ke, per s or per cycle.")]
 SpeedLimitOption = Annotated[
     float | None,
-    typer.Option("--speed-limit", help="Of the end effector, m/s or m per cycle. Default: none.", show_default=False),
+    typer.Option(
+        "--speed-limit", help="Speed limit of the end effector, m/s or m per cycle. Default: none.", show_default=False
+    ),
 ]
 CyclesOption = Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")]
 TimeLimitOption = Annotated[
-    float | None, typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles")
+    float | None, typer.Option("--time-limit", help="Time limit, s or cycles.", show_default="3000/gain s, or 1000 cycles")
 ]
 LockOption = Annotated[
     list[str],

@@ -150,7 +150,7 @@ def find_events(objective: Objective, c: Course, tracks: bool, wanted: float | N
         )
     add("rate cap", c.self_motion < 1 - 1e-9, lambda when: f"{when}: {cap} slows the self-motion; the tool is not affected")
     add(
-        "tool slowed",
+        "end effector slowed",
         c.task_share < 1 - 1e-9,
         lambda when: f"{when}: joint limits leave no motion that keeps up: the end effector falls behind its path",
     )

@@ -30,7 +30,7 @@ class Event:
 
     Attributes:
         kind: ``algorithmic singularity``, ``not at an extremum``, ``fast motion``, ``zero cost``, ``value not kept``,
-            ``value jump``, ``rate cap``, ``joint limit``, ``tool slowed`` or ``near a singularity``.
+            ``value jump``, ``rate cap``, ``joint limit``, ``end effector slowed`` or ``near a singularity``.
         start, end: From when to when, s.
         text: One sentence for people.
     """
@@ -126,7 +126,7 @@ class Trajectory(Result):
         if self.on_path:
             return f"the hand stays on its path, off it by {self.hand_error}"
         off = (self.position_error > ON_PATH) | (self.rotation_error > ON_PATH)
-        slowed = {"tool slowed", "near a singularity"}
+        slowed = {"end effector slowed", "near a singularity"}
         why = [e.kind for e in self.events if e.kind in slowed or e.kind == "joint limit"]
         reason = f" ({', '.join(dict.fromkeys(why))})" if why else ""
         return (

@@ -90,7 +90,9 @@ def command(
     samples: Annotated[int, typer.Option("--samples", help="Samples over the duration.")] = 501,
     duration: Annotated[
         float | None,
-        typer.Option("--duration", help="s; instead of the file's, needed if it has no timing.", show_default=False),
+        typer.Option(
+            "--duration", help="Duration, s, instead of the file's; needed if the file has no timing.", show_default=False
+        ),
     ] = None,
     best: Annotated[
         bool,
@@ -107,7 +109,7 @@ def command(
         ),
     ] = None,
     no_limits: Annotated[bool, typer.Option("--no-limits", help="Ignore joint limits while moving.")] = False,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the search for a start.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
     mount: MountOption = "floor",
     gravity: GravityOption = None,
     payload: PayloadOption = None,

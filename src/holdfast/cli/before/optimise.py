@@ -59,7 +59,7 @@ def command(
         list[str] | None,
         typer.Option(
             "--pose",
-            help="Of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
+            help="Pose of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
             "x,y,z is enough if the task has no orientation. May be given again.",
             show_default=False,
         ),

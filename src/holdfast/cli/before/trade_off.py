@@ -29,7 +29,7 @@ def command(
     task: TaskOption = None,
     samples: Annotated[int, typer.Option("--samples", help="Random configurations and directions.")] = 2000,
     allowed: Annotated[str, typer.Option("--allowed", help="Pre-failure errors, from 0 to below 1, increasing.")] = ALLOWED,
-    seed: Annotated[int, typer.Option("--seed", help="Of the samples.", min=0)] = 0,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of the samples.", min=0)] = 0,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,

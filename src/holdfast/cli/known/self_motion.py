@@ -52,7 +52,7 @@ def command(
         bool, typer.Option("--bounds", help="Also report where each joint may lock without losing the target.")
     ] = False,
     degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (prismatic joints stay in m).")] = False,
-    spacing: Annotated[float, typer.Option("--spacing", help="Of the points, rad.")] = 0.05,
+    spacing: Annotated[float, typer.Option("--spacing", help="Spacing of the points, rad.")] = 0.05,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,

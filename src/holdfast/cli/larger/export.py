@@ -22,7 +22,7 @@ def command(
     language: Annotated[str, typer.Option("--language", help="c: C99 that needs only math.h.")] = "c",
     name: Annotated[
         str | None,
-        typer.Option("--name", help="Of the function and the files. Default: the law's.", show_default=False),
+        typer.Option("--name", help="Name of the function and the files. Default: the law's.", show_default=False),
     ] = None,
     task: TaskOption = None,
     base: BaseOption = None,

@@ -33,7 +33,7 @@ command = typer.Typer(
 def run(
     out: Annotated[Path, typer.Option("--out", help="New folder for the records.", show_default=False)],
     simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
-    operators: Annotated[int, typer.Option("--operators", min=1, help="How many.")] = 24,
+    operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
     protocol: Annotated[str, typer.Option("--protocol", help="goel2003, goel2003-smooth, or a file (YAML).")] = "goel2003",
 ) -> None:

@@ -27,7 +27,7 @@ def serve(
             show_default=False,
         ),
     ] = None,
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="0 for any that is free.")] = 8000,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; 0 takes any free one.")] = 8000,
     host: Annotated[
         str, typer.Option("--host", help="Address to listen at; others than this computer's need a token.")
     ] = "127.0.0.1",

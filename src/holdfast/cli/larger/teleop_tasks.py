@@ -20,7 +20,7 @@ def tasks(
     per_joint: Annotated[
         int, typer.Option("--per-joint", min=1, help="Tasks in which this joint fails, for each joint.")
     ] = 400,
-    distance: Annotated[float, typer.Option("--distance", help="From start to target, m.")] = 2.0,
+    distance: Annotated[float, typer.Option("--distance", help="Distance from start to target, m.")] = 2.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same tasks.")] = 0,
     select: Annotated[
         int, typer.Option("--select", min=1, help="How many tasks to select, one from each cell as far as possible.")

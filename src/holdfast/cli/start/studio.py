@@ -33,7 +33,7 @@ PORT = 8123
 
 def command(
     arm: ArmArgument,
-    port: Annotated[int, typer.Option("--port", help="Of the page; 0: any that is free.")] = PORT,
+    port: Annotated[int, typer.Option("--port", help="Port of the page; 0 takes any free one.")] = PORT,
     host: Annotated[
         str, typer.Option("--host", help="Address to listen on. Let other machines in only among people you trust.")
     ] = "127.0.0.1",
@@ -49,10 +49,10 @@ def command(
     free: Annotated[
         list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.", show_default=False)
     ] = None,
-    index: Annotated[str, typer.Option("--index", help="Of the bars.")] = "relative-manipulability",
-    susceptibility: Annotated[str, typer.Option("--susceptibility", help=f"Of the bars: {SUSCEPTIBILITIES.usage}.")] = (
-        "torque"
-    ),
+    index: Annotated[str, typer.Option("--index", help="Index shown by the bars.")] = "relative-manipulability",
+    susceptibility: Annotated[
+        str, typer.Option("--susceptibility", help=f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}.")
+    ] = ("torque"),
     objective: Annotated[
         str, typer.Option("--objective", help="Index or susceptibility by which best and worst are found.")
     ] = "relative-manipulability",

@@ -40,10 +40,12 @@ def command(
         int | None,
         typer.Option("--motions", "--tasks", help="How many random motions from point to point.", show_default=str(MOTIONS)),
     ] = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the random motions.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
     distance: Annotated[
         str | None,
-        typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False),
+        typer.Option(
+            "--distance", help="Distances of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False
+        ),
     ] = None,
     reachable_after: Annotated[
         list[str] | None,

@@ -48,10 +48,10 @@ RelativeOption = Annotated[
         "--relative-to", help="F as a fraction of the part of the path within the joints' ranges, or of the whole path."
     ),
 ]
-MeasureTimeOption = Annotated[float | None, typer.Option("--time-limit", help="s.", show_default="2000/gain s")]
+MeasureTimeOption = Annotated[float | None, typer.Option("--time-limit", help="Time limit, s.", show_default="2000/gain s")]
 MapStartsOption = Annotated[str, typer.Option("--starts", help="A number of random places, or a lattice as grid:52.")]
 MapConfigurationsOption = Annotated[int, typer.Option("--configurations", help="Motions for each place.")]
-MapTimeOption = Annotated[float | None, typer.Option("--time-limit", help="s.", show_default="500/gain s")]
+MapTimeOption = Annotated[float | None, typer.Option("--time-limit", help="Time limit, s.", show_default="500/gain s")]
 OverOption = Annotated[
     Literal["starts", "targets"], typer.Option("--over", help="What the places of the map are: starts or targets.")
 ]

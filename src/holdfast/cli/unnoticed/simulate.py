@@ -61,9 +61,12 @@ def command(
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
     physics: Annotated[
-        bool, typer.Option("--physics", help="Also in MuJoCo, with bodies and joint servos (needs the extra 'physics').")
+        bool,
+        typer.Option("--physics", help="Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."),
     ] = False,
-    servo_bandwidth: Annotated[float, typer.Option("--servo-bandwidth", help="physics: of the joint servos, Hz.")] = 10.0,
+    servo_bandwidth: Annotated[
+        float, typer.Option("--servo-bandwidth", help="With --physics: bandwidth of the joint servos, Hz.")
+    ] = 10.0,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,

@@ -223,7 +223,7 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
         )
         blocks.append(Text(text, quiet=True))
     if missing:
-        blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so there is no such advice for that."))
+        blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so they are not in this table."))
     return blocks
 
 

@@ -253,7 +253,7 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
     from rich.table import Table
 
     if not result.kept:
-        out.print("the poses were not kept, so which joint deserves a redundant motor or brake is not known", soft_wrap=True)
+        out.print("the poses were not kept, so it is not known which joint deserves a redundant motor or brake", soft_wrap=True)
         return
     threshold = thresholds[0] if thresholds else result.default_threshold()
     ranked = result.upgrades(threshold)

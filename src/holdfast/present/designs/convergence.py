@@ -53,7 +53,7 @@ def build(d: ConvergenceDesigns) -> Page:
         [
             Section("What to build", [*(bounds_callout(d.space, best) if d.best else []), parameters_table(d.space, best)]),
             Section("What that gains", _gains(d)),
-            Section("Which number matters", [_numbers(d)]),
+            Section("Which parameter matters", [_numbers(d)]),
             Section("The best arm as a file", _file(d)),
             Section("How it was computed", _method(d)),
         ],
@@ -95,7 +95,7 @@ def _gains(d: ConvergenceDesigns) -> list[Block]:
     ]
     head = ["Measure", "given arm", "best design", "what it is"]
     blocks: list[Block] = [
-        Table(rows, head, frozenset({1, 2}), caption=f"As the search saw them, of {len(d.values):,} designs.")
+        Table(rows, head, frozenset({1, 2}), caption=f"As measured in the search, over {len(d.values):,} designs.")
     ]
     if d.checked is not None:
         given, best, apart = d.checked
@@ -113,15 +113,15 @@ def _numbers(d: ConvergenceDesigns) -> Picture:
     value = d.measures[d.objective if d.exact else "converged"]
     start = d.values[0] * factors, float(value[0])
     figure = parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")
-    text = "Each design by one number at a time; the others differ too. Designs from the climbs crowd around the best."
-    return Picture(figures.svg(figure, "parameters", "What designs are worth against each number"), text)
+    text = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
+    return Picture(figures.svg(figure, "parameters", "Measure of the designs against each parameter"), text)
 
 
 def _file(d: ConvergenceDesigns) -> list[Block]:
     label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
     return [
         Code(d.arm_file().rstrip(), label),
-        Text("Masses are not in it: a table of Denavit-Hartenberg rows holds none.", quiet=True),
+        Text("It has no masses: a table of Denavit-Hartenberg rows holds none.", quiet=True),
     ]
 
 

@@ -273,7 +273,7 @@ def _file(d: Designs) -> list[Block]:
     check = f"holdfast assess {ARM_FILE} --region region.yaml --task {_task(d)} --optimise --out check"
     return [
         Code(arm_file(d).rstrip(), label),
-        Text("Masses are not in it: those of links of other lengths are not known.", quiet=True),
+        Text("It has no masses: those of links of other lengths are not known.", quiet=True),
         Code(check, "Its own report over the same region:"),
     ]
 

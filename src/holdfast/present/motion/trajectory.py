@@ -23,7 +23,7 @@ from holdfast.words import as_given, capitalised
 
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
-_SERIOUS = {"tool slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+_SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
 
 
 @says("drawing the report")
@@ -119,7 +119,7 @@ class _Facts:
         moving = Motion(t.time[few], t.arm.frames(t.q[few])[..., :3, 3], square, t.poses[few][:, :3, 3], readings)
         drawn = animation(moving, projections(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
         speed = t.time[-1] / shown_seconds(t.time)
-        how = "at its own speed" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as it is"
+        how = "in real time" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as in reality"
         caption = (
             f"The arm with its joints (circles; squares slide), base (black square) and tool (orange). Dashed: the path asked "
             f"for; blue: path of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."

@@ -65,7 +65,7 @@ def build(study: Study) -> Page:
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
         Section("Which joint is the worst to lose", _worst(found)),
-        Section("Reaching the target with a locked joint that nobody knows of", _laws(laws)),
+        Section("Reaching the target with a locked joint that nobody has noticed", _laws(laws)),
         Section("Starts that still reach the target", _others(study, "workspace", results.workspace, "starts", "percent")),
         Section("Tasks that the computer drives", _others(study, "bank", results.bank, "sets of tasks", "percent, or cycles")),
         Section("How it was computed", _provenance(study, found)),
@@ -195,7 +195,7 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
             "interval; opt.: at the best configuration of each pose. Thresholds are one for all arms. "
         )
         if any(a.labels["region"] == "default region" for a in found):
-            caption += "Regions by default are about the home of each arm, sized by its reach, or the paper's. "
+            caption += "Default regions are around the home of each arm, sized by its reach, or the paper's. "
     if names:
         caption += (
             "Converges: fraction of random motions that reach their target with one joint locked from the start and a "

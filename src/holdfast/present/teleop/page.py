@@ -100,7 +100,7 @@ def build(
         Section("Distributions of all measures", _distributions(a)),
         *(Section(f"Task {t}", example_blocks(a, t, protocol, paths)) for t in shown),
         Section("The healthy arm: what tolerance costs before a failure", healthy(a)),
-        Section("How many subjects would have sufficed", _power(a)),
+        Section("How many subjects would have been enough", _power(a)),
         Section("What is missing", _missing(a)),
         Section("How it was computed", _method(a)),
     ]
@@ -230,7 +230,7 @@ def _distributions(a: Analysis) -> list[Block]:
     o = a.observed
     key = "; ".join(c.label for c in o.conditions)
     caption = (
-        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, less those that did not reach the "
+        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, without those that did not reach the "
         f"target. Scenarios: {key}. "
         "Circles: the computer's median over tasks. CPM of operators and computer have different normalisers unless the notes "
         "say otherwise."
@@ -292,7 +292,9 @@ def _missing(a: Analysis) -> list[Block]:
 
 def _method(a: Analysis) -> list[Block]:
     o = a.observed
-    blocks: list[Block] = [Callout(Markup("<br>").join(f"• {n}" for n in a.notes), title="To know before using these numbers")]
+    blocks: list[Block] = [
+        Callout(Markup("<br>").join(f"• {n}" for n in a.notes), title="Read this before using these numbers")
+    ]
     count = len(o.normalisers)
     blocks.append(
         Text(

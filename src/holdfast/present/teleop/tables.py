@@ -36,7 +36,7 @@ ABOUT = {
     "missing": "every trial without a CPM",
     "normalisers": "largest measures, by which CPM divides",
     "gains": "tasks in which another law than the reference did better: operators against computer",
-    "power": "how many subjects would have sufficed",
+    "power": "how many subjects would have been enough",
     "power_curve": "power of each effect of the ANOVA over the number of subjects",
     "data_dictionary": "this list",
 }
