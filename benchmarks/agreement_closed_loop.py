@@ -412,7 +412,7 @@ def smallest(family: Family, q: Array) -> float:
 
 def report(path: Path) -> str:
     """The section for RESULTS.md."""
-    from holdfast.probability.intervals import Interval
+    from holdfast.probability import Interval
 
     found: dict[int, dict[int, dict[str, Any]]] = {}
     for (i, k), row in stored(path).items():

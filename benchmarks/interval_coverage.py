@@ -12,9 +12,8 @@ from itertools import groupby
 
 import numpy as np
 
-from holdfast.designs.search import _checked as guaranteed
-from holdfast.probability import Distribution
-from holdfast.probability.intervals import Difference, Interval
+from holdfast.designs import Checked
+from holdfast.probability import Difference, Distribution, Interval
 
 NOMINAL = 0.95
 STUDIES = 2000
@@ -160,7 +159,7 @@ def _weighted_share(w: Weight, at: float) -> Study:
 
 def _quantile(level: float) -> Study:
     def study(rng: np.random.Generator, n: int) -> tuple[bool, float]:
-        found = guaranteed(rng.random(n), np.ones(n), np.zeros(0), level, 0.0)
+        found = Checked.of(rng.random(n), np.ones(n), np.zeros(0), level=level)
         return _inside(found.guaranteed, 1 - level)
 
     return study

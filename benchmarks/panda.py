@@ -22,11 +22,11 @@ def ours():
 @cache
 def pinocchio():
     """The Pinocchio model of the URDF file that holdfast reads too, its data, and the id of the tool frame."""
+    from importlib.resources import files
+
     import pinocchio as pin
 
-    from holdfast.arms.builtin import DATA
-
-    full = pin.buildModelFromUrdf(str(DATA.joinpath("panda.urdf")))
+    full = pin.buildModelFromUrdf(str(files("holdfast.arms").joinpath("data", "panda.urdf")))
     fingers = [full.getJointId(name) for name in full.names if "finger" in name]
     model = pin.buildReducedModel(full, fingers, pin.neutral(full))
     if [*model.names][1:] != [joint.name for joint in ours().joints]:

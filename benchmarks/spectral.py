@@ -11,7 +11,7 @@ from harness import Contender, Function
 
 def holdfast(threads: int) -> Function:
     from holdfast import indices
-    from holdfast.kernels.threads import set_threads, thread_count
+    from holdfast.kernels import set_threads, thread_count
 
     index = indices.minimum_singular_value(pa10.ours())
 

@@ -96,7 +96,7 @@ def moving(window, q, page, seconds: float) -> tuple[float, float]:
 
 def dragged(studio, browser, drawn: bool, q, seconds: float) -> dict[str, float]:
     """A joint is dragged at 40 updates a second, as fast as it goes, and while two laws are computed beside it."""
-    from holdfast.arm.poses import pose_numbers
+    from holdfast.arm import pose_numbers
 
     out: dict[str, float] = {}
     page = browser.new_page(viewport={"width": 1200, "height": 800})

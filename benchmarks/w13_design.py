@@ -27,10 +27,7 @@ def designs(count: int) -> np.ndarray:
 
 
 def holdfast(poses: np.ndarray) -> Callable[[np.ndarray], Result]:
-    from holdfast.designs import design_space
-    from holdfast.designs.evaluation import Evaluator
-    from holdfast.designs.family import Family
-    from holdfast.designs.gradient import sensitivity
+    from holdfast.designs import Evaluator, Family, design_space, sensitivity
 
     evaluate = Evaluator(Family(design_space(pa10.ours(), VARY)), poses)
 

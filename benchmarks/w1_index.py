@@ -14,7 +14,7 @@ from harness import Contender, Function
 
 def holdfast(threads: int) -> Function:
     from holdfast import indices
-    from holdfast.kernels.threads import set_threads, thread_count
+    from holdfast.kernels import set_threads, thread_count
 
     index = indices.relative_manipulability(pa10.ours())
 

@@ -16,7 +16,7 @@ SMALL = 256  # jit(vmap(grad)) through the Cholesky factor of jaxlib 0.10.2 hung
 
 def holdfast(threads: int) -> Function:
     from holdfast import indices
-    from holdfast.kernels.threads import set_threads, thread_count
+    from holdfast.kernels import set_threads, thread_count
 
     index = indices.relative_manipulability(pa10.ours())
 

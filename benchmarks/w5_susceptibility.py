@@ -44,7 +44,7 @@ def measures():
 
 
 def set_threads(threads: int) -> None:
-    from holdfast.kernels.threads import set_threads, thread_count
+    from holdfast.kernels import set_threads, thread_count
 
     if thread_count() != threads:
         set_threads(threads)

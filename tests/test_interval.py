@@ -90,7 +90,7 @@ def test_mean_differences_are_students(rng):
     oracle = stats.ttest_rel(second, first)
     ends = oracle.confidence_interval(0.95)
     np.testing.assert_allclose((found.low, found.high, found.p_value), (ends.low, ends.high, oracle.pvalue), rtol=1e-9)
-    assert Difference.of_means(np.zeros(5)) == Difference(0.0, 0.0, 0.0, 0.95, 1.0)
+    assert Difference.of_means(np.zeros(5)) == Difference(value=0.0, low=0.0, high=0.0, confidence=0.95, p_value=1.0)
     assert Difference.of_means(np.ones(5)).p_value == 0
 
 

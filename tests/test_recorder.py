@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -35,15 +36,45 @@ def compared(tmp_path, capsys):
     ("old", "new"),
     [
         ("made 2026-11-22T20:31:42Z", "made 2027-01-01 00:00 UTC"),
+        ("12 of 12 trials  2026-11-22\n", "12 of 12 trials  2026-11-23\n"),
+        (
+            "of one thread  a chunk  size\n40    3       0.89 s         0.3 s   6 kB\n",
+            "of one thread  a chunk   size\n40    3       0.021 s        0.0069 s  6 kB\n",
+        ),
         ("seconds=1.25, kept", "seconds=3e-05, kept"),
         ('"seconds": 1.25', '"seconds": 0'),
         ('"numpy": "2.3.1"', '"numpy": "2.4.0.dev1"'),
         ("http://127.0.0.1:4711/?key=abc", "http://127.0.0.1:80/?key=d-e_f"),
         ("a\nholdfast: compiling 'x', about 2 s\n", "a\n"),
+        ("holdfast: assessing poses\nholdfast: assessing poses, about 12 min more\nb\n", "b\n"),
+        ("b\n", "holdfast: following the path: solving, so far 1,030 of at most 4,800 starts of each pose\nb\n"),
+        ("b\n", "holdfast: drawing the report, so far 7 figures\nb\n"),
     ],
 )
 def test_what_varies_is_no_difference(old, new, compared):
     assert compared("1.out", old, new)[0] == 0
+
+
+def test_what_is_said_of_long_work_is_no_difference():
+    sources = [file.read_text(encoding="utf-8") for file in (Path(__file__).parents[1] / "src").rglob("*.py")]
+    names = {name for text in sources for name in re.findall(r'\b(?:says|working)\(f?"([^"]+)"', text)}
+    assert len(names) > 30
+    left = {name for name in names if records.settled("1.err", f"holdfast: {name}\n".encode())}
+    assert left == {"a chunk"}  # somebody else tells of it
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        "stopped",
+        "nothing of 'panda' is to be varied",
+        "damping is -1; it must be above 0",
+        "rating: two of its steps have the same name",
+        "missing must be one of complete",
+    ],
+)
+def test_an_error_is_said_of_no_long_work(error, compared):
+    assert compared("1.err", f"holdfast: {error}\nexit code 2\n", "exit code 2\n")[0] == 1
 
 
 def test_a_word_is_shown_where_it_is(compared):

@@ -40,8 +40,8 @@ FOREIGN = (
     "mujoco statsmodels.formula.api statsmodels.stats.power"
 )
 SETTINGS = {
-    "HOLDFAST_LEVEL": "1", "HOLDFAST_THREADS": "1", "HOLDFAST_BACKEND": "", "OPENBLAS_NUM_THREADS": "1", "COLUMNS": "100",
-    "TERM": "dumb", "NO_COLOR": "1", "TZ": "UTC", "LC_ALL": "C.UTF-8",
+    "HOLDFAST_LEVEL": "1", "HOLDFAST_THREADS": "1", "HOLDFAST_BACKEND": "", "HOLDFAST_NOTICES": "off",
+    "OPENBLAS_NUM_THREADS": "1", "COLUMNS": "100", "TERM": "dumb", "NO_COLOR": "1", "TZ": "UTC", "LC_ALL": "C.UTF-8",
 }  # fmt: skip
 
 # ---- recording -----------------------------------------------------------------------------------------------------------

@@ -100,7 +100,7 @@ class Run(_Live):
 
     def drawn(self, figure: Any) -> nodes.Node:
         """A figure inside the page, so that there is no file to carry."""
-        from holdfast.report.figures import svg
+        from holdfast.report import svg
 
         if "about" not in self.options:
             raise self.error("a figure needs the option :about:, what it shows")
@@ -160,17 +160,17 @@ class CasadiOperations(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         import casadi as ca
 
-        from holdfast.errors import KernelError
-        from holdfast.kernels import Program, llvm_backend
+        from holdfast import KernelError
+        from holdfast.kernels import Kernel
 
         names = {"a": ca.SX.sym("a"), "b": ca.SX.sym("b"), "ca": ca}
         have, lack = [], []
         for spelling in SPELLINGS.replace("\n", "|").split("|"):
             if not spelling.strip():
                 continue
-            program = Program("operation", [names["a"], names["b"]], [eval(spelling.strip(), names)])
+            operation = eval(spelling.strip(), names)
             try:
-                llvm_backend.compile_program(program, 0)
+                Kernel("operation", [names["a"], names["b"]], [operation], backend="llvm")(0.5, 0.5)
                 have.append(spelling.strip())
             except KernelError:
                 lack.append(spelling.strip())

@@ -10,9 +10,8 @@ from scipy import stats
 
 import holdfast as hf
 from holdfast.assessment import structure
-from holdfast.regions.region import builtin_region
-from holdfast.report import Scale, Scene, View, view_figure
-from holdfast.report.figures import style
+from holdfast.regions import builtin_region
+from holdfast.report import Scale, Scene, View, style, view_figure
 from papers.claims import Claim, Verdict, table
 
 HERE = Path(__file__).parent
@@ -212,7 +211,9 @@ def figure_1_2(run: hf.Assessment, path_1: Path, path_2: Path) -> None:
     label = "worst-case relative manipulability (no unit)"
     for k, axis, where, path in ((1, 2, "side", path_1), (2, 1, "top", path_2)):
         title = f"Fig. {k} of Abdi et al. 2012 made again: {where} view, {run.poses} random poses"
-        figure = view_figure(scene, [View(0, axis, title)], Scale.of(value[reached]), label=label, legend=legend)
+        figure = view_figure(
+            scene, [View(np.eye(3)[0], np.eye(3)[axis], title)], Scale.of(value[reached]), label=label, legend=legend
+        )
         with style():
             figure.savefig(path, dpi=110, bbox_inches="tight")
 

@@ -8,9 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.regions.region import builtin_region
-from holdfast.report import figures
-from holdfast.report.figures import Curve
+from holdfast.regions import builtin_region
+from holdfast.report import SOFT, Curve, draw_cdf, style
 
 SEED = 1
 POSES, DESIGNS, CLIMBS, FRESH = 500, 256, 6, 2000
@@ -93,14 +92,14 @@ def figure(runs: dict[str, hf.Assessment], path: Path) -> None:
     for k, (name, run) in enumerate(runs.items()):
         band = run.of(True).band()
         curves.append(Curve(h, run.cdf(h, optimised=True), f"{name}, 95 % band ±{band:.3f}", second=k == 0, band=band))
-    with figures.style():
+    with style():
         drawn = Figure(figsize=(8, 4.4), layout="constrained")
         axes = drawn.add_subplot()
         label = "worst-case relative manipulability at the best configuration of a pose (no unit)"
-        figures.draw_cdf(axes, curves, [], label, "share of poses below; not reached: 0")
-        axes.axhline(0.05, color=figures.SOFT, linewidth=1.0, linestyle=(0, (1.2, 1.6)))
+        draw_cdf(axes, curves, [], xlabel=label, ylabel="share of poses below; not reached: 0")
+        axes.axhline(0.05, color=SOFT, linewidth=1.0, linestyle=(0, (1.2, 1.6)))
         axes.annotate("5 %: what 95 % of the poses have", (0.56, 0.05), (0, 3), textcoords="offset points", ha="right")
-        axes.axvline(np.sqrt(3 / 9), color=figures.SOFT, linewidth=1.0)
+        axes.axvline(np.sqrt(3 / 9), color=SOFT, linewidth=1.0)
         axes.annotate("bound 0.577", (np.sqrt(3 / 9), 0.5), (-4, 0), textcoords="offset points", ha="right")
         axes.legend(loc="upper left")
         axes.set_title(f"The tool of Abdi et al. 2012 and a better one: {FRESH:,} fresh poses of the paper's region")

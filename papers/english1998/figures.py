@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report.figures import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, finished, save_png, style
+from holdfast.report import BLUE, FAINT, INK, ORANGE, SOFT, WIDTH, finished, save_png, style
 from holdfast.solvers import self_motion
 from papers.english1998.hardware import DURATION as HARDWARE_DURATION
 from papers.english1998.hardware import SCALES, Hardware

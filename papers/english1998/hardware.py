@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.caching import cached_property
 from holdfast.paths import TimedPath, Trapezoid, line
 
 Array = NDArray[np.float64]

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm.task import as_task
-from holdfast.caching import cached_property
+from holdfast.arm import as_task
 from holdfast.indices.susceptibility import Susceptibility
-from holdfast.motion.events import Curvature
+from holdfast.motion import Curvature
 from holdfast.paths import Constant, TimedPath, line
-from holdfast.solvers import fibres, self_motion
-from holdfast.solvers.fibre_paths import best_path_over
+from holdfast.solvers import best_path_over, fibres, self_motion
 
 Array = NDArray[np.float64]
 

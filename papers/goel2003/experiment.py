@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.teleop.analysis import Analysis
-from holdfast.teleop.bank.selection import Binning, binning
-from holdfast.teleop.bank.tasks import TaskBank, task_bank
+from holdfast.teleop.bank import Binning, TaskBank, binning, task_bank
 from papers.claims import Claim, Verdict
 from papers.goel2003.simulated_operators import SEED, SUBJECTS, Study, study
 from papers.part import Part

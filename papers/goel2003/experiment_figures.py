@@ -8,15 +8,19 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from holdfast.present.teleop import figures
-from holdfast.present.teleop.bank import bank_figure
-from holdfast.present.teleop.motions import Motion, motions_figure, ring
-from holdfast.report.figures import SOFT, save_png, style
-from holdfast.teleop.analysis import Analysis
-from holdfast.teleop.analysis.observations import NAMES
-from holdfast.teleop.analysis.tables import median_operator
-from holdfast.teleop.bank.selection import Binning
-from holdfast.teleop.bank.tasks import TaskBank
+from holdfast.present.teleop import (
+    Motion,
+    Scatter,
+    bank_figure,
+    measures_figure,
+    motions_figure,
+    ring,
+    scatter_figure,
+    tasks_figure,
+)
+from holdfast.report import SOFT, save_png, style
+from holdfast.teleop.analysis import Analysis, median_operator
+from holdfast.teleop.bank import Binning, TaskBank
 from papers.goel2003.simulated_operators import Study, shown
 
 _SCALES = {
@@ -31,7 +35,7 @@ def draw(s: Study, made: TaskBank, cells: Binning, folder: Path) -> dict[str, st
     a = s.analysis
     save_png(_bank(s, made, cells), folder / "figure-2.png", 110)
     save_png(_difficulty(a), folder / "figure-3.png", 110)
-    found = figures.tasks_figure(a, ("Simulated operators: the median operator of each task", "Computer"))
+    found = tasks_figure(a, ("Simulated operators: the median operator of each task", "Computer"))
     save_png(found, folder / "figure-4.png", 110)
     titles = {
         "figure-2": "Fig. 2: 1200 tasks (seed 1) and the tasks of the shipped protocol, computer control",
@@ -62,8 +66,10 @@ def _difficulty(a: Analysis) -> Figure:
     for c in a.correlations:
         if c.first in _SCALES:
             x, y = (table[name].to_numpy(dtype=np.float64) for name in (c.first, c.second))
-            panels.append(figures.Scatter(x, y, _SCALES[c.first], _SCALES[c.second], c, a.groups.of_task))
-    return figures.scatter_figure(panels, a.groups.names)
+            panels.append(
+                Scatter(x=x, y=y, xlabel=_SCALES[c.first], ylabel=_SCALES[c.second], correlation=c, groups=a.groups.of_task)
+            )
+    return scatter_figure(panels, a.groups.names)
 
 
 def _motions(s: Study, task: int) -> Figure:
@@ -76,7 +82,14 @@ def _motions(s: Study, task: int) -> Figure:
             path = s.paths(who, task, c.scenario)
             if path is not None:
                 motions.append(
-                    Motion(path, f"{name}, {c.label}", p.tasks.target[k], p.radius, whole, left if c.failed else None)
+                    Motion(
+                        path=path,
+                        title=f"{name}, {c.label}",
+                        target=p.tasks.target[k],
+                        radius=p.radius,
+                        whole=whole,
+                        left=left if c.failed else None,
+                    )
                 )
     return motions_figure(motions)
 
@@ -87,8 +100,7 @@ def _measures(a: Analysis, task: int) -> Figure:
     every = np.concatenate([o.cpm[..., None], o.measures], axis=-1)[:, t]
     values = [[every[:, s, k] for s in range(len(o.conditions))] for k in range(every.shape[-1])]
     machine = np.concatenate([a.computer.cpm[0, t, :, None], a.computer.measures[0, t]], axis=-1)
-    its = [machine[:, k] for k in range(len(NAMES))]
-    figure = figures.measures_figure(values, its, [c.scenario for c in o.conditions])
+    figure = measures_figure(values, list(machine.T), [c.scenario for c in o.conditions])
     with style():
         figure.text(0.995, 0.01, f"task {task}, {a.who}", ha="right", va="bottom", fontsize=9, color=SOFT)
     return figure

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import holdfast as hf
-from holdfast.report.figures import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
+from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
 
 if TYPE_CHECKING:
     from papers.goel2003.peak_error import TwoMinima

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -11,20 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.teleop import simulate_experiment
 from holdfast.teleop.analysis import Analysis, analyse
-from holdfast.teleop.protocol.protocol import Protocol, read_protocol
-from holdfast.teleop.records.check import replay
-from holdfast.teleop.records.entries import Kind
-from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.tables import computer_table, hand_paths, trial_table
-from holdfast.teleop.rehearsal import simulate_experiment
+from holdfast.teleop.protocol import Protocol, read_protocol
+from holdfast.teleop.records import Kind, Records, computer_table, hand_paths, replay, trial_table
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from holdfast.teleop.analysis.result import Paths
-
 Array = NDArray[np.float64]
+Paths = Callable[[str | None, int, int], Array | None]  # of a subject (None: the computer), task and scenario
 
 SUBJECTS, SEED = 24, 1
 
@@ -87,14 +84,14 @@ def study() -> Study:
 
 def shown(a: Analysis) -> dict[str, int]:
     """The middle task, by number, of each group: those that Figs 5 to 7 show."""
-    from holdfast.present.teleop.page import middle_tasks
+    from holdfast.present.teleop import middle_tasks
 
     return dict(zip(a.groups.names, middle_tasks(a), strict=True))
 
 
 def _kept(records: Records, a: Analysis) -> Paths:
     """The paths of the tasks that are drawn, without the records."""
-    from holdfast.teleop.analysis.tables import median_operator
+    from holdfast.teleop.analysis import median_operator
 
     path = hand_paths(records)
     kept: dict[tuple[str | None, int, int], Array | None] = {}

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.report.figures import save_png, style
-from holdfast.report.palette import BLUE, INK, ORANGE, SOFT
+from holdfast.report import BLUE, INK, ORANGE, SOFT, save_png, style
 
 Array = NDArray[np.float64]
 

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_space
-from holdfast.designs.convergence import planar_measures
+from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_space, planar_measures
 from papers.goel2005.three_links import law
 
 Array = NDArray[np.float64]
@@ -238,9 +237,7 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "limit cycles, of which one is known for the paper's arm, in windows of a few tenths of a degree.",
         "",
     ]
-    from holdfast.files.output import replaced
-
-    replaced(folder / "DESIGNS.md", "\n".join(lines))
+    (folder / "DESIGNS.md").write_text("\n".join(lines), encoding="utf-8")
     say(f"{time.process_time() - begin:.0f} s of processor time")
 
 

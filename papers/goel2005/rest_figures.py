@@ -12,8 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from holdfast.equilibria import Curve, Curves
-from holdfast.report.curves import KINDS
-from holdfast.report.figures import INK, WIDTH, finished, save_png, style
+from holdfast.report import INK, KINDS, WIDTH, finished, save_png, style
 from papers.goel2005 import drawing
 from papers.goel2005.three_links import wrapped
 

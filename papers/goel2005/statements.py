@@ -189,7 +189,7 @@ def cycle_table() -> list[str]:
 
 def figure_cycle(path: Path) -> None:
     """The limit cycle in the plane of the healthy joints."""
-    from holdfast.report.figures import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
+    from holdfast.report import BLUE, ORANGE, SOFT, WIDTH, finished, legend_below, save_png, style
 
     points = at(168.30)
     with style():

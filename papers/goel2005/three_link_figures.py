@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report.figures import BLUE, FAINT, INK, WIDTH, finished, save_png, style
+from holdfast.report import BLUE, FAINT, INK, WIDTH, finished, save_png, style
 from papers.goel2005 import drawing
 
 Array = NDArray[np.float64]

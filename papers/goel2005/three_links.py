@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import holdfast as hf
-from holdfast.convergence.places import configurations_at, read_places
+from holdfast.convergence import configurations_at
 from papers.claims import Claim, Verdict
 from papers.numbers import beside
 from papers.part import Part
@@ -177,8 +177,9 @@ def thresholds() -> tuple[float, float]:
 
 def manifold(place: ArrayLike, count: int) -> Array:
     """(count, 3) configurations of a place, rad, equally far apart along its self-motion manifold in joint space."""
-    poses = read_places(law().arm, law().task, place, np.random.default_rng(0)).poses
-    return configurations_at(law().arm, law().task, poses, count, 0)[1]
+    pose = np.eye(4)
+    pose[:2, 3] = place
+    return configurations_at(law().arm, law().task, pose[None], count=count, seed=0)[1]
 
 
 def claims(found: dict[str, hf.Runs]) -> list[Claim]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report.figures import save_png
+from holdfast.report import save_png
 from papers.claims import Claim, Verdict
 from papers.goel2005.three_links import START_5, START_6, TARGET, law
 from papers.part import Part
@@ -133,10 +133,15 @@ def analysis(method: str, lattice: int = 52) -> tuple[hf.Workspace, float]:
 
 def figure_10(w: hf.Workspace, path: Path) -> None:
     """The four maps of the paper, and the two that it does not show; an arbitrary joint."""
-    from holdfast.report.places import Plane, place_maps
+    from holdfast.report import Plane, place_maps
 
     plane = Plane(
-        w.places.points[:, :2], ("x, m", "y, m"), w.places.cells, w.places.axes, (float(TARGET[0]), float(TARGET[1])), "target"
+        points=w.places.points[:, :2],
+        labels=("x, m", "y, m"),
+        cells=w.places.cells,
+        axes=w.places.axes,
+        mark=(float(TARGET[0]), float(TARGET[1])),
+        mark_label="target",
     )
     m = w.measures
     rows = {of: np.stack([m[f"{of}{what}"][:, 3] for what in ("100", "avg", "sens")], axis=1) for of in ("R", "F")}
@@ -148,7 +153,7 @@ def figure_10(w: hf.Workspace, path: Path) -> None:
         f"target{unknown}"
     )
     columns = ("R100, F100", "Ravg, Favg", "Rsens, Fsens")
-    save_png(place_maps(plane, rows, columns, "percent", caption), path, dpi=110)
+    save_png(place_maps(plane, rows, columns, label="percent", caption=caption), path, dpi=110)
 
 
 def work(w: hf.Workspace, seconds: float) -> list[str]:

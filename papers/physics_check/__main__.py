@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from holdfast.probability.intervals import Interval
-from holdfast.report.figures import Curve, Mark, compare_cdf_figure, save_png
+from holdfast.probability import Interval
+from holdfast.report import Curve, Mark, compare_cdf_figure, save_png
 from papers.physics_check.motions import ARRIVED, LIMIT, MOTIONS, RATE, SEED, SPREAD, Row, Setting, runs
 
 HERE = Path(__file__).parent
@@ -129,7 +129,7 @@ def figure(found: dict[Setting, list[Row]], settings: Sequence[Setting], title: 
         [(f"Panda, position, each joint locked: {title}", curves)],
         [Mark(1.0, "1 mm")],
         "largest distance between kinematic and MuJoCo tool path, mm",
-        f"share of {len(found[settings[0]])} runs",
+        ylabel=f"share of {len(found[settings[0]])} runs",
         log=True,
     )
     save_png(made, HERE / file)

@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from holdfast.report.figures import save_png
-from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
-from holdfast.words import percent
+from holdfast.report import Gains, Spread, Stack, gain_figure, save_png, spread_figure, stack_figure
 from papers.seven_dof.study import ARMS, COSTS, DAMPING, PRE_FAILURE, SEED, TASKS, TIME_LIMIT, part
 
 HERE = Path(__file__).parent
@@ -67,9 +65,9 @@ def draw_outcomes(p: Part, file: Path) -> None:
         rows = [r for r in p["outcomes"] if r["failure"] == failure]
         shares = np.array([[r[o] for o in OUTCOMES] for r in rows])
         low, high = (np.array([r[f"converged_{end}"] for r in rows]) for end in ("low", "high"))
-        stacks.append(Stack(failure, p["names"], shares, low, high, rows[0]["reachable"]))
+        stacks.append(Stack(name=failure, bars=p["names"], shares=shares, low=low, high=high, level=rows[0]["reachable"]))
     label = f"share of {p['motions']} motions, each law and failure; {title(p)}"
-    save_png(stack_figure(stacks, OUTCOMES, label, "targets still within reach"), file, dpi=80)
+    save_png(stack_figure(stacks, OUTCOMES, label, level="targets still within reach"), file, dpi=80)
 
 
 def draw_gains(parts: Sequence[Part], file: Path) -> None:
@@ -82,7 +80,8 @@ def draw_gains(parts: Sequence[Part], file: Path) -> None:
         every = []
         for name in parts[0]["names"][1:]:
             rows = [gains(p, name) for p in parts]
-            every.append(Gains(name, *(np.array([r[f"{of}{end}"] for r in rows]) for end in ("", "_low", "_high"))))
+            value, low, high = (np.array([r[f"{of}{end}"] for r in rows]) for end in ("", "_low", "_high"))
+            every.append(Gains(label=name, value=value, low=low, high=high))
         panels.append((label, every))
     save_png(gain_figure([title(p) for p in parts], panels), file, dpi=80)
 
@@ -227,6 +226,12 @@ def _verdict(parts: Sequence[Part], name: str) -> str:
         astray = f"median error of those that do not reach the target {errors}"
         words.append(f"{p['arm']}: {arrive}, {error}, {astray}")
     return f"{'; '.join(words)}."
+
+
+def percent(share: float) -> str:
+    """A share with one decimal, and 0 % or 100 % only if it is."""
+    value = 100 * share
+    return f"{value:.0f} %" if value in (0, 100) else f"{value:.1f} %"
 
 
 def _span(values: Sequence[float]) -> str:

@@ -11,7 +11,6 @@ import numpy as np
 
 import holdfast as hf
 from holdfast.control import Law
-from holdfast.present.convergence import law_rows as report
 
 ARMS = ("panda", "xarm7", "iiwa14")
 TASKS = ("position", "pose")
@@ -47,13 +46,12 @@ def part(name: str, task: str, motions: int, folder: Path, seed: int = SEED) -> 
         "names": list(c.names),
         "joints": list(c.joints),
         "outcomes": c.table,
-        "gains": report.gain_rows(c),
+        "gains": c.to_dict()["gains"],
         "bounds": {n: [c.gain(n, undecided="against").low, c.gain(n, undecided="for").high] for n in c.names[1:]},
         "any": {n: _any(c, n) for n in c.names},
         "cost": {n: {of: c.cost(n, of).tolist() for of in COSTS} for n in c.names},
         "comparable": int(c.comparable.sum()),
         "reasons": {n: c.reasons(n) for n in c.names},
-        "headline": report.headline(c),
     }
     found["seconds"] = time.perf_counter() - begun
     folder.mkdir(parents=True, exist_ok=True)

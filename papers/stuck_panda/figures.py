@@ -12,10 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.report.curves import KINDS
-from holdfast.report.figures import INK, WIDTH, finished, save_png, style
-from holdfast.report.outcomes import Stack, stack_figure
-from holdfast.report.places import binned, place_maps
+from holdfast.report import INK, KINDS, WIDTH, Stack, binned, finished, place_maps, save_png, stack_figure, style
 from papers.stuck_panda.study import ELBOW, SHOWN, Elbow, arm
 
 Array = NDArray[np.float64]
@@ -37,10 +34,17 @@ def draw_joints(task: str, choice: hf.LawChoice, path: Path) -> None:
         level = maps[0].shares("in_reach")[joint].value
         title = f"{joint} locked" if k < arm().n else "no joint locked"
         stacks.append(
-            Stack(title, SHOWN, shares, np.array([i.low for i in arrived]), np.array([i.high for i in arrived]), level)
+            Stack(
+                name=title,
+                bars=SHOWN,
+                shares=shares,
+                low=np.array([i.low for i in arrived]),
+                high=np.array([i.high for i in arrived]),
+                level=level,
+            )
         )
     label = f"share of {int(maps[0].known.sum())} motions to the target, each law and locked joint; {arm().name}, task {task}"
-    save_png(stack_figure(stacks, OUTCOMES, label, "target within reach"), path, dpi=80)
+    save_png(stack_figure(stacks, OUTCOMES, label, level="target within reach"), path, dpi=80)
 
 
 def draw_laws(choices: Mapping[str, hf.LawChoice], path: Path) -> None:
@@ -50,9 +54,18 @@ def draw_laws(choices: Mapping[str, hf.LawChoice], path: Path) -> None:
         shares = np.array([[_over_joints(choice.map_of(name), o) for o in OUTCOMES] for name in choice.names])
         arrived = [choice.share(name) for name in choice.names]
         low, high = np.array([i.low for i in arrived]), np.array([i.high for i in arrived])
-        stacks.append(Stack(f"task {task}", choice.names, shares, low, high, _over_joints(choice.maps[0], "in_reach")))
+        stacks.append(
+            Stack(
+                name=f"task {task}",
+                bars=choice.names,
+                shares=shares,
+                low=low,
+                high=high,
+                level=_over_joints(choice.maps[0], "in_reach"),
+            )
+        )
     label = f"share of the failures, each joint as likely to lock as any other; {arm().name}"
-    save_png(stack_figure(stacks, OUTCOMES, label, "target within reach"), path, dpi=80)
+    save_png(stack_figure(stacks, OUTCOMES, label, level="target within reach"), path, dpi=80)
 
 
 def _over_joints(m: hf.ConvergenceMap, outcome: str) -> float:
@@ -73,7 +86,7 @@ def draw_map(task: str, choice: hf.LawChoice, goal: Array, path: Path) -> None:
         "places "
         "of the end effector\nseen from the side, mean over the places in a cell, whatever their depth"
     )
-    save_png(place_maps(plane, rows, SHOWN, "of the motions, percent", caption), path, dpi=80)
+    save_png(place_maps(plane, rows, SHOWN, label="of the motions, percent", caption=caption), path, dpi=80)
 
 
 def draw_elbow(found: Sequence[Elbow], path: Path) -> None:

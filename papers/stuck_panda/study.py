@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 
 import holdfast as hf
 from holdfast.control import Law
-from holdfast.equilibria import Kind, StationaryPoints
-from holdfast.equilibria.system import idle_joints
+from holdfast.equilibria import Kind, StationaryPoints, idle_joints
 from holdfast.simulation import Outcome, Reason
-from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
 
@@ -165,7 +163,8 @@ def explained(points: StationaryPoints, q: Array, error: Array) -> tuple[NDArray
     alone = np.zeros(len(q), dtype=bool)
     among = points.q[wrong & ~points.continuum]
     if len(among) and len(q):
-        alone = np.asarray(joint_space.nearest(arm().without_limits, among, q)[0] < SAME)
+        apart = (q[:, None] - among + np.pi) % (2 * np.pi) - np.pi
+        alone = np.asarray(np.linalg.norm(apart, axis=2).min(axis=1) < SAME)
     levels = points.error[wrong & points.continuum & points.attracting]
     level = (np.abs(error[:, None] - levels) < LEVEL).any(axis=1)
     return alone, np.asarray(level & ~alone)

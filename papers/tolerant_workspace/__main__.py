@@ -10,11 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import holdfast as hf
-from holdfast.arm.task import as_task
-from holdfast.reach import TolerantWorkspace
-from holdfast.reach import closed_form as tolerant_planar
-from holdfast.reach.closed_form import ThreeLinks
-from holdfast.report.figures import save_png
+from holdfast.arm import as_task
+from holdfast.reach import TolerantWorkspace, closed_form
+from holdfast.report import save_png
 
 HERE = Path(__file__).parent
 Array = NDArray[np.float64]
@@ -43,10 +41,10 @@ class Best:
     tried: int
 
 
-def three_links() -> ThreeLinks:
+def three_links() -> closed_form.ThreeLinks:
     """The arm with three unit links."""
     arm = hf.arms.load("planar-3r")
-    found = ThreeLinks.of(arm, as_task(arm, "planar"))
+    found = closed_form.ThreeLinks.of(arm, as_task(arm, "planar"))
     if found is None:
         raise ValueError("the built-in arm has no closed form")
     return found
@@ -66,10 +64,10 @@ def search(half: float, step: float = STEP) -> Best:
     """The largest region on the grid."""
     arm, limits = three_links(), grid(half, step)
     area = np.concatenate(
-        [tolerant_planar.area(arm, np.radians(limits[k : k + _CHUNK]), COARSE) for k in range(0, len(limits), _CHUNK)]
+        [closed_form.area(arm, np.radians(limits[k : k + _CHUNK]), COARSE) for k in range(0, len(limits), _CHUNK)]
     )
     last = np.argsort(area)[-FINALISTS:]
-    exact = np.array([tolerant_planar.area(arm, np.radians(limits[k][None]), FINE)[0] for k in last])
+    exact = np.array([closed_form.area(arm, np.radians(limits[k][None]), FINE)[0] for k in last])
     best = int(np.argmax(exact))
     return Best(half, limits[last[best]], float(exact[best]), len(limits))
 

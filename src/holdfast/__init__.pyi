@@ -2,6 +2,7 @@ from holdfast import arms as arms
 from holdfast import control as control
 from holdfast import indices as indices
 from holdfast import paths as paths
+from holdfast import registry as registry
 from holdfast.arm import DH as DH
 from holdfast.arm import Arm as Arm
 from holdfast.arm import Joint as Joint

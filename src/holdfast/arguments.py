@@ -1,4 +1,4 @@
-"""What callers hand in, looked at before anything is computed: is it numbers, is it of the kind that is annotated?"""
+"""Arguments of callers, checked before anything is computed: are they numbers, are they of the annotated kind?"""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ _ALIASES = {
 
 
 def _split(text: str, sign: str) -> list[str]:
-    """Parts between the signs that stand outside of brackets."""
+    """Parts between the signs that are outside brackets."""
     parts, depth = [""], 0
     for letter in text.strip():
         depth += (letter == "[") - (letter == "]")
@@ -125,7 +125,7 @@ def _head(kind: str) -> str:
 
 @functools.cache
 def _inner(kind: str) -> tuple[str, ...]:
-    """What stands in the brackets."""
+    """What is in the brackets."""
     return tuple(_split(kind.partition("[")[2].removesuffix("]"), ",")) if "[" in kind else ()
 
 

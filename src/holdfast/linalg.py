@@ -250,7 +250,7 @@ def damped_least_norm(j: SX, e: SX, damping: SX | float) -> SX:
 
 
 class Cholesky:
-    """``A = L D L'`` of a symmetric positive definite A (n, n), without roots, for several right-hand sides.
+    """``A = L D L'`` of a symmetric positive definite A (n, n), without roots, for several right sides.
 
     Attributes:
         pivots: Diagonal of D; their product is det A.

@@ -412,7 +412,7 @@ REFUSED = [
         "no moving joint hangs on 'a'; an arm needs at least one",
     ),
     (AB + J, {"tip": "a"}, "no moving joint lies between 'a' and 'a'; .*, such as the tip 'b'"),
-    (AB + J, {"base": "x"}, "there is no base link 'x'; an arm could stand on 'a'"),
+    (AB + J, {"base": "x"}, "there is no base link 'x'; an arm could be mounted on 'a'"),
     (AB + J, {"tip": "x"}, "there is no tip link 'x'; the arm could end at 'b'"),
     (
         AB + J,
@@ -444,7 +444,7 @@ REFUSED = [
     (
         AB + link("c") + J + joint("k", "b", "c", "continuous", "<mimic joint='j'/>"),
         {"tip": "b"},
-        "joint 'k' mimics 'j', which moves on the chain, so it cannot stand still; "
+        "joint 'k' mimics 'j', which moves on the chain, so it cannot be held still; "
         "choose another tip, or name it in hold to freeze it all the same",
     ),
     (
@@ -470,7 +470,7 @@ REFUSED = [
     (
         GRIPPER,
         {"tip": "c", "hold": {"x": 0.0}},
-        "hold names 'x', which is no moving joint of this file; those are 'j', 'k', 'l'",
+        "hold names 'x', which is not a moving joint of this file; those are 'j', 'k', 'l'",
     ),
     (AB + J, {"hold": {"j": 0.0}}, "no moving joint lies between 'a' and 'b'; choose a base and tip with joints in between"),
     (

@@ -152,7 +152,7 @@ def test_an_interval_is_the_exact_one(hits, n, confidence):
 
 
 def test_an_interval_reads_as_a_sentence():
-    assert str(Interval(0.5, 0.25, 0.75, 0.95)) == "0.5000 (0.2500 to 0.7500, 95%)"
+    assert str(Interval(value=0.5, low=0.25, high=0.75, confidence=0.95)) == "0.5000 (0.2500 to 0.7500, 95%)"
 
 
 @pytest.mark.parametrize(("n", "expected"), [(500, 0.061), (2000, 0.030)])

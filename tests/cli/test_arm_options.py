@@ -66,12 +66,15 @@ def test_a_held_axis_stands_where_it_was_put(ask):
     ("arguments", "sentence"),
     [
         (("panda", "--hold", "panda_joint1=0"), "'panda' is not a URDF or MJCF file, so it has no links or joints to choose"),
-        ((PANDA, "--hold", "elbow=0"), "hold names 'elbow', which is no moving joint of this file; those are 'panda_joint1', "),
+        (
+            (PANDA, "--hold", "elbow=0"),
+            "hold names 'elbow', which is not a moving joint of this file; those are 'panda_joint1', ",
+        ),
         ((PANDA, "--hold", "elbow"), "--hold 'elbow' is not joint=number; write for example --hold finger_joint1=0.04"),
         ((PANDA, "--hold", "a=1", "--hold", "a=2"), "--hold gives joint 'a' twice; give each joint once"),
         ((PANDA, "--hold", "panda_joint1=9"), "hold puts joint 'panda_joint1' at 9; it must be a finite number within"),
         ((PANDA, "--tip", "panda_lnk8"), "there is no tip link 'panda_lnk8'; did you mean 'panda_link8'? the arm could end at"),
-        ((PANDA, "--base", "x"), "there is no base link 'x'; an arm could stand on 'panda_link0', 'panda_link1', "),
+        ((PANDA, "--base", "x"), "there is no base link 'x'; an arm could be mounted on 'panda_link0', 'panda_link1', "),
         (
             (PANDA, "--base", "panda_hand", "--tip", "panda_link3"),
             "choose a base on the way from the root to the tip, which is 'panda_link0', 'panda_link1', 'panda_link2'",
@@ -199,7 +202,7 @@ def crane(tmp_path: Path, lower: float = -2.0) -> Path:
 
 def test_home_is_a_named_state_or_zero_where_limits_allow_and_is_said(ask, cli, tmp_path):
     at = ("recover", crane(tmp_path), "--lock", "2", "--at", "0.2 0 0.4", "--samples", "0", "--task", "planar")
-    assert ask(*at)["goal"] == "the hand where it is at all joints at 0"
+    assert ask(*at)["goal"] == "the end effector where it is at all joints at 0"
     limited = crane(tmp_path, lower=0.1)
     assert ask(at[0], limited, *at[2:5], "0.2 0.1 0.4", *at[6:])["goal"].endswith(
         "at all joints at 0, a1, a2, a3 at the limit nearest to it"
@@ -208,8 +211,8 @@ def test_home_is_a_named_state_or_zero_where_limits_allow_and_is_said(ask, cli, 
     values = {"home": (0.1, 0, 0.3), "ready": (0.3, 0, 0.3)}
     texts = {name: "".join(f"<joint name='a{k + 1}' value='{x}'/>" for k, x in enumerate(q)) for name, q in values.items()}
     (tmp_path / "crane.srdf").write_text(SRDF.format(**texts))
-    assert ask(*at)["goal"] == "the hand where it is at home"
-    assert ask(*at, "--goal", "ready")["goal"] == "the hand where it is at ready"
+    assert ask(*at)["goal"] == "the end effector where it is at home"
+    assert ask(*at, "--goal", "ready")["goal"] == "the end effector where it is at ready"
     code, _, err = cli(*at, "--goal", "half")
     assert code == 2
     assert "--goal 'half' is not known; write home, ready, 'q:...' with 3 joint values, or 'pose:...'" in err

@@ -94,7 +94,10 @@ def test_optimise_says_why_nothing_is_clear(cli):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (("--no-clearance", "--radius", 0.1), "--radius asks for a clearance of the arm from itself and --no-clearance asks for none"),
+        (
+            ("--no-clearance", "--radius", 0.1),
+            "--radius asks for a clearance of the arm from itself and --no-clearance asks for none",
+        ),
         (("--no-clearance", "--margin", 0.1), "--margin asks for"),
         (("--no-clearance", "--capsules", "x.yaml"), "--capsules asks for"),
         (("--radius", 0.1, "--capsules", "x.yaml"), "give one of --capsules and --radius"),

@@ -27,7 +27,7 @@ def test_curves_are_printed_and_drawn(cli, ask, tmp_path):
     figure = tmp_path / "curves.png"
     code, out, err = cli(*CURVES, "--plot", figure)
     assert (code, err) == (0, "")
-    assert "gets stuck with joint2 at 111.797 to 248.203 deg" in out
+    assert "sinks with joint2 at 111.797 to 248.203 deg" in out
     assert matplotlib.image.imread(figure).shape[1] > 600
     data = ask(*CURVES)
     np.testing.assert_allclose(np.rad2deg(data["sink_arcs"]), [[111.797, 248.203]], atol=1e-3)

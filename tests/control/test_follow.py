@@ -58,7 +58,7 @@ def test_the_hand_stays_on_its_path(planar, projected):
     np.testing.assert_allclose(hand[:, 1], -1.8, atol=5e-6)
     np.testing.assert_allclose(hand[:, 0], np.linspace(1.8, -1.8, 501), atol=5e-6)
     assert projected.on_path
-    assert projected.headline.startswith("the hand stays on its path")
+    assert projected.headline.startswith("the end effector stays on its path")
 
 
 def test_the_start_is_the_best_of_its_pose(planar, torque, projected):
@@ -185,8 +185,8 @@ def test_a_hand_that_limits_stop_is_not_called_on_its_path(across):
     arm = hf.arms.load("planar-3r")  # its second joint cannot turn over
     t = hf.follow(arm, across(1.9, -0.1), minimise=susceptibility.swing_angle(arm, [0, 1, 0]), task="planar")
     assert not t.on_path
-    assert t.headline.startswith("THE HAND LEAVES ITS PATH")
-    assert t.describe()[0].startswith("THE HAND LEAVES")
+    assert t.headline.startswith("THE END EFFECTOR LEAVES ITS PATH")
+    assert t.describe()[0].startswith("THE END EFFECTOR LEAVES")
     assert any(e.kind == "joint limit" for e in t.events)
     assert (t.q >= arm.lower - 1e-9).all()
     assert (t.q <= arm.upper + 1e-9).all()

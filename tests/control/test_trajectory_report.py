@@ -14,7 +14,7 @@ import oracles
 from holdfast.indices import RelativeManipulability, susceptibility
 from holdfast.paths import TimedPath, Trapezoid, line
 from holdfast.present.motion.trajectory import build
-from holdfast.present.stick_figure import projections
+from holdfast.present.stick_figure import views_of
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from wellformed import check
@@ -39,7 +39,7 @@ def test_a_calm_motion(calm, tmp_path):
     html = file.read_text(encoding="utf-8")
     check(html, scripts=1)
     for text in (
-        "The hand stays on its path",
+        "The end effector stays on its path",
         "best of each pose",
         "best continuous motion",
         "Nothing: no algorithmic singularity",
@@ -91,7 +91,7 @@ def test_an_arm_in_space_without_inertia(rng, tmp_path):
 def test_a_plane_is_seen_from_its_front(rng):
     arm = oracles.with_bodies(oracles.planar_arm(rng, 4), rng)
     normal = oracles.plane(arm)
-    (view,) = projections(arm, np.zeros((1, 6, 3)))
+    (view,) = views_of(arm, np.zeros((1, 6, 3)))
     assert abs(view.right @ normal) < 1e-9
     assert abs(view.up @ normal) < 1e-9
     assert view.up @ -arm.gravity > 0

@@ -153,7 +153,7 @@ def test_healthy_motions_against_scipy(arm, damping, rng):
 
 def test_configurations_are_equally_far_apart_on_the_curve(arm, law):
     places = read_places(arm, law.task, [[2.0, -1.4], [0.3, -0.4]], np.random.default_rng(0))
-    owner, q = configurations_at(arm, law.task, places.poses, 40, 0)
+    owner, q = configurations_at(arm, law.task, places.poses, count=40, seed=0)
     assert list(np.bincount(owner)) == [40, 80]
     assert arm.forward_kinematics(q)[:, :2, 3] == pytest.approx(places.points[owner, :2], abs=1e-9)
     steps = np.linalg.norm(np.diff(q[:40], axis=0), axis=1)  # chords of equal arcs

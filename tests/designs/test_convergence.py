@@ -61,7 +61,7 @@ def test_the_law_of_designs_is_the_law_of_each(rng):
     rates = law.velocity(joints.configurations(values, q), v)
     expected = hf.control.pseudoinverse(joints.space.arm_of(values), "planar").velocity(q, v)
     np.testing.assert_allclose(rates[:, joints.moving], expected, atol=1e-9)
-    assert not rates[:, joints.standing].any()
+    assert not rates[:, joints.varied].any()
 
 
 def test_sinks_are_those_that_tracing_finds_for_one_target():
@@ -214,6 +214,7 @@ def test_a_sampled_search_that_was_stopped_goes_on(tmp_path, monkeypatch):
 
 def test_the_report_of_an_exact_search_says_what_is_guaranteed(tmp_path):
     found = design_for_convergence(planar(), {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, designs=4, climbs=0, keep_reach=True)
+    assert list(found.figures()) == ["parameters"]
     text = found.report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(text)
     assert f"The best design has guaranteed {percent(float(found.measures['guaranteed'][found.best]))}" in unescape(text)
@@ -239,7 +240,7 @@ def test_arrivals_of_designs_by_runs_of_scipy():
         q0[j] = at[d, t, c, j]
         run = oracles.planar_run(designs[d], 0.1, q0, goals[t], j, 500.0, 1e-3)
         arrived[d, t, c, j] = run.t_events[0].size
-    np.testing.assert_array_equal(found.arrived[:, :2], arrived)
+    np.testing.assert_array_equal(found.converged[:, :2], arrived)
     np.testing.assert_allclose(found.arrival, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
     np.testing.assert_allclose(found.reached, 2 / 3)
 

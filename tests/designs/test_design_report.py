@@ -27,7 +27,7 @@ from wellformed import check
 def checked(rng: np.random.Generator, shift: float, lost: int = 0) -> Checked:
     values = np.sort(shift + 0.1 * rng.random(200 - lost))
     low = float(values[10 - lost]) if lost < 10 else 0.0
-    return Checked(Distribution.of(values, "larger", lost), Interval(low, 0.9 * low, 1.1 * low, 0.95))
+    return Checked(Distribution.of(values, "larger", lost), Interval(value=low, low=0.9 * low, high=1.1 * low, confidence=0.95))
 
 
 @pytest.fixture
@@ -55,6 +55,12 @@ def found(rng) -> hf.Designs:
         seconds=1.0,
         method=[("Designs", "at hand")],
     )
+
+
+def test_its_figures_are_given(found):
+    assert list(found.figures()) == ["front", "arms"]
+    assert list(replace(found, best=0).figures()) == ["front"]
+    assert found._repr_html_().count("<svg ") == 1
 
 
 def test_the_page_says_what_to_build(found):
@@ -94,7 +100,7 @@ def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
     assert same.headline.startswith("Nothing that guarantees more than the given arm was found: for 95 % of the poses")
     assert "Before and after" not in [s.title for s in report.build(same).sections]
-    none = Checked(Distribution.of([], "larger", 200), Interval(0.0, 0.0, 0.0, 0.95))
+    none = Checked(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
     lost = replace(found, checked=Check(none, none, 0.0))
     assert "guarantees any relative manipulability" in lost.headline
     page = render(report.build(lost))

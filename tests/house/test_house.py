@@ -7,7 +7,7 @@ import sys
 import tomllib
 
 import pytest
-from tools.house import picture, ratchet, rules, words
+from tools.house import inner, picture, ratchet, rules, words
 from tools.house.imports import circles, graph, read
 
 
@@ -242,3 +242,58 @@ def test_arrows_that_others_imply_or_that_point_up_are_left_out():
 def test_contributing_shows_the_packages_as_they_are():
     page = picture.PAGE.read_text(encoding="utf-8")
     assert page == picture.put(page, picture.picture()), "run `python -m tools.house --picture`"
+
+
+OFFERED = {
+    "__init__.py": "",
+    "__init__.pyi": "from holdfast import plain as plain\nfrom holdfast.p import thing as thing",
+    "plain.py": "x = 1",
+    "hidden.py": "x = 1",
+    "p/__init__.pyi": "from holdfast.p.part import thing as thing",
+    "p/part.py": "thing = other = 1",
+    "p/q/__init__.pyi": "from holdfast.p.q.part import far as far",
+    "p/q/part.py": "far = 1",
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("import holdfast as hf\nhf.thing.part, hf.plain.x, hf.p.thing, hf.p.q.far, hf.__version__", []),
+        ("from holdfast import p, plain\np.thing, plain.x", []),
+        ("from holdfast.plain import x\nfrom holdfast.p.q import far\nimport holdfast.p.q", []),
+        ("import os.path\nfrom other.holdfast import x\nos.path.p", []),
+        ("from holdfast.p.part import thing, other", ["holdfast.p.part"]),
+        ("from holdfast.p import other", ["holdfast.p.other"]),
+        ("from holdfast.p import part as q", ["holdfast.p.part"]),
+        ("from holdfast import hidden", ["holdfast.hidden"]),
+        ("import holdfast.p.part", ["holdfast.p.part"]),
+        ("def f():\n    import holdfast as hf\n    hf.p.part.thing", ["holdfast.p.part"]),
+        ("from holdfast import p\np.q.part.far", ["holdfast.p.q.part"]),
+        ("from holdfast.plain import _y", ["holdfast.plain._y"]),
+        ('run("from holdfast.hidden import x")', ["holdfast.hidden"]),
+    ],
+)
+def test_inner_names(tmp_path, text, found):
+    for name, inside in OFFERED.items():
+        path = tmp_path / "src/holdfast" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(inside)
+        (path.parent / "__init__.py").touch()
+    shown = "```yaml\nholdfast: [\n```\n```python\n# src/holdfast/p/new.py\nimport holdfast.hidden\n```\n"
+    page = f"```{{run}}\n:about: It.\n{text}\n```\n\n{shown}"
+    files = {"papers/a.py": text, "docs/a.md": page, "docs/_build/a.md": page, "benchmarks/side_by_side.py": text}
+    for name, content in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(content)
+    expected = [f"{where}: {name}" for where in ("docs/a.md", "papers/a.py") for name in found]
+    assert list(inner.inner_names(tmp_path, read(tmp_path / "src/holdfast", "holdfast"))) == expected
+
+
+def test_a_page_goes_on_with_what_it_imported_before(tmp_path):
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs/a.md").write_text("```{run}\nimport holdfast as hf\n```\n```python\nhf.hidden.x\n```\n")
+    (tmp_path / "src").mkdir()
+    for name in ("__init__.py", "hidden.py"):
+        (tmp_path / "src" / name).write_text("x = 1")
+    assert list(inner.inner_names(tmp_path, read(tmp_path / "src", "holdfast"))) == ["docs/a.md: holdfast.hidden"]

@@ -44,18 +44,18 @@ RESULTS = named(
 VALUES = named(
     {
         "": "BrakedDrop Reach",
-        "arms": "Builtin",
+        "arms": "Builtin DHTable",
         "assessment": "Structure Upgrade",
         "control": "Deviations",
         "convergence": "Case HealthyCost Measures",
-        "designs": "Check Checked Radial",
+        "designs": "Check Checked Evaluated Radial Sensitivity",
         "engine": "CellStatus Damage Merged Result",
         "equilibria": "Curve Segment",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",
         "kernels": "LoopResult",
         "motion": "Event Rates SlowMotion",
-        "probability": "Distribution",
+        "probability": "Difference Distribution Interval",
         "recovery": "Leg RestOfPath RowsGivenUp",
         "simulation": "Path",
         "solvers": "Component FibrePath",
@@ -83,7 +83,7 @@ INPUTS = named(
         "teleop": "Measure Person PointTasks Protocol Records Rules Scenario Stick Training",
     }
 )
-DRAWING = "holdfast.report."  # what pages and figures are made of
+DRAWING = ("holdfast.report.", "holdfast.present.")  # what pages and figures are made of
 
 
 @cache
@@ -109,7 +109,22 @@ def test_every_public_dataclass_is_in_one_list():
 def test_every_function_returns_what_is_in_a_list():
     listed = {name.rpartition(".")[2] for name in [*RESULTS, *VALUES, *INPUTS]}
     other = {"Any", "Arcs", "Array", "Callable", "Figure", "Indices", "InverseKinematics", "Iterator", "K", "Markup"}
-    other |= {"NDArray", "P", "T", "None", "tuple", "ThreadPoolExecutor", "bool", "int", "list", "np", "pd", "str", "float"}
+    other |= {
+        "NDArray",
+        "P",
+        "T",
+        "None",
+        "tuple",
+        "ThreadPoolExecutor",
+        "bool",
+        "int",
+        "dict",
+        "list",
+        "np",
+        "pd",
+        "str",
+        "float",
+    }
     registered = [entry.make for known in (INDICES, LAWS, SUSCEPTIBILITIES) for entry in known.values()]
     other |= {inspect.signature(make, eval_str=True).return_annotation.__name__ for make in registered}
     for name, (_, node) in public().items():
@@ -132,6 +147,8 @@ def test_a_result_says_what_it_holds(name):
 def test_a_presenter_is_there_and_its_class_is_a_result(name):
     for module in filter(None, PRESENTERS[name]):
         import_module(f"holdfast.present.{module}")
+    for function in ("write", "save", "figures", "show", "in_notebook"):
+        assert inspect.isfunction(presenter([name], function)), function
     (result,) = [public()[each][0] for each in RESULTS if each.rpartition(".")[2] == name]
     assert issubclass(result, Result)
 

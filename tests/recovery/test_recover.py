@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 import holdfast as hf
 import oracles
 from holdfast.clearance import Capsule, Capsules, Clearance
-from holdfast.recovery import Ending
+from holdfast.recovery import Ending, goals
 from holdfast.recovery.bounds import out_of_reach
 
 
@@ -291,6 +291,24 @@ def test_the_turn_about_the_tool_is_given_up_first():
     assert turn == pytest.approx(result.given_up.misses[0], abs=1e-5)
     pointing = hf.recover(arm, locked, at, goal=pose, task="pointing", samples=0)
     assert pointing.ending == Ending.HOME
+
+
+def test_what_is_polished_of_a_goal_out_of_reach_is_not_the_same_again(monkeypatch):
+    """Most random starts of this goal end at one configuration, at a limit."""
+    polished: dict[int, list[np.ndarray]] = {}
+
+    def kept(solver, space, pose, q, lost):
+        polished.setdefault(lost[0], []).append(q)
+        return q
+
+    monkeypatch.setattr(goals, "_polished", kept)
+    arm, at = hf.arms.load("planar-3r"), np.deg2rad([20, 40, 60])
+    result = hf.recover(arm, {"joint2": at[1]}, at, goal=oracles.pose(None, [0.3, 0.2, 0]), task="planar", samples=0)
+    assert result.ending == Ending.HOME_WITH_ROWS_GIVEN_UP
+    assert set(polished) == {0, 1}
+    for some in polished.values():
+        assert len(some) > 1
+        assert np.abs(np.array(some)[:, None] - some).max(axis=2)[np.triu_indices(len(some), 1)].min() > 1e-4
 
 
 def test_trouble_at_the_start_is_said_and_nothing_moves():

@@ -13,11 +13,12 @@ from wellformed import check
 
 import chromium
 from holdfast.report import page
-from holdfast.report.animations import Motion, Projection, animation, shown_seconds
+from holdfast.report.animations import Motion, animation, shown_seconds
+from holdfast.report.views import View
 
 X, Y, Z = np.eye(3)
-SIDE = Projection(X, Z, ("x, m", "z, m"), "Side view")
-TOP = Projection(X, Y, ("x, m", "y, m"), "Top <view>")
+SIDE = View(X, Z, "Side view")
+TOP = View(X, Y, "Top <view>")
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 
 from holdfast.report import View, map_figure, share_figure
 
-SIDE = View(0, 2, "Side")
+SIDE = View(np.eye(3)[0], np.eye(3)[2], "Side")
 
 
 def written(figure):

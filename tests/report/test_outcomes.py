@@ -6,15 +6,19 @@ import numpy as np
 from wellformed import check
 
 from holdfast.report import svg
-from holdfast.report.animations import Motion, Projection
+from holdfast.report.animations import Motion
 from holdfast.report.motions import Panel, drawn_motion
 from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
+from holdfast.report.views import View
 
 
 def test_bars_say_what_they_are(rng):
     shares = rng.dirichlet(np.ones(4), size=3)
-    stacks = [Stack(name, ["a $ law", "b", "c"], shares, shares[:, 0] - 0.1, shares[:, 0] + 0.1, 0.5) for name in ("x", "y")]
-    figure = stack_figure(stacks, ["converged", "stuck", "moving", "undecided"], "share of 100 runs", "within reach")
+    stacks = [
+        Stack(name=name, bars=["a $ law", "b", "c"], shares=shares, low=shares[:, 0] - 0.1, high=shares[:, 0] + 0.1, level=0.5)
+        for name in ("x", "y")
+    ]
+    figure = stack_figure(stacks, ["converged", "stuck", "moving", "undecided"], "share of 100 runs", level="within reach")
     text = str(svg(figure, "a", "bars"))
     check(f"<html>{text}</html>")
     for word in ("a $ law", "share of 100 runs", "undecided", "95 % interval of converged", "within reach"):
@@ -30,7 +34,7 @@ def test_quantiles_and_differences_are_where_they_belong(rng):
     medians = [line.get_xdata()[0] for line in figure.axes[0].get_lines()]
     np.testing.assert_allclose(medians, quantiles[:, 2])
     value = rng.normal(size=3)
-    gains = [Gains(name, value, value - 1, value + 1) for name in ("b", "c")]
+    gains = [Gains(label=name, value=value, low=value - 1, high=value + 1) for name in ("b", "c")]
     text = str(svg(gain_figure(["joint1", "joint2", "any"], [("share", gains), ("error, m", gains)]), "g", "gains"))
     check(f"<html>{text}</html>")
     assert "error, m" in text
@@ -42,7 +46,7 @@ def test_a_drawn_motion_shows_lock_target_and_error(rng):
     marked = np.zeros((7, 4), dtype=bool)
     marked[:, 1] = True
     motion = Motion(np.linspace(0, 1, 7), chain, np.zeros(4, dtype=bool), chain[[0, -1], -1], ["r"] * 7, marked, chain[-1, -1])
-    view = Projection(np.eye(3)[0], np.eye(3)[2], ("x, m", "z, m"), "Side view")
+    view = View(np.eye(3)[0], np.eye(3)[2], "Side view")
     panel = Panel(
         np.linspace(0, 1, 7), np.geomspace(1, 1e-3, 7), "error, m", "Ends stuck", None, ((0.5, 0.03, "joint1 locks"),), True
     )

@@ -47,7 +47,7 @@ def some_figures() -> list[Figure]:
     curves = [Curve(x, x, "all", band=0.1), Curve(x, x**2, "some", second=True)]
     marks = [Mark(0.3, "asked for"), Mark(0.9, "most", "bound")]
     points, values = rng.random((300, 3)), rng.random(300)
-    views = [View(0, 2, "Side"), View(0, 1, "Top")]
+    views = [View(np.eye(3)[0], np.eye(3)[2], "Side"), View(np.eye(3)[0], np.eye(3)[1], "Top")]
     chain = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 1.0], [1, 0, 1]])
     scene = Scene(
         points,

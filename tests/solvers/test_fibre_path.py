@@ -76,7 +76,7 @@ def test_brute_force(arm, rng, cost, motion):
         points = [np.array([3.0, 0, 0]) + rng.uniform(-1, 1, (int(rng.integers(3, 6)), 3)) for _ in range(5)]
         limit, spacing = 1.0, 0.1
         want, weight, reach = brute_force(points, value, limit, spacing, cost, motion)
-        got = best_path_over(arm, given(arm, points, spacing), value, limit, cost, motion)
+        got = best_path_over(arm, given(arm, points, spacing), value, rate_limit=limit, cost=cost, motion=motion)
         assert got.continuous == np.isfinite(want)
         if got.continuous:
             solved += 1

@@ -43,5 +43,8 @@ def test_titles_of_measures(rng, rated):
 @pytest.mark.parametrize("count", [1, 3, 8, 11])
 def test_titles_of_motions(rng, count):
     names = ["2: healthy, failure-tolerant", "computer, 3: failed, pseudoinverse", "computer, 4: failed, failure-tolerant"]
-    motions = [Motion(np.cumsum(rng.normal(size=(20, 2)), axis=0), names[k % 3], rng.normal(size=2), 0.1) for k in range(count)]
+    motions = [
+        Motion(path=np.cumsum(rng.normal(size=(20, 2)), axis=0), title=names[k % 3], target=rng.normal(size=2), radius=0.1)
+        for k in range(count)
+    ]
     check(motions_figure(motions))

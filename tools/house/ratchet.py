@@ -9,7 +9,7 @@ from pathlib import Path
 
 import yaml
 
-from tools.house import rules, words
+from tools.house import inner, rules, words
 from tools.house.imports import File, circles, graph, read
 
 ROOT = Path(__file__).parents[2]
@@ -48,6 +48,7 @@ def counted() -> Count:
         "positional arguments": rules.positional(files),
         "long files": rules.long_files(files),
         "full folders": rules.full_folders(files),
+        "inner names": inner.inner_names(ROOT, files),
         "retired words": words.count(words.texts(ROOT, files)),
     }
     lines = {

@@ -20,10 +20,11 @@ LASTS = rf"{NUMBER} (?:ms|s|min|h)\b *"
 VARIES = tuple(
     (re.compile(pattern, re.MULTILINE), constant)
     for pattern, constant in (
-        (r"\b\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?", "<time>"),
+        (r"\b\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d(\.\d+)?)?(Z|\+\d\d:?\d\d| UTC)?)?\b", "<time>"),
         (rf"(seconds\"?)(=|: ){NUMBER}", r"\g<1>\g<2>0"),
         (rf"(that ended took |chunks in |>Time</th><td class=\"\">){LASTS}", r"\1<time>"),
         (rf"{LASTS}(of one thread|with the \d+ of this machine)", r"<time> \1"),
+        (r"(of one thread  a chunk) +", r"\1  "),  # as wide as the times below
         (rf"(  \d+|\d+ of \d+)  +{LASTS}(?:{LASTS})?($|\d)", r"\1 <time> \2"),  # tables of studies
         (rf"(On the disk</th><td class=\"\">){NUMBER}", r"\1<size>"),  # times are in it
         (
@@ -34,7 +35,8 @@ VARIES = tuple(
         (r"(>Computed on</th><td class=\"\">)[^;<]*", r"\1<machine>"),
         (r"(127\.0\.0\.1|localhost):\d+", r"\1:<port>"),
         (r"\bkey=[\w-]+", "key=<key>"),
-        (r"^holdfast: compiling '.*\n", ""),  # only where the kernel is not in the cache
+        # What holdfast.notice says, of a record that was made with it.
+        (r"^holdfast: (?!nothing|missing)[a-z]+ing\b(.*, (about \d+ (s|min)|so far \d).*|[^,;:]*)\n", ""),
         (r"^\d+ of \d+ chunks, about .*\n", ""),  # only of what takes half a minute
         (r" at 0x[0-9a-f]+", ""),
         (r"^exit code 0\n", ""),

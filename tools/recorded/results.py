@@ -19,9 +19,7 @@ import numpy as np
 
 import holdfast as hf
 from holdfast import arms, control, teleop
-from holdfast.arm.task import as_task
 from holdfast.assessment import structures
-from holdfast.registry import INDICES
 from holdfast.teleop.analysis import analyse
 
 INPUTS = Path(__file__).parent
@@ -36,8 +34,10 @@ AT = np.deg2rad([20, 40, 60])
 
 RESULTS: dict[str, Callable[[], Any]] = {
     "arm": lambda: hf.Arm.from_urdf(INPUTS / "arm.urdf", tip="link7"),
-    "task": lambda: [as_task(PANDA, rows) for rows in ("pose", "pointing", ["vx", "vy", "wz"])],
-    "index_values": lambda: [hf.indices.by_name(label, PANDA).evaluate(HOME) for label in sorted(INDICES.labels(PANDA))],
+    "task": lambda: [control.pseudoinverse(PANDA, rows).task for rows in ("pose", "pointing", ["vx", "vy", "wz"])],
+    "index_values": lambda: [
+        hf.indices.by_name(label, PANDA).evaluate(HOME) for label in sorted(hf.registry.INDICES.labels(PANDA))
+    ],
     "susceptibilities": lambda: [
         make(PANDA).evaluate(HOME) for make in (hf.susceptibility.torque, hf.susceptibility.swing_angle)
     ],

@@ -99,7 +99,7 @@ def build(
         offset = _rot_z(row.theta) @ _shift(0, row.d)  # rotation about z and translation along z commute
         along_x = _rot_x(row.alpha) @ _shift(row.a, 0)
         if convention == "standard":
-            # The constant part of the motion along the joint's own axis may stand on either side of it.
+            # The constant part of the motion along the joint's own axis may be on either side of it.
             origin, after = pending @ (_rot_z(row.theta)), _shift(0, row.d) @ along_x
             if sliding:
                 origin, after = pending @ offset, along_x

@@ -85,7 +85,7 @@ class Joint:
 
     @property
     def shown(self) -> tuple[float, str]:
-        """Factor and unit in which people read the joint variable: (1, "m") or (180/pi, "deg")."""
+        """Factor and unit for printing the joint variable: (1, "m") or (180/pi, "deg")."""
         return (1.0, "m") if self.prismatic else (180 / np.pi, "deg")
 
     def motion(self, value: float) -> Array:
@@ -155,9 +155,9 @@ class Chain:
     """Which part of a file an arm is.
 
     Attributes:
-        base: Link on which it stands.
+        base: Link that it is mounted on.
         tip: Link whose frame is the tool; None once the tool is another one.
-        held: Joints of the file that were told to stand, and where, rad or m.
+        held: Joints of the file that were held, and where, rad or m.
     """
 
     base: str

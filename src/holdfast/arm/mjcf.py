@@ -63,7 +63,7 @@ def load(
     """The serial arm from body ``base`` down to body or site ``tip`` of an MJCF file (needs ``holdfast[physics]``).
 
     As :func:`holdfast.arm.urdf.load` does it: bodies without a joint are folded away, and what hangs on the chain without
-    being part of it becomes part of the body it hangs on, its own joints standing where the file puts them. Hinges are
+    being part of it becomes part of the body it hangs on, its own joints held where the file puts them. Hinges are
     revolute with a range and continuous without one, slides are prismatic. Several joints of one body become joints with
     massless links in between. ``links[i]`` is given in a frame with the axes of the body and the anchor of joint i as
     origin; ``tool`` is the frame of ``tip``; joint values are MuJoCo's, so a ``ref`` is kept.
@@ -74,10 +74,10 @@ def load(
 
     Args:
         path: The file, with the files that it names beside it.
-        base: Name of the body on which the arm stands; ``world`` if not given.
+        base: Name of the body on which the arm is mounted; ``world`` if not given.
         tip: Name of the body, or else of the site, whose frame is the tool; may be left out as for a URDF file.
-        hold: Value, rad or m, at which joints stand, on the chain or beside it; those on the chain are then no joints of the
-            arm. By default all on the chain move, and those beside it stand where the file's initial pose puts them.
+        hold: Value, rad or m, at which joints are held, on the chain or beside it; those on the chain are then no joints of the
+            arm. By default all on the chain move, and those beside it are held where the file's initial pose puts them.
         name: Name of the arm; the file's model name if not given.
 
     Returns:
@@ -265,7 +265,7 @@ def _arm(
 
 
 def _refuse_ties(mujoco: ModuleType, model: Any, tree: Tree, on_chain: set[str]) -> None:
-    """No equality and no tendon may act on the chain; between bodies that stand still against each other they do nothing."""
+    """No equality and no tendon may act on the chain; between bodies that do not move against each other they do nothing."""
     joints = _names(model.njnt, model.joint, "joint", 1)
     bodies = _names(model.nbody, model.body, "body", 0)
 

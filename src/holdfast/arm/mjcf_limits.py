@@ -96,7 +96,7 @@ def _check_sizes(element: ElementTree.Element) -> None:
 
 
 def _whole(text: str) -> int:
-    """The number that MuJoCo may read; text that is none is for MuJoCo to refuse."""
+    """The number that MuJoCo may read; MuJoCo refuses other text itself."""
     try:
         return int(min(max(float(text), -1.0), 1e18))
     except ValueError:

@@ -103,7 +103,7 @@ class Arm(Machine):
 
     @checked
     def with_base(self, base: ArrayLike) -> Arm:
-        """The same arm standing elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
+        """The same arm mounted elsewhere: ``base`` (4, 4) in the world; gravity stays the world's."""
         return replace(self, base=np.asarray(base, dtype=np.float64))
 
     @checked
@@ -114,7 +114,7 @@ class Arm(Machine):
 
     @cached_property
     def without_limits(self) -> Arm:
-        """The arm as a law sees it: every revolute joint comes round after 2 pi."""
+        """The arm as a law sees it: every revolute joint has period 2 pi."""
         return self.with_limits(np.full(self.n, -np.inf), np.full(self.n, np.inf))
 
     @cached_property
@@ -129,7 +129,7 @@ class Arm(Machine):
 
     @property
     def title(self) -> str:
-        """Name, base and tip: what an answer about the arm begins with."""
+        """Name, base and tip, as headings have them."""
         return self.name if self.chain is None else f"{self.name} ({self.chain})"
 
     @property

@@ -79,7 +79,7 @@ def composite(arm: Machine, q: SX) -> Composite:
         mass = mass + link.mass
         moment = moment + constant(link.mass * link.com)
         inertia = inertia + constant(link.inertia + link.mass * spread(link.com))
-        moment, inertia = _shifted(mass, moment, inertia, steps[i][1])  # a sliding joint's link has left O
+        moment, inertia = _shifted(mass, moment, inertia, steps[i][1])  # a prismatic joint's link has left O
         masses[i], moments[i], inertias[i] = mass, moment, inertia
     axes = [constant(joint.axis) for joint in arm.joints]
     return Composite(axes, masses, moments, inertias, gravity, rotations, points)

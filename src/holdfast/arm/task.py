@@ -189,7 +189,7 @@ def target_poses(task: Task, target: ArrayLike) -> tuple[Array, Array | None]:
         target: (m,) or (M, m), m, for tasks without angular rows; for any task (4, 4) or (M, 4, 4) poses in the world.
 
     Raises:
-        InputError: Another shape, poses that are none, or rows for a task with turns.
+        InputError: Another shape, invalid poses, or rows for a task with turns.
     """
     given = np.asarray(target, dtype=np.float64)
     if given.ndim in (2, 3) and given.shape[-2:] == (4, 4):

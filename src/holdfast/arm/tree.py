@@ -25,7 +25,7 @@ MOST_CANDIDATES = 60  # in a sentence
 
 @dataclass(frozen=True)
 class TreeJoint:
-    """What carries one link of the tree: a moving or fixed joint; types that no arm can have keep their file's word."""
+    """What carries one link of the tree: a moving or fixed joint; types that no arm can have keep the file's name."""
 
     name: str
     type: str
@@ -40,7 +40,7 @@ class TreeJoint:
     friction: float
     mimic: tuple[str, float, float] | None = None  # master, multiplier, offset
     armature: float = 0.0
-    rest: float = 0.0  # where it stands beside the chain, as far as its limits allow
+    rest: float = 0.0  # where it is beside the chain, as far as its limits allow
 
     @property
     def moving(self) -> bool:
@@ -106,8 +106,8 @@ class Tree:
         link = tip
         while link != base:
             if link not in self.above:
-                standing = possible_bases(self, tip)
-                where = f", which is {listed(standing)}" if standing else ""
+                bases = possible_bases(self, tip)
+                where = f", which is {listed(bases)}" if bases else ""
                 raise ArmError(
                     f"tip link '{tip}' does not hang on base link '{base}'; choose a base on the way from the root to the tip"
                     f"{where}"
@@ -148,7 +148,7 @@ def only_tip(tree: Tree, base: str) -> str:
 
 
 def possible_tips(tree: Tree, base: str) -> list[str]:
-    """Links at which an arm that stands on ``base`` could end, the farthest from the base first.
+    """Links at which an arm mounted on ``base`` could end, the farthest from the base first.
 
     Those are the links that carry nothing, fingers being left off: a flange and the frames beside it are as good as the end
     of the longest chain. Where it cannot be told whether a joint moves a finger, the link that carries it is a candidate too.
@@ -191,7 +191,7 @@ def _hanging(tree: Tree, base: str) -> Iterator[TreeJoint]:
 
 
 def possible_bases(tree: Tree, tip: str | None) -> list[str]:
-    """Links on which an arm could stand: those with a moving joint between them and ``tip``, or behind them without one."""
+    """Links on which an arm could be mounted: with a moving joint between them and ``tip``, or behind them without one."""
     if tip is None:
         carrying: set[str] = set()
         for joint in tree.joints.values():
@@ -228,7 +228,7 @@ def check_ends(tree: Tree, base: str | None, tip: str | None) -> tuple[str, str]
     """
     if base is not None and base not in tree.bodies:
         known = possible_bases(tree, tip if tip in tree.bodies else None)
-        raise ArmError(f"there is no base link '{base}'; {guess(base, tree.bodies)}an arm could stand on {listed(known)}")
+        raise ArmError(f"there is no base link '{base}'; {guess(base, tree.bodies)}an arm could be mounted on {listed(known)}")
     base = tree.root if base is None else base
     if tip is not None and tip not in tree.bodies:
         known = possible_tips(tree, base)
@@ -244,7 +244,7 @@ def chain(
     name: str,
     gravity: Sequence[float],
     source: str,
-    stand: Array | None = None,
+    mount: Array | None = None,
 ) -> Machine:
     """The arm from link ``base`` down to link ``tip``, with everything that does not move against a link folded into it.
 
@@ -252,11 +252,11 @@ def chain(
         tree: The links and joints of the file.
         base: The root if not given.
         tip: May be left out if there is only one end.
-        hold: Value, rad or m, at which joints stand, on the chain or beside it; those are then no joints of the arm.
+        hold: Value, rad or m, at which joints are held, on the chain or beside it; those are then no joints of the arm.
         name: Name of the arm.
         gravity: (3,) acceleration in the world, m/s^2.
         source: Where the tree comes from.
-        stand: (4, 4) pose of the base link in the world; the identity if not given.
+        mount: (4, 4) pose of the base link in the world; the identity if not given.
 
     Raises:
         ArmError: There is no single serial chain from base to tip.
@@ -279,7 +279,7 @@ def chain(
                 f"joint '{joint.name}' on the chain mimics '{joint.mimic[0]}', so it is not a degree of freedom; "
                 "choose a base and tip with independent joints in between"
             )
-        # Beside the chain such a joint is harmless: it stands at 0.
+        # Beside the chain such a joint is harmless: it is held at 0.
         if tree.limits_required and joint.type in LIMITED and not np.isfinite(joint.lower):
             remedy = "; if it has no limits, continuous is the right type" if joint.type == "revolute" else ""
             raise ArmError(f"joint '{joint.name}' is {joint.type} and has no <limit> with lower and upper; give them{remedy}")
@@ -300,7 +300,7 @@ def chain(
         name,
         tuple(joints),
         tuple(links),
-        base=np.eye(4) if stand is None else stand,
+        base=np.eye(4) if mount is None else mount,
         tool=pending,
         gravity=np.array(gravity, dtype=np.float64),
         source=source,
@@ -340,13 +340,13 @@ def _folded(tree: Tree, link: str, on_path: set[str], still: Held) -> Link | Non
 
 
 class Held:
-    """Where the joints that are not the arm's stand."""
+    """Where the joints that are not the arm's are held."""
 
     def __init__(self, tree: Tree, on_path: set[str], hold: Mapping[str, float]) -> None:
         free = [j.name for j in tree.joints.values() if j.type in MOVING]
         for name, value in hold.items():
             if name not in free:
-                raise ArmError(f"hold names '{name}', which is no moving joint of this file; those are {listed(free)}")
+                raise ArmError(f"hold names '{name}', which is not a moving joint of this file; those are {listed(free)}")
             joint = tree.joints[name]
             if not (np.isfinite(value) and joint.lower <= value <= joint.upper):
                 raise ArmError(
@@ -365,7 +365,7 @@ class Held:
             master, multiplier, offset = joint.mimic
             if master in self.on_path:
                 raise ArmError(
-                    f"joint '{joint.name}' mimics '{master}', which moves on the chain, so it cannot stand still; "
+                    f"joint '{joint.name}' mimics '{master}', which moves on the chain, so it cannot be held still; "
                     "choose another tip, or name it in hold to freeze it all the same"
                 )
             if master not in self.tree.joints:

@@ -42,7 +42,7 @@ def load(
     """The serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
     Fixed joints are folded away. Bodies that hang on the chain without being part of it (tools, covers, grippers, whatever
-    follows the tip) become part of the link they hang on, with their own moving joints standing still. What hangs on
+    follows the tip) become part of the link they hang on, with their own joints held still. What hangs on
     the base does not move and is left out.
 
     ``links[i]`` is given in the URDF frame of the child link of joint i, and ``tool`` is the frame of ``tip``. Angles
@@ -52,12 +52,12 @@ def load(
 
     Args:
         path: The file.
-        base: Name of the link on which the arm stands; the root if not given.
+        base: Name of the link on which the arm is mounted; the root if not given.
         tip: Name of the link whose frame is the tool; may be left out if only one link carries nothing, the fingers of a
             gripper left off.
-        hold: Value, rad or m, at which joints stand, on the chain or beside it; those on the chain are then no joints of the
-            arm. By default all on the chain move, and those beside it stand at 0, or the limit nearest to it. A joint with
-            ``<mimic>`` follows its master unless it is named here; one that mimics a joint that stands, stands too.
+        hold: Value, rad or m, at which joints are held, on the chain or beside it; those on the chain are then no joints of the
+            arm. By default all on the chain move, and those beside it are held at 0, or the limit nearest to it. A joint with
+            ``<mimic>`` follows its master unless it is named here; one that mimics a held joint is held too.
         name: Name of the arm; the file's robot name if not given.
         gravity: (3,) acceleration, m/s^2, in the frame of ``base``.
         srdf: File whose ``<group_state>`` become ``states``, those that name every joint of the arm; if not given, the file of
@@ -104,7 +104,7 @@ def expand_first(path: Path) -> str:
 
 
 def _element(path: Path, kind: str) -> ElementTree.Element:
-    """The ``<robot>`` of a file; prefixes of tags are left as they stand, declared or not, as the readers of ROS do."""
+    """The ``<robot>`` of a file; prefixes of tags are left as they are, declared or not, as the readers of ROS do."""
     with reading.guarded(advice=f"give the path of a {kind} file", kind=ArmError):
         content = reading.raw(path, _LARGEST)
     builder, parser = ElementTree.TreeBuilder(), expat.ParserCreate()
@@ -130,7 +130,7 @@ def _refuse_doctype(*_: object) -> None:
 
 
 def _unexpanded(robot: ElementTree.Element) -> Iterator[str]:
-    """Calls of xacro macros and terms that xacro would replace; definitions that nobody uses any more are none."""
+    """Calls of xacro macros and terms that xacro would replace; unused definitions do not count."""
     prefixes = {"xacro"} | {key.partition(":")[2] for key, value in robot.attrib.items() if "xacro" in value}
     waiting = [(robot, False)]
     while waiting:

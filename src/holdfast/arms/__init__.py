@@ -1,4 +1,4 @@
-"""Where arms come from: built in, a DH file, a results folder; a tool as six numbers."""
+"""Where arms come from: built in, DH, URDF and MJCF files, results folders."""
 
 from holdfast._lazy import offer
 

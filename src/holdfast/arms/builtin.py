@@ -32,7 +32,7 @@ class Builtin:
         source: Where its numbers come from, and what is assumed.
         licence: SPDX identifier of the file it is read from; ``MIT``, holdfast's own, for arms in code.
         home: (n,) a configuration inside the limits and away from singularities, rad or m.
-        task: The task that suits the arm, ``pose`` or ``planar``; see :func:`holdfast.arm.task.as_task`.
+        task: The task that suits the arm, ``pose`` or ``planar``; see :func:`holdfast.arm.as_task`.
     """
 
     name: str

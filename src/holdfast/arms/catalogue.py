@@ -27,10 +27,10 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold:
         spec: A built-in name (see :func:`names`), a path of a URDF or MJCF file ending in ``.urdf``, ``.mjcf`` or ``.xml``
             (then its outermost element decides), or a path of a DH table ending in ``.yaml`` or ``.yml`` (see
             :mod:`holdfast.arms.dh_file`).
-        base: Link of a URDF file or body of an MJCF file on which the arm stands; see :func:`holdfast.arm.urdf.load` and
+        base: Link of a URDF file or body of an MJCF file on which the arm is mounted; see :func:`holdfast.arm.urdf.load` and
             :func:`holdfast.arm.mjcf.load`.
         tip: Link of a URDF file, or body or site of an MJCF file, whose frame is the tool.
-        hold: Value, rad or m, at which joints of a URDF or MJCF file stand for good.
+        hold: Value, rad or m, at which joints of a URDF or MJCF file are held.
 
     Raises:
         ArmError: There is no such arm, the file is wrong, or base, tip or hold are given for something that is neither a URDF

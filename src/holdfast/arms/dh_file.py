@@ -116,7 +116,7 @@ def _scalar(value: str | float) -> str:
     """One YAML value; numbers that are whole without their point."""
     if isinstance(value, str):
         listed: str = yaml.safe_dump([value], default_flow_style=True, width=10_000, allow_unicode=True)
-        return listed.strip()[1:-1]  # as it stands between braces
+        return listed.strip()[1:-1]  # as it is between braces
     near = round(value, 13)
     value = near if abs(value - near) < 1e-15 else value
     return f"{value:.0f}" if value == round(value) and abs(value) < 1e15 else repr(float(value))

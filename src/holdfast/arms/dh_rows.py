@@ -52,7 +52,7 @@ def dh_table(arm: Arm) -> DHTable:
       positive; and where the axes cross, so that theta is at most a quarter turn.
     - Between parallel axes the normal is the one through the next joint's origin. Along one and the same axis x is that of the
       joint's own frame, or else the one before.
-    - A sliding joint has a direction and no place: its axis is taken through its origin.
+    - A prismatic joint has a direction and no place: its axis is taken through its origin.
     - The last frame is that of the arm's own last row, or the last joint's own frame; ``tool`` takes up the rest.
 
     Args:

@@ -21,7 +21,7 @@ class ArmSpec:
     Attributes:
         spec: Built-in name or file; see :func:`holdfast.arms.resolve`.
         base, tip: Links of the file, if chosen.
-        hold: Joints of the file that stand for good, and where, rad or m.
+        hold: Joints of the file that are held, and where, rad or m.
         name: What it is called; the built-in name or the arm's own if not given.
     """
 

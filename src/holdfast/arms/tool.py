@@ -1,4 +1,4 @@
-"""Where a tool sits, as six numbers that a person types: x, y, z in m, then roll, pitch, yaw in degrees as URDF has them."""
+"""Where a tool sits, as six numbers: x, y, z in m, then roll, pitch, yaw in degrees as URDF has them."""
 
 from __future__ import annotations
 

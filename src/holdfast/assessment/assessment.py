@@ -254,7 +254,7 @@ class Assessment(Result):
 
     @property
     def kept(self) -> bool:
-        """True if the rows are at hand, in memory or in a folder, and not only counted in bins."""
+        """True if the rows were kept, in memory or in a folder, and not only counted in bins."""
         return self._rows is not None or self.store is not None
 
     @property

@@ -55,7 +55,7 @@ class Capsule:
         radius: m, above 0.
 
     Raises:
-        ArmError: A link, point or radius that is none.
+        ArmError: An invalid link, point or radius.
     """
 
     link: int
@@ -84,7 +84,7 @@ class Capsule:
 
 @dataclass(frozen=True)
 class Capsules:
-    """The shape of an arm as far as collisions with itself go.
+    """The shape of an arm, for collisions with itself.
 
     Attributes:
         parts: Any number per link.

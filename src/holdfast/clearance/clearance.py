@@ -1,4 +1,4 @@
-"""The clearance of an arm from itself: the smallest distance between capsules that could meet."""
+"""The clearance of an arm from itself: the smallest distance between capsules that could collide."""
 
 from __future__ import annotations
 

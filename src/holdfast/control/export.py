@@ -44,10 +44,10 @@ class _Law(Protocol):
 
 
 def check_name(name: str) -> str:
-    """The name of a C function.
+    """The name, if it can be that of a C function.
 
     Raises:
-        InputError: It is none.
+        InputError: It cannot be.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,62}", name) or name in _KEYWORDS.split():
         raise InputError(f"'{name}' cannot name a C function; use letters, digits and underscores, a letter first")

@@ -1,4 +1,4 @@
-"""Control laws: what a controller that knows of no failure commands its joints, given where the end effector should go.
+"""Control laws: what a controller that knows of no failure commands its joints, given where to move the end effector.
 
 Every law is one straight-line program of the task Jacobian and a task velocity, so that the same law runs in the batch
 kernel, in C on a robot's controller and in the browser. The velocity itself is ``Ke`` times the error, slowed down as a

@@ -1,4 +1,4 @@
-"""What a healthy arm's velocity error buys after a failure: the trade-off behind the choice of the pre-failure error.
+"""What a healthy arm's velocity error buys after a failure: the trade-off behind the allowed pre-failure error.
 
 Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, section 2 and conclusion.
 """

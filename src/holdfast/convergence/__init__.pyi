@@ -9,6 +9,7 @@ from holdfast.convergence.measures import Measures as Measures
 from holdfast.convergence.origins import Workspace as Workspace
 from holdfast.convergence.origins import workspace as workspace
 from holdfast.convergence.places import Places as Places
+from holdfast.convergence.places import configurations_at as configurations_at
 from holdfast.convergence.random_motions import PointToPoint as PointToPoint
 from holdfast.convergence.random_motions import point_to_point as point_to_point
 from holdfast.convergence.same_motions import compare_laws as compare_laws

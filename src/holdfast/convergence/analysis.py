@@ -50,7 +50,7 @@ class Beginnings:
                 generator = np.random.default_rng(np.random.SeedSequence([self._seed, first]))
                 owner, _, q = picked_at(arm, task, poses, self._count, self._seed, generator)
             else:
-                owner, q = configurations_at(arm, task, poses, self._count, self._seed)
+                owner, q = configurations_at(arm, task, poses, count=self._count, seed=self._seed)
             self._known[first, stop] = owner, q
         return self._known[first, stop]
 
@@ -136,7 +136,7 @@ class Job:
         return dict(zip(self.names, values, strict=True))
 
     def _finishes(self, q: Array, inside: Flags, owner: Index, starts: int) -> tuple[Array, NDArray[np.int64]]:
-        """Share (R, n + 1) of the part inside from which the failed arm arrives, and how failures ended (starts, 6)."""
+        """Share (R, n + 1) of the part inside from which the failed arm converges, and how failures ended (starts, 6)."""
         n, rows = self.law.arm.n, q.shape[1]
         share, ends = np.full((rows, n + 1), np.nan), np.zeros((starts, len(ENDS)), dtype=np.int64)
         if not self.points or not rows:
@@ -201,7 +201,7 @@ def prepared(
     """What there is to do for a target; it has no bounds where the target is not ``reached``.
 
     Raises:
-        InputError: Wrong shapes or options, or a procedure for a target with whole surfaces of rest points.
+        InputError: Wrong shapes or options, or a procedure for a target with surfaces of stationary points.
         TaskError: An arm without redundancy for the task.
     """
     arm, task = law.arm, law.task
@@ -238,7 +238,7 @@ def _sinks(law: Law, pose: Array) -> dict[int, Arcs]:
         curves = stationary_points(law, pose, locked=j)
         if len(curves.loose):
             raise InputError(
-                f"with {law.arm.joint_names[j]} locked the points of rest form surfaces, which were only sampled, so that the "
+                f"with {law.arm.joint_names[j]} locked the stationary points form surfaces, which were only sampled, so the "
                 "procedure could miss sinks; use method='sampled' or 'brute'"
             )
         circling = [(x - CYCLES, x + CYCLES) for c in curves.curves for x in c.locked[c.hopf_points].tolist()]

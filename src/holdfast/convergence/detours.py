@@ -20,7 +20,7 @@ from holdfast.solvers.inverse_kinematics import task_error
 
 Array = NDArray[np.float64]
 
-NEAR = 1e-3  # rad, and of the arm's own length: a hand within it of its target has as good as arrived
+NEAR = 1e-3  # rad, and of the arm's own length: this near to the target counts as reached
 HORIZON, SAMPLES = 40.0, 64  # 1/Ke; samples of a motion, closer to each other at its start
 
 
@@ -52,7 +52,7 @@ def healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float
     configurations, times = [q0], [now]
     for step in np.diff(until):
         runs = simulate(law, q, target, cycles=cycles, time_limit=float(step), radius=radius)
-        # A run that has ended in a singularity stands there: NaN would spoil what came before.
+        # A run that has ended in a singularity stays there: NaN would spoil what came before.
         q, now = np.where(np.isfinite(runs.q_final), runs.q_final, q), now + np.nan_to_num(runs.time)
         configurations.append(q)
         times.append(now)

@@ -1,7 +1,8 @@
 """The motion of the healthy arm towards a target, before a joint locks, for many starts side by side.
 
 ``q' = G(q) e(q)`` in the time of the law; here it is followed over the fraction s of the way, ``1 - s = exp(-Ke t)``:
-``dq/ds = G(q) e(q) / (1 - s)``. Under an exact inverse the hand is then at the share s of the straight line to the target.
+``dq/ds = G(q) e(q) / (1 - s)``. Under an exact inverse the end effector is then at the share s of the straight line to the
+target.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (5), (6).
 """
@@ -51,7 +52,7 @@ class HealthyPaths:
     def cells(self, q0: Array, poses: Array, count: int) -> Iterator[Array]:
         """Configurations (R, n) at the middle of each of ``count`` equal parts of the way from q0 (R, n) to poses (R, 4, 4).
 
-        A row is NaN from where the motion meets a singular configuration of the law.
+        A row is NaN once the motion meets a singular configuration of the law.
         """
         q, at = q0, 0.0
         place, turn = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])

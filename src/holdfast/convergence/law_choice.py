@@ -1,4 +1,4 @@
-"""Which control law lets the failed arm arrive most often: several laws on the same failures."""
+"""Which control law reaches the target most often after a failure: several laws on the same failures."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class LawChoice(Result):
         return self.maps[self.names.index(name)]
 
     def share(self, name: str, joint: str | int | None = None, confidence: float = 0.95) -> Interval:
-        """Share of the failures after which the hand arrives under a law: of one joint, or of all joints alike.
+        """Share of the failures after which the arm converges under a law: of one joint, or of all joints alike.
 
         Raises:
             InputError: No such law or joint.
@@ -55,10 +55,10 @@ class LawChoice(Result):
         return shared(self._by_place(name, joint), each, confidence)
 
     def difference(self, name: str, other: str, joint: str | int | None = None, *, confidence: float = 0.95) -> Difference:
-        """How much more often the hand arrives under a law than under another, on the same failures.
+        """How much more often one law converges than another, on the same failures.
 
         The interval is of the differences of the places, which are independent; the motions of one are not. It always covers
-        (:meth:`holdfast.probability.intervals.Difference.of_fractions`).
+        (:meth:`holdfast.probability.Difference.of_fractions`).
 
         Raises:
             InputError: No such law or joint, or no place with a motion.
@@ -72,7 +72,7 @@ class LawChoice(Result):
 
     @property
     def ranking(self) -> list[str]:
-        """Names of the laws by the share of all failures after which the hand arrives, the greatest first."""
+        """Names of the laws by the share of failures after which the target is reached, the greatest first."""
         return sorted(self.names, key=lambda name: -float(np.nanmean(self._by_place(name, None))))
 
     @property
@@ -89,7 +89,7 @@ class LawChoice(Result):
         ]
         for name in self.ranking:
             s = self.share(name)
-            line = f"{name}: arrives after {100 * s.value:.1f} % of the failures ({100 * s.low:.1f} to {100 * s.high:.1f} %)"
+            line = f"{name}: converges after {100 * s.value:.1f} % of the failures ({100 * s.low:.1f} to {100 * s.high:.1f} %)"
             if name != best:
                 d = self.difference(name, best)
                 line += f", {100 * d.value:+.1f} points against the best ({100 * d.low:+.1f} to {100 * d.high:+.1f})"
@@ -112,7 +112,7 @@ def best_law(
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> LawChoice:
-    """Which of several laws lets the failed arm arrive most often, whichever joint has locked without anybody knowing.
+    """Which of several laws most often reaches the target with a joint locked that the controller does not know of.
 
     Every law meets the same failures: :func:`holdfast.convergence_map` with the same places, configurations and seed. To
     find the best pre-failure error, give the failure-tolerant law with several.

@@ -35,7 +35,7 @@ class Case:
         failure: ``healthy``, or the name of the joint.
         code: (N,) :class:`holdfast.simulation.Outcome`.
         reason: (N,) :class:`holdfast.simulation.Reason`.
-        reachable: (N,) True where the target can still be reached with the joint standing where it does, as far as was found
+        reachable: (N,) True where the target can still be reached with the joint locked, as far as was found
             and joint limits left aside.
         error: (N,) norm of the task's error at the end, m and rad.
         excess: (N,) that minus the least error that the failed arm could have, as far as was found.
@@ -199,7 +199,7 @@ class LawComparison(Result):
         """How many more of the same motions converge under a law than under another, as a share with its 95 % interval.
 
         Paired: for one joint by the method of Newcombe with exact limits
-        (:meth:`holdfast.probability.intervals.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
+        (:meth:`holdfast.probability.Difference.of_pairs`, which says how well it covers). For ``any joint`` it is the
         mean over the joints of each motion, because the runs of a motion go together, with the interval of fractions, which
         always covers.
 
@@ -208,8 +208,8 @@ class LawComparison(Result):
             failure: ``healthy``, ``any joint``, or a joint by name or index from 0.
             than: The other law; the first if not given.
             among_reachable: Of the motions whose target is still within reach only; not for ``any joint``.
-            undecided: What undecided runs with a target within reach count as, for they may yet arrive: ``lost`` under either
-                law, as if they all arrived under this law (``for``), or as if they all did under the other (``against``).
+            undecided: What undecided runs with a target within reach count as, for they may yet converge: ``lost`` under either
+                law, as if they all converged under this law (``for``), or as if they all did under the other (``against``).
 
         Raises:
             InputError: A law or a joint that was not part of the comparison, or no motion to compare.
@@ -236,8 +236,8 @@ class LawComparison(Result):
         """Mean change of an error at the end of the same motions under a law and under another, with its 95 % interval.
 
         Paired, from the differences of each motion, for ``any joint`` from their means over the joints. Runs that are still
-        moving count as they stood when time was up. Errors have no bound, so the interval is Student's t, which may cover too
-        little for few motions of which a few differ much (:meth:`holdfast.probability.intervals.Difference.of_means`).
+        moving count as they were when time was up. Errors have no bound, so the interval is Student's t, which may cover too
+        little for few motions of which a few differ much (:meth:`holdfast.probability.Difference.of_means`).
 
         Args:
             law: Its name.
@@ -316,7 +316,7 @@ class LawComparison(Result):
         for name in self.names:
             healthy = self.case(name).share()
             assert healthy is not None
-            text = f"{name}: healthy {healthy.value:.1%} arrive"
+            text = f"{name}: healthy {healthy.value:.1%} converge"
             if self.joints:
                 after = self.share_any(name)
                 text += f"; with a joint locked {after.value:.1%} (95 % interval {after.low:.1%} to {after.high:.1%})"

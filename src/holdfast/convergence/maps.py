@@ -1,4 +1,4 @@
-"""Maps of how failed arms end, by sampling: for any arm and task, over places where they start or where they should go."""
+"""Maps of how failed arms end, by sampling: for any arm and task, over places of starts or of targets."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Progress = Callable[[int, int], None]
 TIME_CONSTANTS = 500.0  # 1/Ke
 TOLERANCE = 1e-8
 NONE = 255  # no configuration was found there
-RESTARTS, REACHED = 20, 1e-4  # starts that look for the target with the joint standing; m and rad
+RESTARTS, REACHED = 20, 1e-4  # starts that look for the target with the joint locked; m and rad
 _SLICE = 1 << 16  # runs side by side; no result depends on it
 _BY_LOCK = ("code", "reason", "in_reach", "limits_passed")
 _OUTCOMES = {o.name.lower(): o for o in Outcome}
@@ -50,7 +50,7 @@ class ConvergenceMap(Result):
         target: (P, C, 4, 4) tool poses.
         code: (P, C, n + 1) :class:`holdfast.simulation.Outcome`, 255 where there was no configuration.
         reason: (P, C, n + 1) :class:`holdfast.simulation.Reason`: why a run is undecided.
-        in_reach: (P, C, n + 1) True where the hand came to the target, or could within the limits with the joint standing
+        in_reach: (P, C, n + 1) True where the end effector reached the target, or could within the limits with the joint locked
             as it does: a configuration was found.
         limits_passed: (P, C, n + 1) True where a joint left its limits on the way; the motion does not heed them.
         seed: Of places, configurations and targets.
@@ -174,19 +174,19 @@ def convergence_map(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> ConvergenceMap:
-    """How motions end when a joint stands from their start on and the controller does not know, for each joint.
+    """How motions end when a joint is locked from the start and the controller does not know it, for each joint.
 
     Over ``starts``: from every place the arm starts in ``configurations`` configurations (with one degree of redundancy
     picked at random from points equally far apart on its self-motion, else random ones), towards the target, or one of the
     targets at random. Over ``targets``: towards every place it starts from ``configurations`` configurations picked at
     random from those of the starts, or from ``q0`` (all of them where they are fewer). Each motion is simulated with each
-    joint standing, and with none.
+    joint locked, and with none.
 
     Args:
         law: The control law; of any arm, task and redundancy.
-        targets: Where the hand should go: one position (m,) or pose (4, 4), several, a number of random ones (the hand's
-            places at random configurations within the limits), or ``"grid:52"``, see :func:`holdfast.workspace`.
-        starts: Where the hand is when the joint locks, in the same forms.
+        targets: Where the end effector should go: one position (m,) or pose (4, 4), several, a number of random ones (the end
+            effector's places at random configurations within the limits), or ``"grid:52"``, see :func:`holdfast.workspace`.
+        starts: Where the end effector is when the joint locks, in the same forms.
         configurations: Motions for each place.
         over: Which of the two is the map.
         q0: (n,) or (Q, n) configurations to start from, in place of ``starts``; only over targets.
@@ -280,7 +280,7 @@ def _run(
 
 
 def _in_reach(law: Law, code: NDArray[np.uint8], q: Array, pose: Array, locked: NDArray[np.int64], seed: int) -> Flags:
-    """(N,) True for runs that arrived, and for others if a configuration on the target is found with the joint standing."""
+    """(N,) True where the target was reached, or a configuration on it is found with the joint locked."""
     found = np.asarray(code == Outcome.CONVERGED)
     engine = solver(law.arm.without_idle_limits, law.task)
     rows = np.flatnonzero(~found)

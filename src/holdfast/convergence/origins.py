@@ -1,4 +1,4 @@
-"""Over a workspace: from where does the hand still come to a target when a joint locks on the way and nobody knows?"""
+"""Over a workspace: from which starts a target is still reached when a joint locks on the way and nobody knows."""
 
 from __future__ import annotations
 
@@ -53,14 +53,15 @@ class Workspace(Result):
     Attributes:
         law: The law of the controller.
         target: (4, 4) tool pose; only the rows of the task count.
-        places: Where the hand starts, a :class:`holdfast.convergence.Places`.
+        places: Where the end effector starts, a :class:`holdfast.convergence.Places`.
         bounds: Of each joint the arcs (lower, upper), rad, in which it may lock and the target stays in reach.
         method: ``brute``, ``procedure`` or ``sampled``.
         relative_to: What ``finish`` is a share of: the part of a motion ``inside`` the bounds, or the ``whole``.
         configurations: (P,) starting configurations that were looked at; 0 where the place is out of reach.
         lost: (P,) of them, those whose healthy motion ran into a singular configuration; left out of everything.
         reach: R100, Ravg, Rsens: of the share of a motion from which the target stays in reach, percent.
-        finish: F100, Favg, Fsens: of the share of it from which the failed arm arrives, percent; undecided runs left out.
+        finish: F100, Favg, Fsens: of the share of it from which the failed arm reaches the target, percent; undecided runs left
+            out.
         ends: (P, 6) how the failures ended: converged, stuck, moving, undecided; arriving, which is undecided at the time
             limit but next to a solution that attracts; and not simulated because the joint locked where there is no sink.
     """
@@ -94,7 +95,7 @@ class Workspace(Result):
 
     @property
     def undecided(self) -> float:
-        """Share of the simulated failures that were undecided at the time limit, arriving or not; NaN if there is none."""
+        """Share of the simulated failures that were undecided at the time limit; NaN if there is none."""
         return float(self.ends[:, [Outcome.UNDECIDED, ARRIVING]].sum() / self.simulated) if self.simulated else float("nan")
 
     @property
@@ -132,7 +133,7 @@ class Workspace(Result):
         values = self.measures[name]
         known = (~np.isnan(values)).sum(axis=0).tolist()
         hits = (values >= 100 - 1e-9).sum(axis=0).tolist()
-        none = Interval(np.nan, np.nan, np.nan, confidence)
+        none = Interval(value=np.nan, low=np.nan, high=np.nan, confidence=confidence)
         return tuple(Interval.of(h, k, confidence) if k else none for h, k in zip(hits, known, strict=True))
 
     def to_xarray(self) -> xr.Dataset:
@@ -155,12 +156,12 @@ class Workspace(Result):
             share = f" ({100 * self.undecided:.2f} %)" if self.simulated else ""
             lines.append(
                 f"{self.simulated} failures simulated: {told}, {ends['undecided'] + ends['arriving']} undecided at the time "
-                f"limit{share}, of which {ends['arriving']} next to a solution that attracts, counted as arriving"
+                f"limit{share}, of which {ends['arriving']} next to a solution that attracts, counted as converged"
             )
         if self.method == "procedure":
             lines.append(
                 f"{ends['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked where no sink is, "
-                "which makes arrival very likely and does not prove it"
+                "which makes convergence very likely but does not prove it"
             )
         return lines
 
@@ -184,26 +185,26 @@ def workspace(
     store: str | Path | None = None,
     progress: Progress | None = None,
 ) -> Workspace:
-    """From where the hand still comes to a target when a joint locks on the way and the controller does not know.
+    """From which starts a target is still reached when a joint locks on the way and the controller does not know it.
 
     From every start the arm moves to the target from configurations equally far apart along its self-motion, in joint
-    space; the way is cut into ``cells`` of equal length of the hand's path, looked at in their middle. A joint that locks
-    where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in reach:
-    R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens its
-    greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
+    space; the way is cut into ``cells`` of equal length of the end effector's path, looked at in their middle. A joint that
+    locks where its value is in the range of the target's self-motion (:func:`holdfast.joint_bounds`) leaves the target in
+    reach: R100 is the share of the configurations for which that holds on the whole way, Ravg the mean share of the way, Rsens
+    its greatest minus its least value. At ``points`` of the part inside, for each joint, the failure is simulated
     (:func:`holdfast.simulation.simulate`): F100, Favg and Fsens are the same of the share of that part from which the failed
-    arm arrives. *Any* joint: all joints must be inside, and the arm must arrive whichever fails.
+    arm reaches the target. *Any* joint: all joints must be inside, and the arm must reach the target whichever fails.
 
-    Near the very ends of a range the arm comes to the target ever more slowly. A failure that is undecided at the time limit
-    counts as arriving if it stands next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
+    Near the very ends of a range the arm converges ever more slowly. A failure that is undecided at the time limit
+    counts as converged if it is next to a solution all of whose eigenvalues attract; else it is left out of F. Both are
     counted in ``ends``.
 
     Of the part inside for a joint, the piece that is inside for all joints is sampled with ``points`` points and the rest
     in proportion; both are weighted by their lengths.
 
-    **By sampling** (``method="sampled"``), for any arm and task with a joint to spare: of every start up to
+    **By sampling** (``method="sampled"``), for any redundant arm and task: of every start up to
     ``configurations`` random configurations, with one degree of redundancy from points equally far apart on its curves, with
-    more those at which inverse kinematics arrives from random starts, which are not spread evenly over the manifold. The
+    more those at which inverse kinematics converges from random starts, which are not spread evenly over the manifold. The
     measures are the same, with the configurations that were drawn in place of all: Rsens and Fsens are then too small rather
     than too great, R100 and F100 of a start are estimates of shares, and that they are 100 is necessary, not sufficient, for
     every configuration to do (:meth:`holdfast.Workspace.throughout`). How sure the means over random starts are is told by
@@ -213,7 +214,7 @@ def workspace(
         law: The control law.
         target: (m,) position, or (4, 4) pose, as in :func:`holdfast.simulation.simulate`.
         starts: ``"grid:52"``, a lattice of 52 points along the edge of the square about the workspace (tasks in a plane; 2032
-            places, as in the paper); a number of random places (where the hand is at random configurations); or (P, m)
+            places, as in the paper); a number of random places (where the end effector is at random configurations); or (P, m)
             positions or (P, 4, 4) poses. If not given: the lattice, or 100 random ones where there is none.
         configurations: On each curve of the self-motion of a start; of each start, by sampling or with more than one degree
             of redundancy. 36 on a lattice, else 8, if not given.
@@ -229,15 +230,16 @@ def workspace(
             given: where :func:`holdfast.stationary_points` finds sinks and whole curves of stationary points, and 0.02 rad on
             either side of Hopf points, beside which limit cycles live.
         seed: Of the search for configurations, and of random starts.
-        store: A folder to keep the results in; a stopped analysis goes on there.
+        store: A folder to keep the results in; a stopped analysis resumes there.
         progress: Called with (starts done, starts in all).
 
     Raises:
-        InputError: Wrong shapes or options, a target out of reach, or the procedure where points of rest form surfaces.
+        InputError: Wrong shapes or options, a target out of reach, or the procedure where stationary points form surfaces.
         TaskError: An arm without redundancy for the task.
         StoreError: A folder of another analysis, or one that cannot be written.
 
-    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the hand's
+    Source: Goel, Maciejewski, Balakrishnan 2005, section on the analysis of a workspace. A way's length is that of the end
+    effector's
     path: the paper does not define it. Sampling and its intervals are ours.
     """
     if store is not None:

@@ -1,4 +1,4 @@
-"""Places of the hand from which, or to which, an arm moves: lattices, lists and random ones; and configurations there."""
+"""Places of the tool from which, or to which, an arm moves: lattices, lists and random ones; and configurations there."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _TRIES = 8  # random starts of inverse kinematics for each configuration that is
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places of the hand.
+    """Places of the tool.
 
     Attributes:
         poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
@@ -92,7 +92,7 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
 
 
 def random_places(arm: Arm, count: int, generator: np.random.Generator) -> Places:
-    """Where the hand is at ``count`` random configurations, uniform within the joint limits."""
+    """Where the tool is at ``count`` random configurations, uniform within the joint limits."""
     from holdfast.arm.configurations import finite_limits
 
     low, high = finite_limits(arm)
@@ -142,11 +142,18 @@ def _at(points: Array) -> Array:
 # ---- configurations there ----------------------------------------------------------------------------------------
 
 
-def configurations_at(arm: Arm, task: Task, places: Array, count: int, seed: int) -> tuple[Index, Array]:
+def configurations_at(arm: Arm, task: Task, places: Array, *, count: int, seed: int) -> tuple[Index, Array]:
     """Configurations of places (P, 4, 4): which place each belongs to (R,), and they (R, n), in order of places.
 
     With one degree of redundancy ``count`` on every curve of the self-motion that was found, equally far apart along it in
     joint space; else up to ``count`` random ones of each place. Places out of reach have none.
+
+    Args:
+        arm: The arm; limits of joints that may make a whole turn do not count.
+        task: What of a place matters.
+        places: (P, 4, 4) poses of the end effector in the base frame.
+        count: Configurations of a curve, or at most of a place.
+        seed: Of the random starts.
 
     Source: Goel et al. 2005, section on the analysis of a workspace.
     """
@@ -197,7 +204,7 @@ def picked_at(
     Returns:
         Which place each belongs to (R,), in ascending order, its number there (R,), and they (R, n).
     """
-    owner, found = configurations_at(arm, task, places, count, seed)
+    owner, found = configurations_at(arm, task, places, count=count, seed=seed)
     # Of several curves some points of each: a random choice of all.
     order = np.lexsort([generator.random(len(owner)), owner])
     owner, found = owner[order], found[order]

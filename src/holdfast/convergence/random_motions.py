@@ -1,4 +1,4 @@
-"""Random point-to-point motions: where a hand starts, and where it is sent."""
+"""Random point-to-point motions: where the end effector starts, and where it is sent."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def point_to_point(
         seed: The same seed gives the same motions, and more of them begin with the same ones.
         distance: Least and greatest distance of the tool from start to target, m; any if not given.
         reachable_after: Joints, by name or index from 0, or ``"each"``: only motions whose target can be reached, within the
-            limits, also with any one of them standing where it starts. Decided by inverse kinematics as
+            limits, also with any one of them locked where it starts. Decided by inverse kinematics as
             :func:`holdfast.solve_ik` does, so a target that is hard to reach may be taken for one that is not.
         task: Rows of the target that must be reached then; nothing else depends on it.
         restarts: Random starts of that inverse kinematics.

@@ -139,7 +139,7 @@ def _poses(law: Law, goal: Array) -> Array:
 
 
 def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Array:
-    """(F N,) least errors: joints stand where they started, so what one law's runs find is true for all of them."""
+    """(F N,) least errors: joints are locked where they started, so what one law's runs find is true for all of them."""
     least = np.full(len(runs[0]), np.inf)
     for r in runs:
         least = np.fmin(least, np.where(r.code == Outcome.CONVERGED, r.error, np.inf))

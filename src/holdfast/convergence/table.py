@@ -9,18 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from holdfast.convergence.places import Places
 from holdfast.files.output import made, replaced, writing
-
-
-def axis_label(direction: NDArray[np.float64]) -> str:
-    """What an axis of a map shows, from its direction (3,) in the world: ``x, m``."""
-    k = int(np.argmax(np.abs(direction)))
-    if abs(direction[k]) < 1 - 1e-9:
-        return "along (" + ", ".join(f"{v:.2f}" for v in direction) + "), m"
-    return ("" if direction[k] > 0 else "-") + "xyz"[k] + ", m"
 
 
 def save_places(

@@ -35,7 +35,7 @@ class TargetMeasures(Result):
 
     Attributes:
         law: The law of the controller.
-        targets: Where the hand should go.
+        targets: Where the end effector should go.
         starts: Where it begins.
         values: R100, Ravg, Rsens, F100, Favg and Fsens by name, (T, S, n + 1) each, percent; NaN for a target or start out of
             reach, and F where no failure leaves the target in reach.
@@ -110,7 +110,7 @@ def target_measures(
     """The measures of :func:`holdfast.workspace` for many targets, over the same starts.
 
     Args:
-        law: The law of the controller, with one joint to spare or more.
+        law: The law of the controller, of a redundant arm.
         targets: A lattice (``"grid:14"``, for a task in a plane), a number of random ones, (T, m) positions or (T, 4, 4)
             poses. If not given: the lattice ``"grid:12"``, or 50 random ones where there is none.
         starts: Likewise; 20 random ones if not given.

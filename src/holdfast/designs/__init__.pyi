@@ -1,8 +1,14 @@
 from holdfast.designs.convergence import ConvergenceDesigns as ConvergenceDesigns
 from holdfast.designs.convergence import design_for_convergence as design_for_convergence
+from holdfast.designs.convergence import planar_measures as planar_measures
 from holdfast.designs.designs import Check as Check
 from holdfast.designs.designs import Checked as Checked
 from holdfast.designs.designs import Designs as Designs
+from holdfast.designs.evaluation import Evaluated as Evaluated
+from holdfast.designs.evaluation import Evaluator as Evaluator
+from holdfast.designs.family import Family as Family
+from holdfast.designs.gradient import Sensitivity as Sensitivity
+from holdfast.designs.gradient import sensitivity as sensitivity
 from holdfast.designs.joints import DesignJoints as DesignJoints
 from holdfast.designs.joints import LawOfDesigns as LawOfDesigns
 from holdfast.designs.planar import PlanarRest as PlanarRest

@@ -1,4 +1,4 @@
-"""How often failed arms of many designs arrive, by simulation: any arm, task and law, all designs in one batch."""
+"""How often failed arms of many designs reach their target, by simulation: any arm, task and law, all designs in one batch."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from holdfast.solvers import joint_space
 Array = NDArray[np.float64]
 
 TIME_CONSTANTS, TOLERANCE = 500.0, 1e-8  # of a run, as in a convergence map
-NEAR = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has arrived
+NEAR = 1e-3  # rad, and of the arm's own length: a run that creeps this near to its target has converged
 _TRIES = 40  # random starts of inverse kinematics for each configuration that is wanted
 
 
@@ -27,13 +27,13 @@ class Arrivals:
     """How D designs do at T targets, after C failures of each joint.
 
     Attributes:
-        arrived: (D, T, C, n) the hand came to the target.
+        converged: (D, T, C, n) True where the target was reached.
         known: (D, T, C) there was a configuration at the target to take the locked angles from.
         ends: (D, 4) how the runs ended, by :class:`holdfast.simulation.Outcome`; undecided ones next to the target have
             converged.
     """
 
-    arrived: NDArray[np.bool_]
+    converged: NDArray[np.bool_]
     known: NDArray[np.bool_]
     ends: NDArray[np.int64]
 
@@ -44,10 +44,10 @@ class Arrivals:
 
     @property
     def by_target(self) -> Array:
-        """(D, T) share of the failures of a target after which the hand arrives; NaN where it is out of reach."""
+        """(D, T) share of the failures of a target after which it is still reached; NaN where it is out of reach."""
         count = self.known.sum(axis=2)
         with np.errstate(invalid="ignore"):
-            share = self.arrived.mean(axis=3).sum(axis=2) / np.where(count > 0, count, np.nan)
+            share = self.converged.mean(axis=3).sum(axis=2) / np.where(count > 0, count, np.nan)
         return np.asarray(share)
 
     @property
@@ -59,7 +59,7 @@ class Arrivals:
 class Failures:
     """The same failures for every design: targets, and random numbers for configurations and starts.
 
-    A joint locks where it stands in a configuration at the target, so that the target stays in reach; the arm starts from a
+    A joint locks where it is in a configuration at the target, so that the target stays in reach; the arm starts from a
     random configuration with that joint there.
 
     Args:
@@ -82,7 +82,7 @@ class Failures:
         joints, poses = self.law.joints, self.poses
         n, shape = joints.arm.n, (len(values), len(poses), self.count)
         at, known = self._configurations(values)
-        # Each joint in turn stands where it is at the target.
+        # Each joint in turn is locked where it is at the target.
         q0 = np.broadcast_to(self._starts, (*shape, n, n)).copy()
         each = np.arange(n)
         q0[..., each, each] = at
@@ -98,11 +98,11 @@ class Failures:
         )
         left = own_units(self.law, runs.error, runs.x_final, poses[target])
         near = (runs.code == Outcome.CONVERGED) | ((runs.code == Outcome.UNDECIDED) & (left < NEAR))
-        arrived = np.zeros((*shape, n), dtype=bool)
-        arrived[rows] = near
+        converged = np.zeros((*shape, n), dtype=bool)
+        converged[rows] = near
         ends = np.zeros((len(values), len(Outcome)), dtype=np.int64)
         np.add.at(ends, (design, np.where(near, Outcome.CONVERGED, runs.code)), 1)
-        return Arrivals(arrived, known, ends)
+        return Arrivals(converged, known, ends)
 
     def _configurations(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:
         """(D, T, C, n) configurations at the targets within the limits, and (D, T, C) which there are."""

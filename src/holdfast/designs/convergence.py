@@ -1,4 +1,4 @@
-"""Which arm to build so that it still arrives when a joint locks and its controller does not know."""
+"""Which arm to build so that it still reaches its targets when a joint locks and its controller does not know."""
 
 from __future__ import annotations
 
@@ -40,18 +40,18 @@ _FRESH = 8  # times as many targets in the check of a sampled search
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvergenceDesigns(Result):
-    """Designs of an arm by how surely they arrive after an unidentified lock; the given arm is design 0.
+    """Designs of an arm by how often they converge after an unidentified lock; design 0 is the given arm.
 
     Attributes:
         law: The law, of the given arm.
         space: What is varied.
         values: (D, k) of all designs that were looked at, m and rad.
         measures: By name, (D,) each. ``guaranteed``: share of the targets (of the area, for planar arms) that whatever lock
-            leaves within reach the arm arrives at, as far as no sink and no singular trap holds it (exact only);
+            leaves within reach the arm converges to, as far as no sink and no singular trap holds it (exact only);
             ``free``: share of the locks that leave the target within reach after which nothing can hold the arm (exact), or it
-            arrived (sampled), every joint alike; ``arrival``: share of all locks after which the target is in reach and nothing
-            can hold the arm (exact); mean over the targets of the share of failures after which it arrived, 0 for targets out
-            of reach (sampled); ``reached``: share of the targets that the healthy arm reaches.
+            converged (sampled), every joint alike; ``arrival``: share of all locks after which the target is in reach and
+            nothing can hold the arm (exact); mean over the targets of the share of failures after which it converged, 0 for
+            targets out of reach (sampled); ``reached``: share of the targets that the healthy arm reaches.
         objective: What was maximised.
         exact: From the stationary sets, not from simulations.
         best: Index of the best design.
@@ -129,14 +129,14 @@ def design_for_convergence(
     progress: Progress | None = None,
     store: str | Path | None = None,
 ) -> ConvergenceDesigns:
-    """Search for the arm that arrives most surely when a joint has locked and its controller does not know.
+    """Search for the arm that most surely reaches its targets with a joint locked that its controller does not know of.
 
     **Planar arms of three joints** (pseudoinverse, weighted by joint, damped): exact, up to a grid of 1.5 deg in one angle.
-    Where the arm can come to rest away from the target is known for all targets at once, and so, for every distance of the
+    Where the arm can stop away from the target is known for all targets at once, and so, for every distance of the
     target, at which locked angles that leave it within reach there is a sink, or a singular configuration that draws the arm
     in. No sink and no trap does not exclude limit cycles, of which one is known; see :func:`holdfast.equilibria.orbit`.
 
-    **Any other arm, task or law**: by simulation of the same random failures for all designs. A joint locks where it stands in
+    **Any other arm, task or law**: by simulation of the same random failures for all designs. A joint locks where it is in
     some configuration at the target, so that the target stays within reach, and the arm starts anywhere.
 
     Neither measure is smooth in the design. A scrambled Sobol sequence screens the bounds, together with designs in which two
@@ -148,7 +148,7 @@ def design_for_convergence(
         vary: What is varied, and between which bounds, m and rad: ``{"a2": (0.5, 1.5), "tool.z": (0.0, 0.2)}``, or whatever
             else :func:`holdfast.designs.design_space` takes; not joint limits.
         targets: Exact: the range of distances from the first joint, m; from 0 to the reach of the given arm if not given.
-            Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's hand; 12 if not given.
+            Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's tool; 12 if not given.
         objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
             ``arrival``. ``arrival``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``arrival``.
         designs: Of the screening.
@@ -158,7 +158,7 @@ def design_for_convergence(
         failures: Of each joint for each target (sampled).
         seed: Of the designs, and of all random numbers of a sampled search.
         progress: Called with (designs done, designs expected in all).
-        store: Folder in which a sampled search that was stopped is remembered and goes on; an exact one takes seconds.
+        store: Folder from which a stopped sampled search resumes; an exact one takes seconds.
 
     Raises:
         InputError: Names, bounds or options that do not fit; a law or an arm without exact sets, if ``exact`` is True.
@@ -247,7 +247,7 @@ def _exact(
 
 
 def planar_measures(radial: Radial) -> dict[str, Array]:
-    """The measures of :class:`ConvergenceDesigns`, (D,) each, over the area of the rings."""
+    """The measures of :class:`holdfast.ConvergenceDesigns`, (D,) each, over the area of the rings."""
     area = radial.area
     in_reach, stuck = ((area * x).sum(axis=2) for x in (radial.in_reach, radial.stuck))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -299,7 +299,7 @@ def _sampled(
     def looked(values: Array) -> Parts:
         a = seen.of(values)
         with np.errstate(invalid="ignore"):
-            free = a.arrived.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
+            free = a.converged.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
         return {"free": free, "arrival": a.arrival, "reached": a.reached}
 
     def measured(values: Array) -> dict[str, Array]:

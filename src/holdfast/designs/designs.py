@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,40 @@ class Checked:
 
     distribution: Distribution
     guaranteed: Interval
+
+    @classmethod
+    def of(cls, value: Array, reached: NDArray[Any], weights: Array, *, level: float, heaviest: float = 0.0) -> Checked:
+        """The distribution on fresh poses, and its quantile with the order statistics that enclose it.
+
+        Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
+
+        Args:
+            value: (P,) index of each pose.
+            reached: (P,) whether it was reached.
+            weights: (P,) of the poses; empty if all count alike.
+            level: Share of the poses that have at least the quantile.
+            heaviest: Largest weight that a pose can have.
+
+        Source: David and Nagaraja 2003, section 7.1, for the interval.
+        """
+        from scipy.stats import binom
+
+        there = reached.astype(bool)
+        if weights.size:
+            d = Distribution.of(
+                value[there],
+                "larger",
+                int((~there).sum()),
+                weights=weights[there],
+                unreached_weights=weights[~there],
+                heaviest=heaviest,
+            )
+        else:
+            d = Distribution.of(value[there], "larger", int((~there).sum()))
+        size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
+        ends = np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share)) / size
+        low, middle, high = d.quantile(np.clip([ends[0], share, ends[1] + 1 / size], 0, 1), reachable_only=False).tolist()
+        return cls(d, Interval(value=middle, low=low if ends[0] > 0 else 0.0, high=high, confidence=confidence))
 
 
 @dataclass(frozen=True)
@@ -163,7 +198,7 @@ class Designs(Result):
 
 
 def chosen(x: float) -> str:
-    """A share that somebody chose."""
+    """A share that was chosen."""
     return f"{100 * x:.4g} %"
 
 

@@ -31,7 +31,7 @@ _IK_ROWS, _ASCENT_ROWS = 500, 100  # steps for each design and pose (measured: 5
 _ROWS = 1 << 16  # starts side by side; no result depends on it
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Evaluated:
     """D designs at P poses.
 
@@ -40,7 +40,7 @@ class Evaluated:
         q: (D, P, n) the best configuration found, rad and m; where the pose is not reached the one that comes nearest.
         value: (D, P) the index there; 0 where the pose is not reached.
         reached: (D, P) a configuration within the limits was found.
-        miss: (D, P) how near the hand came where it was not: length of the task's error, m and rad; 0 where it was.
+        miss: (D, P) how near the end effector came where it was not: length of the task's error, m and rad; 0 where it was.
         kept: (D, P, K, n) configurations to begin from nearby, best first; NaN where there are fewer.
     """
 
@@ -53,16 +53,17 @@ class Evaluated:
 
     def take(self, designs: Any) -> Evaluated:
         """Some of the designs."""
-        return Evaluated(*(getattr(self, name)[designs] for name in self.__dataclass_fields__))
+        return Evaluated(**{name: getattr(self, name)[designs] for name in self.__dataclass_fields__})
 
     @staticmethod
     def joined(parts: list[Evaluated]) -> Evaluated:
         """Several, one after the other."""
-        return Evaluated(*(np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__))
+        return Evaluated(**{name: np.concatenate([getattr(x, name) for x in parts]) for name in Evaluated.__dataclass_fields__})
 
     @property
     def extended(self) -> Array:
-        """(D, P) the index; where the pose is not reached, less than 0 by how far the hand stays away, as one per m and rad.
+        """(D, P) the index; where the pose is not reached, less than 0 by how far the end effector stays away, as one per m and
+        rad.
 
         So that a search is drawn towards poses that a design does not reach yet.
         """
@@ -118,7 +119,14 @@ class Evaluator:
     def _empty(self) -> Evaluated:
         p, n, k = len(self.poses), self.family.arm.n, len(self.family.space.parameters)
         nothing, none = np.empty((0, p)), np.empty((0, p), dtype=bool)
-        return Evaluated(np.empty((0, k)), np.empty((0, p, n)), nothing, none, nothing, np.empty((0, p, _KEPT, n)))
+        return Evaluated(
+            values=np.empty((0, k)),
+            q=np.empty((0, p, n)),
+            value=nothing,
+            reached=none,
+            miss=nothing,
+            kept=np.empty((0, p, _KEPT, n)),
+        )
 
     def _grown(self, values: Array, near: Evaluated, fresh: int) -> Evaluated:
         space = self.family.space
@@ -169,12 +177,12 @@ class Evaluator:
         miss = np.where(reached, 0.0, miss)
         shape = (d, p)
         return Evaluated(
-            values,
-            nearest.reshape(*shape, n),
-            best.reshape(shape),
-            reached.reshape(shape),
-            miss.reshape(shape),
-            kept.reshape(*shape, _KEPT, n),
+            values=values,
+            q=nearest.reshape(*shape, n),
+            value=best.reshape(shape),
+            reached=reached.reshape(shape),
+            miss=miss.reshape(shape),
+            kept=kept.reshape(*shape, _KEPT, n),
         )
 
     def _random(self, values: Array, owner: Index, number: Index) -> Array:
@@ -189,7 +197,7 @@ class Evaluator:
         return made_finite(*self.family.limits(values), self.family.prismatic)
 
     def _arrived(self, values: Array, owner: Index, q: Array, nearest: Array, miss: Array) -> tuple[Index, Array]:
-        """Inverse kinematics from starts q (R, n): those that arrived. Where the others ended is noted if it is nearest."""
+        """Inverse kinematics from starts q (R, n): those that converged. Where the others ended is noted if it is nearest."""
         design, pose = np.divmod(owner, len(self.poses))
         low, high = self.family.limits(values)
         parameters = np.concatenate([self._targets[pose], values[design]], axis=1)

@@ -1,6 +1,6 @@
 """All designs of a space as one arm with symbols for the numbers that are open: what is compiled serves every design.
 
-The symbols stand directly in the arm's constants, so the equations of ``arm``, ``indices`` and ``solve`` are used as they are
+The symbols are the arm's constants themselves, so the equations of ``arm``, ``indices`` and ``solve`` are used as they are
 and what is not varied still vanishes from the code where it is 0. (The other way, a locked joint for every parameter in a
 longer chain, needs no symbols but makes every kernel longer, and has no place for joint limits.)
 """
@@ -44,7 +44,7 @@ class SymbolicJoint(Joint):
 
 @dataclass(frozen=True, eq=False)
 class SymbolicArm(Arm):
-    """An arm whose constants may be symbols: to write equations with, not to be evaluated itself."""
+    """An arm whose constants may be symbols: for equations only."""
 
     limits: tuple[Sequence[SX], Sequence[SX]] = field(default=((), ()))
 
@@ -126,7 +126,7 @@ class Family:
     Args:
         space: The designs.
         objective: An index by name, larger is better.
-        task: What the hand must do.
+        task: What the end effector must do.
         failures: Which joints fail.
         length: Characteristic length of the task, m.
 
@@ -144,6 +144,7 @@ class Family:
         space: DesignSpace,
         objective: str = "relative-manipulability",
         task: str | Task | Sequence[str] = "pose",
+        *,
         failures: FailureSpec = "single",
         length: float | None = None,
     ) -> None:
@@ -188,7 +189,7 @@ class Family:
 
     @cached_property
     def prismatic(self) -> NDArray[np.bool_]:
-        """(n,) True for sliding joints."""
+        """(n,) True for prismatic joints."""
         return np.array([r.type == "prismatic" for r in self.space.table.rows])
 
     # ---- kernels ---------------------------------------------------------------------------------------------------

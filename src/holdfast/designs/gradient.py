@@ -32,7 +32,7 @@ _CURVED = 1e-2  # of the quadratic program: steps of this size are worth a chang
 _SMALL = 1e-8  # what counts as 0 of the conditions
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sensitivity:
     """R designs and poses.
 
@@ -65,7 +65,7 @@ def sensitivity(evaluator: Evaluator, found: Evaluated, chosen: Index) -> Sensit
     for rows, solve in ((np.flatnonzero(reached), _of_reached), (np.flatnonzero(~reached), _of_missed)):
         if rows.size:
             q[rows], value[rows], gradient[rows], exact[rows] = solve(evaluator, found.values, chosen[rows], q[rows])
-    return Sensitivity(q, value, gradient, exact)
+    return Sensitivity(q=q, value=value, gradient=gradient, exact=exact)
 
 
 def _by_limits(evaluator: Evaluator, force: Array) -> Array:
@@ -195,7 +195,7 @@ class _Problem:
         return np.asarray(np.einsum("rim,ri->rm", inverse, np.nan_to_num(pull)))
 
     def solved(self, start: _Point) -> tuple[_Point, NDArray[np.bool_]]:
-        """Newton's method from nearby, with the constraints that are active sought on the way; and where it arrived."""
+        """Newton's method from nearby, with the active constraints sought on the way; and where it ended."""
         q, n = start.q.copy(), self._n
         failures, force = start.failures, start.force
         active = failures > 1e-3
@@ -257,7 +257,7 @@ class _Problem:
             force = np.where(go, step[:, r + 1 + f :], force)
             ahead = scores + np.einsum("rfi,ri->rf", slopes, move)
             level = np.where(active, ahead, np.inf).min(axis=1)
-            # What lets go leaves the set, what would be crossed joins it.
+            # What is no longer active leaves the set, what would be crossed joins it.
             active = np.where(go, np.where(active, failures >= -1e-9, ahead < level[:, None] - 1e-9), active)
             failures = np.where(active, failures, 0.0)
             reach = q + move

@@ -1,4 +1,4 @@
-"""An arm in which every varied number is a joint of its own that stands still: one compiled law for all designs.
+"""An arm in which every varied number is a joint of its own that never moves: one compiled law for all designs.
 
 A link length is a slide along the link, a twist or a tool angle a turn about it. Simulation, inverse kinematics and
 linearisation then take designs as they take configurations, each row its own, and nothing is compiled again.
@@ -34,14 +34,14 @@ class DesignJoints:
         space: What is varied; not joint limits.
         whole: The arm with n + k joints.
         moving: (n,) The arm's own joints, as indices of the whole.
-        standing: (k,) Those of the design.
+        varied: (k,) Those of the design.
     """
 
     space: DesignSpace
     whole: Arm
     moving: NDArray[np.intp]
     _: KW_ONLY
-    standing: NDArray[np.intp]
+    varied: NDArray[np.intp]
 
     @classmethod
     def of(cls, space: DesignSpace) -> DesignJoints:
@@ -70,7 +70,7 @@ class DesignJoints:
         )
         at = {joint.name: k for k, joint in enumerate(joints)}
         moving = np.array([at[name] for name in arm.joint_names])
-        return cls(space, whole, moving, standing=np.array([at[name] for name in space.names]))
+        return cls(space, whole, moving, varied=np.array([at[name] for name in space.names]))
 
     @property
     def arm(self) -> Arm:
@@ -81,7 +81,7 @@ class DesignJoints:
         """(N, n + k) of the whole for designs (k,) or (N, k) and configurations (n,) or (N, n) of the arm."""
         rows = max(len(np.atleast_2d(values)), len(np.atleast_2d(q)))
         out = np.empty((rows, self.whole.n))
-        out[:, self.standing], out[:, self.moving] = values, q
+        out[:, self.varied], out[:, self.moving] = values, q
         return out
 
     @cached_property
@@ -93,7 +93,7 @@ class DesignJoints:
 
 
 class LawOfDesigns(Law):
-    """The same law on any design: joints of the design have no part in it.
+    """The same law on any design: it moves no joint of the design.
 
     Args:
         law: The law of the given arm.
@@ -108,7 +108,7 @@ class LawOfDesigns(Law):
         self.law, self.joints = law, joints
 
     def inverse(self, j: SX, v: SX) -> SX:
-        """The law's own inverse with the columns of the joints that move; the others stand."""
+        """The law's own inverse with the columns of the joints that move."""
         rates = self.law.inverse(j[:, self.joints.moving.tolist()], v)
         return ca.SX(ca.DM(np.eye(self.arm.n)[:, self.joints.moving])) @ rates
 

@@ -1,15 +1,15 @@
 """Where planar arms of three joints get stuck, for all targets and any link lengths at once.
 
-The reverse of :func:`holdfast.stationary_points`: not the rest points of one target, but the targets of every rest point. With
-joint i locked the arm can only rest where the columns of the two healthy joints line up, ``rank(iJ) = 1``: a curve of
-shapes (two of the three angles) that no target enters. On it the error must be along one direction b, so that the targets
+The reverse of :func:`holdfast.stationary_points`: not the stationary points of one target, but the targets of every stationary
+point. With joint i locked the arm can only rest where the columns of the two healthy joints line up, ``rank(iJ) = 1``: a curve
+of shapes (two of the three angles) that no target enters. On it the error must be along one direction b, so that the targets
 of a shape lie on a line ``x + lambda b``, and the linearised motion is ``M0 + lambda M1`` there: where it is a sink is a
 question of a quadratic (the determinant) and a linear (the trace) function of lambda. Turning the arm turns everything,
 so that a target is its distance r from the first joint.
 
 With joint 1 locked the Jacobian loses rank where all links line up, and without damping the law has no bounds there. Such a
-point can draw the arm in, in a finite time: a *singular trap*. With the hand at X along link 1, the other joints 2 and 3 at
-small angles d, and u the direction of the links, the motion near it is ``d' = (u e) M d / (d' Q d)``: a linear one but for
+point can draw the arm in, in a finite time: a *singular trap*. With the end effector at X along link 1, the other joints 2 and
+3 at small angles d, and u the direction of the links, the motion near it is ``d' = (u e) M d / (d' Q d)``: a linear one but for
 its clock, and M decides.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (22). Turned round and for singular traps, ours.
@@ -55,8 +55,8 @@ class Radial:
         radii: (K + 1,) borders of the rings of targets, m.
         in_reach: (D, 3, K) share of the angles at which a joint may lock that leave the target within reach, in the middle of
             the ring.
-        stuck: (D, 3, K) share of them at which it is within reach and the arm can get stuck away from it: there is a sink or a
-            singular trap. Angles at which a whole line of rest points lies have no width and are not in it.
+        stuck: (D, 3, K) share of them at which it is within reach and the arm can stop away from it: there is a sink or a
+            singular trap. Angles at which a whole line of stationary points lies have no width and are not in it.
         clear: (D, 3, K) no target of the ring has such an angle.
         reached: (D, K) the healthy arm reaches the ring.
     """
@@ -110,7 +110,7 @@ class PlanarRest:
 
     @cached_property
     def _kernels(self) -> tuple[Kernel, Kernel]:
-        """Jacobian and hand of (q, lengths); the linearisation by q and by the error, for an error along a direction."""
+        """Jacobian and tool of (q, lengths); the linearisation by q and by the error, for an error along a direction."""
         arm, moving = self._joints.whole, self._joints.moving.tolist()
         q, v = kinematics.joint_symbols(arm), ca.SX.sym("v", 2)
         # As the law sees it: in units of the task's characteristic length.
@@ -192,16 +192,16 @@ class PlanarRest:
         for s2 in (1, -1):
             for s3 in (1, -1):
                 c2, c3 = s2 * second + s3 * third, s3 * third
-                c1 = first + c2  # the hand, along link 1
+                c1 = first + c2  # the end effector, along link 1
                 norm = np.maximum(a1 * c1**2 + a2 * c2**2 + a3 * c3**2, 1e-300)
-                # Sideways the joints move the hand by c; along the links by -B d, less what goes with c.
+                # Sideways the joints move the end effector by c; along the links by -B d, less what goes with c.
                 b = -np.array([[c2, c3], [c3, c3]])
                 off = np.array([[1 - c2 * (a1 * c1 + a2 * c2) / norm, -c2 * a3 * c3 / norm]])
                 off = np.concatenate([off, [[-c3 * (a1 * c1 + a2 * c2) / norm, 1 - c3 * a3 * c3 / norm]]])
                 m = np.einsum("i,ijd,jkd->ikd", np.array([a2, a3]), off, b)
                 trace, det = m[0, 0] + m[1, 1], m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
                 pull = r * np.cos(locked) - c1[:, None]
-                # With the hand on the first joint the determinant is 0, and such points were seen to trap too.
+                # With the end effector on the first joint the determinant is 0, and such points were seen to trap too.
                 out |= (det > -ZERO_BAND * trace**2)[:, None] & (pull * trace[:, None] < 0)
         return out
 
@@ -214,11 +214,11 @@ class _Shapes:
         lengths: (D, 3).
         joint: The locked one, from 0.
         angle: (S,) the angle run through; for joints 2 and 3 it is the locked one.
-        hand, along: (D, 2, S, 2) the hand and the direction b, link 1 along x.
+        hand, along: (D, 2, S, 2) the tool point and the direction b, link 1 along x.
         trace: Two (D, 2, S): of M0 and of M1.
         det: Three (D, 2, S): of 1, lambda and lambda^2.
-        reach: Two (D, 2, S): from the hand to the middle about which the two links turn that are left, its product with b and
-            its square.
+        reach: Two (D, 2, S): from the end effector to the middle about which the two links turn that are left, its product with
+            b and its square.
         low, high: (D, 2, S) between which distances from the middle they reach.
     """
 
@@ -243,7 +243,7 @@ class _Shapes:
 
         def at(solved: Array | float) -> Array:
             q = np.zeros((count, angles, joints.whole.n))
-            q[..., joints.standing] = lengths[:, None]
+            q[..., joints.varied] = lengths[:, None]
             q[..., joints.moving[_RUN[joint]]] = angle
             q[..., joints.moving[_SOLVED[joint]]] = solved
             return q.reshape(-1, joints.whole.n)
@@ -285,7 +285,7 @@ class _Shapes:
         return cls(lengths, joint, angle, hand, along, (t0, t1), (d0, d1, d2), reach, low, high)
 
     def sinks(self, far: Array) -> Flags:
-        """(D, 2, S) whether the rest point is a sink whose target is ``far`` (D, 2, S) along b, and is in reach."""
+        """(D, 2, S) whether the stationary point is a sink whose target is ``far`` (D, 2, S) along b, and is in reach."""
         with np.errstate(invalid="ignore"):
             trace = self.trace[0] + far * self.trace[1]
             det = self.det[0] + far * (self.det[1] + far * self.det[2])

@@ -25,7 +25,7 @@ _STILL = 1e-22  # squared change of the joints, rad or m, at which a row is done
 class Reaches:
     """Reaches of all designs of a family, compiled once.
 
-    Joint by joint the squared distance is a cosine of a turning joint and a parabola of a sliding one, so the best value of a
+    Joint by joint the squared distance is a cosine of a revolute joint and a parabola of a sliding one, so the best value of a
     joint with the others held still has a closed form, within limits too. Sweeps over the joints only ever raise the distance.
 
     Args:
@@ -42,7 +42,7 @@ class Reaches:
 
         Args:
             values: (D, k).
-            limits: Finite limits (D, n) to begin between, :meth:`holdfast.designs.evaluation.Evaluator.finite_limits`.
+            limits: Finite limits (D, n) to begin between, :meth:`holdfast.designs.Evaluator.finite_limits`.
         """
         d, n = len(values), self._family.arm.n
         low, high = limits

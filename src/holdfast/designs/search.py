@@ -26,8 +26,6 @@ from holdfast.engine.memory import Memory, Parts
 from holdfast.errors import InputError
 from holdfast.failures import FailureSpec
 from holdfast.notice import says
-from holdfast.probability.distribution import Distribution
-from holdfast.probability.intervals import Interval
 from holdfast.regions.region import Region, default_region
 
 Array = NDArray[np.float64]
@@ -84,7 +82,7 @@ def design(
         climbs: Climbs; the first half for the greatest value, the others for a given reach each, along the front.
         fresh: Poses of the final check.
         seed: The same seed gives the same result, whatever the number of threads.
-        store: Folder in which a search that was stopped is remembered and goes on.
+        store: Folder from which a stopped search resumes.
         progress: Called with (done, in all), in designs.
 
     Returns:
@@ -105,7 +103,7 @@ def design(
             raise InputError(f"{what} is {count}; it must be {least} or more")
     space = design_space(arm, vary)
     region = _own_region(arm) if region is None else region
-    family = Family(space, objective, task, failures, length)
+    family = Family(space, objective, task, failures=failures, length=length)
     search = _Search(family, region, level, poses, seed)
     plan = {
         "kind": "design",
@@ -160,7 +158,8 @@ def design(
     best = best_design(merged["guaranteed"], merged["reach"])
     checks = part(f"check {best}", lambda: search.fresh(every[[0, best]], fresh))
     given, chosen = (
-        _checked(checks["value"][i], checks["reached"][i], checks["weights"], level, region.heaviest) for i in (0, 1)
+        Checked.of(checks["value"][i], checks["reached"][i], checks["weights"], level=level, heaviest=region.heaviest)
+        for i in (0, 1)
     )
     return Designs(
         space=space,
@@ -243,34 +242,6 @@ def _beginnings(smooth: Array, reach: Array, values: Array, space: DesignSpace, 
             able = np.flatnonzero(reach >= least)
             found.append((int(able[np.argmax(smooth[able])]), float(least)))
     return found
-
-
-def _checked(value: Array, reached: NDArray[Any], weights: Array, level: float, heaviest: float) -> Checked:
-    """The distribution on fresh poses, and its quantile with the order statistics that enclose it.
-
-    Of fewer poses than it takes for any to be below the quantile for sure (72 for a level of 0.95), the lower end is 0.
-
-    Source: David and Nagaraja 2003, section 7.1, for the interval.
-    """
-    from scipy.stats import binom
-
-    there = reached.astype(bool)
-    if weights.size:
-        d = Distribution.of(
-            value[there],
-            "larger",
-            int((~there).sum()),
-            singular=0,
-            weights=weights[there],
-            unreached_weights=weights[~there],
-            heaviest=heaviest,
-        )
-    else:
-        d = Distribution.of(value[there], "larger", int((~there).sum()))
-    size, share, confidence = int(d.effective() + 1e-9), 1 - level, 0.95
-    ends = np.asarray(binom.ppf([(1 - confidence) / 2, (1 + confidence) / 2], size, share)) / size
-    low, middle, high = d.quantile(np.clip([ends[0], share, ends[1] + 1 / size], 0, 1), reachable_only=False).tolist()
-    return Checked(d, Interval(middle, low if ends[0] > 0 else 0.0, high, confidence))
 
 
 class _Search:

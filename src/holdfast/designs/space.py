@@ -314,7 +314,7 @@ def parse_vary(text: str, arm: Arm, option: str = "--vary") -> Parameter:
 
     Args:
         text: What a person wrote.
-        arm: Says whether a limit is of a sliding joint.
+        arm: Says whether a limit is of a prismatic joint.
         option: What an error calls it.
 
     Raises:

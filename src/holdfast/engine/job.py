@@ -67,7 +67,7 @@ class Job(Protocol):
         """The columns of a chunk: a row for each of its rows, or one row that sums them up.
 
         Raises:
-            HoldfastError: It cannot be done; the study goes on with its other cells.
+            HoldfastError: It cannot be done; the study continues with its other cells.
         """
 
 

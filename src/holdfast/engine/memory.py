@@ -25,7 +25,7 @@ Parts = dict[str, NDArray[Any]]
 class Memory:
     """Parts of a search by name, in a journal of JSON lines: the first says which search it is, each other holds a part.
 
-    A part is on the disk before the search goes on; lines that are cut short or not sound do not count. Numbers come back
+    A part is on the disk before the search continues; lines that are cut short or not sound do not count. Numbers come back
     with the same bits, so a search that was stopped ends with the same result as one that was not.
     """
 

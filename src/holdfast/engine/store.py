@@ -1,4 +1,4 @@
-"""A results folder: chunks of rows in Zarr, each committed as a whole, so that a stopped run can go on.
+"""A results folder: chunks of rows in Zarr, each committed as a whole, so that a stopped run can resume.
 
 Knows no robots: rows have named columns. The folder holds ``samples.zarr``, readable with ``xarray.open_zarr``, and
 ``run.json``, which says what is computed and which chunks are done. A chunk counts only once ``run.json`` names it,
@@ -90,7 +90,7 @@ class Store:
         journal: bool = False,
         formerly: Mapping[str, Any] | None = None,
     ) -> Store:
-        """A new folder, or the existing one if it belongs to the same plan, ready to go on.
+        """A new folder, or the existing one if it belongs to the same plan, ready to resume.
 
         Args:
             path: The folder; its parent must exist or be creatable.

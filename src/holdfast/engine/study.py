@@ -81,7 +81,7 @@ class Study:
 
     @classmethod
     def create(cls, path: str | Path, name: str, seed: int, *, cells: Sequence[Cell], source: str = "") -> Study:
-        """A new folder, or the existing one of the same study, to go on; it takes over a new name, source and labels.
+        """A new folder, or the existing one of the same study; it takes over a new name, source and labels.
 
         Args:
             path: The folder.

@@ -10,6 +10,7 @@ from holdfast.equilibria.search import stationary_points as stationary_points
 from holdfast.equilibria.stability import Kind as Kind
 from holdfast.equilibria.stability import Linearisation as Linearisation
 from holdfast.equilibria.stability import linearisation as linearisation
+from holdfast.equilibria.system import idle_joints as idle_joints
 from holdfast.equilibria.theorem import column_residual as column_residual
 from holdfast.equilibria.theorem import is_stuck as is_stuck
 from holdfast.equilibria.theorem import null_components as null_components

@@ -1,4 +1,4 @@
-"""Where starts end up: the share of each point of rest, and for two healthy joints the lines between the basins."""
+"""Where starts end up: the share of each stationary point, and for two healthy joints the borders of the basins."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 STARTS = 2000
-NEAR = 1e-2  # rad (and m): a run that ends nearer than this to a point of rest ended there
+NEAR = 1e-2  # rad (and m): a run that ends nearer than this to a stationary point ended there
 ARRIVED, MOVING, UNDECIDED, STUCK = -1, -2, -3, -4
 _WORDS = {ARRIVED: "target", STUCK: "stuck on a continuum", MOVING: "moving", UNDECIDED: "undecided"}
 _OFFSET, _LENGTH = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
@@ -45,10 +45,10 @@ class Basins(Result):
     """Where N starts ended.
 
     Attributes:
-        points: Points of rest; those at which runs ended are among them.
+        points: Stationary points; those at which runs ended are among them.
         starts: (N, n) rad and m.
         end: (N,) index of the point; or -1 at the target, but not at an isolated solution; -2 moving; -3 undecided; -4 stuck,
-            but not at an isolated point of rest.
+            but not at an isolated stationary point.
         runs: The runs.
         confidence: Of the intervals.
         boundaries: Lines of configurations (K, n) that run into saddles, for two healthy joints: starts on either side may end
@@ -68,7 +68,7 @@ class Basins(Result):
 
     @property
     def shares(self) -> list[tuple[str, Interval]]:
-        """What was arrived at, solutions and sinks always, and the share of starts with its exact interval."""
+        """Where starts ended, solutions and sinks always, and the share of starts with its exact interval."""
         always = np.isin(self.points.kind, (Kind.SOLUTION, Kind.SINK)) & ~self.points.continuum
         codes = sorted({*self.end.tolist(), *np.flatnonzero(always).tolist()}, key=lambda k: (k < 0, abs(k)))
         return [(self.name(k), Interval.of(int((self.end == k).sum()), len(self.end), self.confidence)) for k in codes]
@@ -109,19 +109,19 @@ def basins(
     time_limit: float | None = None,
     confidence: float = 0.95,
 ) -> Basins:
-    """From where a failed arm reaches its target, and from where it ends elsewhere.
+    """Which starts of a failed arm reach the target, and where the others end.
 
     Starts are drawn uniformly between the limits of the healthy joints, over the whole turn where there are none, and each is
-    simulated; its end is matched with the points of rest of :func:`holdfast.stationary_points`.
+    simulated; its end is matched with the stationary points of :func:`holdfast.stationary_points`.
 
     Args:
         law: The control law, with its arm, task and gain.
         target: (m,) for tasks without angular rows, or a tool pose (4, 4).
         locked: A joint by name or index from 0, or several.
-        at: Where each stands, rad (or m).
+        at: Value of each, rad (or m).
         starts: How many random starts, or configurations (N, n), whose locked joints are set to ``at``.
         grid: With two healthy joints, cell centres of a grid of so many by so many in place of ``starts``.
-        seed: Of the random starts and of the search for points of rest.
+        seed: Of the random starts and of the search for stationary points.
         time_limit: Of each run, s; 3000/Ke if not given.
         confidence: Of the intervals; of a grid they are what as many random starts would have.
 
@@ -181,7 +181,7 @@ def _starts(
 
 
 def _completed(system: RestSystem, points: StationaryPoints, runs: Runs) -> StationaryPoints:
-    """With points added at which runs came to rest though the search did not find them."""
+    """With points added at which runs stopped though the search did not find them."""
     stuck = _finals(system, runs)[runs.code == Outcome.STUCK]
     new = distinct(system.law.arm, stuck, points.q, NEAR)
     if not len(new):
@@ -194,7 +194,7 @@ def _completed(system: RestSystem, points: StationaryPoints, runs: Runs) -> Stat
 
 
 def _finals(system: RestSystem, runs: Runs) -> Array:
-    """(N, n) where the runs ended, joints that the task does not notice at 0, as in points of rest."""
+    """(N, n) where the runs ended, joints that the task does not notice at 0, as in stationary points."""
     q = runs.q_final.copy()
     q[:, list(system.idle)] = 0.0
     return q

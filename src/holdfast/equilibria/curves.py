@@ -1,4 +1,4 @@
-"""The curves that points of rest make as the value of one locked joint changes, and where on them the arm gets stuck."""
+"""The curves that stationary points make as the value of one locked joint changes, and where on them the arm gets stuck."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Segment:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Curve:
-    """One curve of erroneous rest points over the locked value.
+    """One curve of erroneous stationary points over the locked value.
 
     Attributes:
         q: (K, n) points in order, rad and m, continuous: joints may run beyond pi. The last point of a closed curve is its
@@ -53,7 +53,7 @@ class Curve:
             loses rank.
         error: (K,) norm of the task's error, m and rad.
         closed: It comes back to its first point.
-        degenerate: The whole curve lies at one locked value: a continuum of rest points, each with an eigenvalue 0.
+        degenerate: The whole curve lies at one locked value: a continuum of stationary points, each with an eigenvalue 0.
         folds: Indices of points where the locked value turns back.
         branch_points: Of points where another curve crosses.
         rank_losses: Of points where the Jacobian loses rank; the law has no answer there.
@@ -94,16 +94,16 @@ class Curve:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Curves(Result):
-    """All curves of erroneous rest points that were found for one locked joint.
+    """All curves of erroneous stationary points that were found for one locked joint.
 
     Attributes:
         law: The control law.
         target: (4, 4) wanted tool pose; a task takes its rows of it.
         joint: The locked one, from 0.
         curves: The curves.
-        loose: Points of rest that lie on surfaces rather than curves, a sample, each with its own locked value; as of arms with
-            a spherical shoulder, which can turn without moving what is locked.
-        starts: Random starts that were used; curves on which none arrives are missed.
+        loose: Stationary points that lie on surfaces rather than curves, a sample, each with its own locked value; as of arms
+            with a spherical shoulder, which can turn without moving what is locked.
+        starts: Random starts that were used; curves that none converges to are missed.
     """
 
     law: Law
@@ -121,7 +121,7 @@ class Curves(Result):
     def sink_arcs(self) -> list[Arc]:
         """Locked values at which the arm can get stuck at a sink: disjoint ``(lower, upper)``, by lower end.
 
-        Of a turning joint lower is in [-pi, pi), and upper, less than a turn above, may pass pi; ``[(-pi, pi)]`` is every
+        Of a revolute joint lower is in [-pi, pi), and upper, less than a turn above, may pass pi; ``[(-pi, pi)]`` is every
         value. Outside no sink was found, which does not exclude limit cycles or slow motion beside degenerate values.
         """
         arcs = [arc for curve in self.curves if not curve.degenerate for arc in curve.sinks]
@@ -129,7 +129,7 @@ class Curves(Result):
 
     @property
     def degenerate_angles(self) -> list[float]:
-        """Locked values, by size, of whole curves of rest points; rad from -pi to pi (or m)."""
+        """Locked values, by size, of whole curves of stationary points; rad from -pi to pi (or m)."""
         values = [np.median(c.q, axis=0) for c in self.curves if c.degenerate]
         if not values:
             return []
@@ -137,7 +137,7 @@ class Curves(Result):
         return [float(x) for x in angles[np.r_[True, np.diff(angles) > 1e-6]]]
 
     def at(self, value: float) -> Array:
-        """(P, n) rest points at one locked value, rad (or m): where curves that are not degenerate pass it."""
+        """(P, n) stationary points at one locked value, rad (or m): where curves that are not degenerate pass it."""
         arm = self.law.arm
         found = [np.empty((0, arm.n))]
         for curve in self.curves:
@@ -162,20 +162,20 @@ class Curves(Result):
             f"{arm.title} under {self.law.describe()}, {name} locked at any value: {len(self)} curves, {self.starts} starts"
         ]
         arcs = ", ".join(f"{factor * a:.3f} to {factor * b:.3f}" for a, b in self.sink_arcs)
-        lines.append(f"it gets stuck with {name} at {arcs} {unit}" if arcs else "no sinks were found")
+        lines.append(f"sinks with {name} at {arcs} {unit}" if arcs else "no sinks were found")
         values = ", ".join(f"{factor * x:.4f}" for x in self.degenerate_angles)
-        lines += [f"whole curves of rest points with {name} at {values} {unit}"] if values else []
+        lines += [f"whole curves of stationary points with {name} at {values} {unit}"] if values else []
         if len(self.loose):
             stuck = self.loose.attracting
             near = merged([(float(x) - NEARBY, float(x) + NEARBY) for x in self.loose.q[stuck, self.joint]], unit == "deg")
             arcs = ", ".join(f"{factor * (a + NEARBY):.0f} to {factor * (b - NEARBY):.0f}" for a, b in near)
             where = f", about {arcs} {unit}" if near else ""
-            lines.append(f"{len(self.loose)} points sampled of surfaces of rest points, {int(stuck.sum())} attracting{where}")
+            lines.append(f"{len(self.loose)} samples of surfaces of stationary points, {int(stuck.sum())} attracting{where}")
         return lines
 
 
 def merged(arcs: Sequence[Arc], turning: bool) -> list[Arc]:
-    """Arcs ``(lower, upper)`` united; of a turning joint modulo whole turns, each with lower in [-pi, pi)."""
+    """Arcs ``(lower, upper)`` united; of a revolute joint modulo whole turns, each with lower in [-pi, pi)."""
     if not turning:
         return _united(sorted(arcs))
     starts = [((low + np.pi) % TURN - np.pi, high - low) for low, high in arcs]

@@ -1,11 +1,11 @@
-"""Where a failed arm is at rest without having arrived, as equations that stay smooth where the Jacobian loses rank.
+"""Where a failed arm rests away from its target, as equations that stay smooth where the Jacobian loses rank.
 
 A law of the form ``rates = A J' y``, ``y = (J A J' + d I)^-1 v`` (pseudoinverse, weighted, damped) leaves the healthy joints
 at rest where some unit vector u has ``(A J')_H u = 0`` and the error is along ``b = (J A J' + d I) u``; for one locked joint
 and d = 0 that is along the column of the joint. Any other law is asked for a unit direction u with no healthy rate, and the
 error must be along ``b = u``. In both, the unknowns are q, u and a pair (c, s) of length 1 with ``c error = s b``, as many
 equations as unknowns but for the locked joints. That the target is reached (s = 0) does not satisfy them by itself, so that
-solutions are elsewhere, and rest points run smoothly through the target, and through places where b vanishes (c = 0).
+solutions are elsewhere, and stationary points run smoothly through the target, and through places where b vanishes (c = 0).
 Lengths are in units of :attr:`holdfast.Arm.length_unit`.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (11), (12), (18) to (21); the form with u, c and s is ours.
@@ -141,7 +141,7 @@ class RestEquations:
         row = np.concatenate([pose[:3, 3], pose[:3, :3].ravel(), mask, free])
         parameters = np.broadcast_to(row, (rows, row.size))
         found = self._search.run(np.column_stack([z, np.full(rows, _FIRST)]), parameters, TOLERANCE, _STEPS)
-        # Of the starts that arrive nine in ten need 25 steps; most of those that need more than 40 never do.
+        # Of the starts that reach the target nine in ten need 25 steps; most of those that need more than 40 never do.
         out, near = found.state, np.flatnonzero(~found.done & (found.residual < _NEAR))
         out[near] = self._search.run(out[near], parameters[near], TOLERANCE, _STEPS).state
         out = out[:, : self.size]

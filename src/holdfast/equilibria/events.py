@@ -1,4 +1,4 @@
-"""What happens along a curve of rest points: folds, branch points, changes of stability, loss of rank, the target itself.
+"""What happens along a curve of stationary points: folds, branch points, changes of stability, loss of rank, the target itself.
 
 Each is a change of sign of a function of the point, bisected between two points of the curve, and becomes a point of it.
 Stability changes where the determinant of the linearisation changes its sign, or the product of all sums of two eigenvalues

@@ -1,4 +1,4 @@
-"""What a run that never comes to rest does instead: a limit cycle, or joints that turn for ever.
+"""What a run that never stops does instead: a limit cycle, or joints that turn forever.
 
 A run that ends moving has had its whole time limit to approach what attracts it. From its end the motion is followed until
 it comes near itself again, modulo whole turns; the return is then made exact by shooting (Newton on the state and the
@@ -68,7 +68,7 @@ class Orbit(Result):
 
 
 def orbit(runs: Runs, k: int = 0, window: float = 400.0) -> Orbit:
-    """What run k, which ended moving, does for ever.
+    """What run k, which ended moving, does forever.
 
     Args:
         runs: Of :func:`holdfast.simulation.simulate`, in continuous time.

@@ -1,4 +1,4 @@
-"""Where a failed arm can come to rest while its joint stands at a given value: all points found, and what they are."""
+"""Where a failed arm can stop with its joint locked at a given value: all points found, and what they are."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ SAMPLE = 256  # points of a continuum that are kept
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StationaryPoints(Result):
-    """Points of rest of an arm with locked joints, solutions and erroneous ones.
+    """Stationary points of an arm with locked joints, solutions and erroneous ones.
 
     Attributes:
         law: The control law.
         target: (4, 4) wanted tool pose; a task takes its rows of it.
         locked: Locked joints, from 0.
-        at: (k,) where they stand, rad (or m).
+        at: (k,) their values, rad (or m).
         q: (P, n) rad and m, from -pi to pi: solutions first, then sinks, saddles, sources and degenerate points;
-            joints that the task does not notice stand at 0.
+            joints that the task does not notice are at 0.
         kind: (P,) :class:`holdfast.equilibria.Kind`.
         eigenvalues: (P, n - k) of the linearised motion of the healthy joints, complex, by falling real part, in units of the
             gain Ke.
         error: (P,) norm of the task's error, m and rad.
         residual: (P,) norm of the healthy joints' rates in units of Ke: 0 but for rounding.
-        continuum: (P,) True for points that are not isolated, a sample of what may be a curve or a surface of points of rest,
-            as where a spherical shoulder can turn without moving what is locked.
+        continuum: (P,) True for points that are not isolated, a sample of what may be a curve or a surface of stationary
+            points, as where a spherical shoulder can turn without moving what is locked.
         within_limits: (P,) all joints are within their limits, which the law does not heed.
-        starts: Random starts that were used; points on which none arrives are missed.
+        starts: Random starts that were used; points that none converges to are missed.
     """
 
     law: Law
@@ -129,7 +129,7 @@ def read_values(joints: Sequence[int], at: ArrayLike) -> Array:
 
 
 def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> StationaryPoints:
-    """All points of rest that random starts find with the locked joints at (k,)."""
+    """All stationary points that random starts find with the locked joints at (k,)."""
     # With spare joints the target is reached on curves or surfaces: one wave gives a sample.
     spare = int(system.healthy.sum()) > system.law.task.m
     reached, first = _gathered(system, at, system.solutions, generator, 1 if spare else MOST_WAVES, told)
@@ -145,7 +145,7 @@ def _gathered(
     most: int,
     advance: Progress,
 ) -> tuple[Array, int]:
-    """Points of rest (P, n) from waves of starts, until some waves bring none that is isolated and new; how many starts."""
+    """Stationary points (P, n) from waves of starts, until some waves bring none that is isolated and new; how many starts."""
     arm = system.law.arm
     alone, loose = np.empty((0, arm.n)), np.empty((0, arm.n))
     starts = idle = 0
@@ -166,7 +166,7 @@ def _gathered(
 
 
 def classified(system: RestSystem, at: Array, q: Array, starts: int) -> StationaryPoints:
-    """Points of rest q (P, n) with what there is to know of them, by kind and error."""
+    """Stationary points q (P, n) with what there is to know of them, by kind and error."""
     arm, healthy = system.law.arm, system.healthy
     rates, error, scaled = system.linear.rates(q, system.pose)
     eigenvalues = system.eigenvalues(q)

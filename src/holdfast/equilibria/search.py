@@ -26,9 +26,9 @@ def stationary_points(law: Law, target: ArrayLike, locked: Joints, *, at: None =
 def stationary_points(
     law: Law, target: ArrayLike, locked: Joints, *, at: ArrayLike | None = None, seed: int = 0
 ) -> StationaryPoints | Curves:
-    """Where the arm can come to rest while its controller does not know that joints have locked.
+    """Where the arm can stop while its controller does not know that joints have locked.
 
-    With ``at``, all points of rest that were found for these values of the locked joints: solutions, where the target is
+    With ``at``, all stationary points that were found for these values of the locked joints: solutions, where the target is
     reached, and erroneous ones, where only locked joints are commanded. They are looked for from random starts, until three
     waves of 256 starts bring nothing new. Without it, for one locked joint, the curves that the erroneous points make as that
     joint's value changes are traced; see :class:`holdfast.equilibria.Curves`.
@@ -39,7 +39,7 @@ def stationary_points(
         law: The control law, with its arm, task and gain.
         target: (m,) for tasks without angular rows, or a tool pose (4, 4).
         locked: A joint by name or index from 0, or several.
-        at: Where each stands, rad (or m).
+        at: Value of each, rad (or m).
         seed: Of the starts.
 
     Returns:

@@ -1,4 +1,4 @@
-"""The failed closed loop near a point of rest: its linearisation, eigenvalues, and what they make of the point.
+"""The failed closed loop near a stationary point: its linearisation, eigenvalues, and what they make of the point.
 
 Source: Goel, Maciejewski, Balakrishnan 2005, eq. (22). That signs change only where the determinant vanishes is not so:
 complex pairs cross too, and eigenvalues are looked at everywhere.
@@ -28,7 +28,7 @@ ZERO_BAND = 1e-6  # of the linearisation's norm, or of 1: real parts below it ha
 
 
 class Kind(IntEnum):
-    """What a point of rest is.
+    """What a stationary point is.
 
     ``SOLUTION``: the target is reached. The others are erroneous: ``SINK`` (attracts), ``SADDLE``, ``SOURCE`` (repels), and
     ``DEGENERATE`` where a real part is zero, so that the linearisation does not decide.

@@ -1,4 +1,4 @@
-"""One law, target and set of locked joints, with everything that is asked of its points of rest."""
+"""One law, target and set of locked joints, with everything that is asked of its stationary points."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from holdfast.solvers import joint_space
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-HEALTHY_SHARE = 1e-7  # of all rates: healthy joints that move less stand
+HEALTHY_SHARE = 1e-7  # of all rates: healthy joints that move less are still
 VANISHED = 1e-5  # of c: b is that short, per unit of error
 IDLE = 1e-12  # of the Jacobian: a joint with a smaller column does not move the task
 
@@ -29,7 +29,7 @@ class RestSystem:
         law: The control law.
         pose: (4, 4) target.
         joints: Locked joints, from 0.
-        idle: Joints that the task does not notice, from 0: they stand at 0, and are left out of everything.
+        idle: Joints that the task does not notice, from 0: they are at 0, and are left out of everything.
         mask: (n,) 0 for locked joints, else 1.
         healthy: (n,) neither locked nor idle.
         active: Unknowns but for idle joints, as indices; one more than equations where one joint is locked.
@@ -63,7 +63,7 @@ class RestSystem:
         return z[self.still(z[:, : self.law.arm.n])]
 
     def stuck(self, z: Array) -> Array:
-        """Configurations (N, n) of erroneous rest from starts z, with locked joints where they stand."""
+        """Configurations (N, n) of erroneous rest from starts z, with the locked joints at their values."""
         free = self._free.copy()
         free[list(self.joints)] = 0.0
         out, held = self.equations.search(z, self.pose, self.mask, free)
@@ -73,7 +73,7 @@ class RestSystem:
         return q[self.still(q) & (scaled > REACHED)]
 
     def solutions(self, z: Array) -> Array:
-        """Configurations (N, n) that reach the target from starts z, with locked joints where they stand."""
+        """Configurations (N, n) that reach the target from starts z, with the locked joints at their values."""
         q, arrived = _solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
         return q[arrived]
 
@@ -108,7 +108,7 @@ class RestSystem:
         return self.linear.eigenvalues(q, self.pose, self.healthy)
 
     def settled(self, q: Array) -> Array:
-        """(N, n) erroneous rest points near q (N, n), with locked joints where they stand; NaN where there is none."""
+        """(N, n) erroneous stationary points near q (N, n), locked joints at their values; NaN where there is none."""
         n = self.law.arm.n
         free = self._free.copy()
         free[list(self.joints)] = 0.0
@@ -125,7 +125,7 @@ class RestSystem:
 
 @lru_cache(maxsize=64)
 def idle_joints(law: Law) -> tuple[int, ...]:
-    """Joints that do not move the task at any configuration, from 0."""
+    """Joints that do not move the task of a law at any configuration, by index from 0; stationary points have them at 0."""
     form = law.quadratic()
     if form is not None and not np.array_equal(form[0], np.diag(np.diag(form[0]))):
         return ()
@@ -137,7 +137,7 @@ def idle_joints(law: Law) -> tuple[int, ...]:
 
 
 def wrapped(arm: Arm, q: Array) -> Array:
-    """Configurations (N, n) with turning joints from -pi to pi, whatever their limits."""
+    """Configurations (N, n) with revolute joints from -pi to pi, whatever their limits."""
     return joint_space.wrapped(arm.without_limits, q)
 
 

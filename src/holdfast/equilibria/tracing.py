@@ -30,7 +30,7 @@ _NEWTON = 6
 _SHORTEST = 2.0**-12  # of the spacing: the curve ends where no longer step succeeds
 _STRAIGHT = 0.97  # least cosine between tangents at the two ends of a step
 _LONGEST = 200.0  # rad: longer curves are cut
-_FAR = 50.0  # m: a sliding joint beyond it has left
+_FAR = 50.0  # m: a prismatic joint beyond it has left
 _ON_CURVE = 0.15  # of the spacing: a seed nearer than this to a traced curve lies on it
 _SURFACE = 1e-6  # of the largest singular value: points with a smaller one than that are not on one curve
 _MOST_LOOSE = 512
@@ -39,7 +39,7 @@ _CONSTANT = 1e-6  # rad (and m): a locked value that changes less along a whole 
 
 
 def trace(law: Law, pose: Array, joint: int, seed: int = 0, spacing: float = SPACING, advance: Progress = told) -> Curves:
-    """All curves of erroneous rest that a random start arrives on; see :func:`holdfast.equilibria.stationary_points`."""
+    """All curves of erroneous rest that a random start converges to; see :func:`holdfast.equilibria.stationary_points`."""
     system = RestSystem(law, pose, (joint,))
     tracer = Tracer(system, joint, spacing)
     found, loose, starts = tracer.all(np.random.default_rng(seed), advance)
@@ -63,7 +63,7 @@ class Tracer:
         self._n = system.law.arm.n
 
     def all(self, generator: np.random.Generator, advance: Progress = told) -> tuple[list[Curve], Array, int]:
-        """Every curve on which a start arrives, until some waves bring no new one; points that lie on none; how many starts."""
+        """Every curve that a start converges to, until some waves bring no new one; points on none; how many starts."""
         found: list[Curve] = []
         loose = np.empty((0, self._n))
         starts = idle = 0

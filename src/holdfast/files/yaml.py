@@ -129,7 +129,7 @@ def sentence(error: ValidationError, model: type[BaseModel], tags: Collection[st
     Args:
         error: What pydantic says.
         model: The whole file.
-        tags: Names of the alternatives in ``model``, which are no part of the place.
+        tags: Names of the alternatives in ``model``, which do not count in the place.
     """
     problems = error.errors()
     first = next((p for p in problems if p["type"] == "extra_forbidden"), problems[0])
@@ -158,7 +158,7 @@ def _length(context: dict[str, Any]) -> str:
 
 
 def _keys(model: type[BaseModel], trail: tuple[int | str, ...]) -> list[str]:
-    """The keys of the block that the last entry of a trail, tags of alternatives included, stands in."""
+    """The keys of the block that the last entry of a trail, tags of alternatives included, is in."""
     annotation: Any = None
     for step in trail[:-1]:
         if isinstance(step, str):

@@ -35,7 +35,7 @@ _FLAT = 1e-12  # below this rho is 0 but for rounding: its gradient is 0 by conv
 
 
 def _bound_note(n: int, m: int, size: int) -> str:
-    """How near a Jacobian of m rows and n columns can come to the Cauchy-Binet bound of ``size`` failures at a time."""
+    """How near a Jacobian of m rows and n columns can be to the Cauchy-Binet bound of ``size`` failures at a time."""
     if size == 1 or m == 1 or size > n - m or (n, m, size) in ((6, 3, 2), (10, 5, 2)):
         return ""
     if (size == 2 and n - m == 2) or (m == 2 and size == n - 2):

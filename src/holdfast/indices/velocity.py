@@ -1,4 +1,4 @@
-"""How fast the end effector can still go in one direction."""
+"""How fast the end effector can still move in one direction."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 A file is: a line that names the format, the SHA-256 of everything that follows, and the object code. Its name is the key: the
 program, the level, the processor, the text of the translation. The folder belongs to the user alone: a folder or file that
-somebody else owns or may write is not read, nor is anything that is no regular file. Above 1 GiB what was not used for
+somebody else owns or may write is not read, nor is anything but a regular file. Above 1 GiB what was not used for
 longest goes. ``HOLDFAST_CACHE`` names another folder, or switches the cache off when it is ``off``.
 """
 
@@ -60,7 +60,7 @@ def load(name: str) -> bytes | None:
     if path is None:
         return None
     try:
-        # A pipe would wait for ever; a link may lead anywhere.
+        # A pipe would wait forever; a link may lead anywhere.
         handle = os.open(path / name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0))
     except OSError:
         return None

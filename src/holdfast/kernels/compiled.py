@@ -1,4 +1,4 @@
-"""The machine code of a program: quickly made code at once, better code when enough rows have come to pay for it.
+"""The machine code of a program: quickly made code at once, better code once enough rows have come to repay it.
 
 Both give the same bits, so that nobody needs to know which of them computed a row.
 """

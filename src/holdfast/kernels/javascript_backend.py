@@ -334,7 +334,7 @@ def _pieces(graph: _Graph) -> tuple[list[str], int]:
 
 
 def _names() -> Iterator[str]:
-    """Short names that are no words of the language and not w, x or y."""
+    """Short names other than words of the language and w, x, y."""
     letters = [c for c in ascii_letters if c not in "wxy"]
     yield from letters
     for number in count():

@@ -53,7 +53,7 @@ class Loop:
         next_state: (s,) expression.
         residual: Scalar expression of the present state, not negative; NaN never ends a row.
         backend: As for :class:`Kernel`.
-        ahead: The residual is that of the next state, so that a row which arrives needs no further step to notice.
+        ahead: The residual is that of the next state, so that a row which converges needs no further step to notice.
         times: How many steps of the caller's one step of the loop takes; only kept for the caller.
 
     Attributes:

@@ -103,7 +103,7 @@ def _ours(kind: type | FunctionType) -> None:
 
 
 def _state(x: Any) -> list[tuple[str, Any]]:
-    """What an object holds, without what it only keeps at hand."""
+    """What an object holds, without what it only caches."""
     if not (hasattr(x, "__dict__") or dataclasses.is_dataclass(x)):
         raise _Unknown
     state = {f.name: getattr(x, f.name) for f in dataclasses.fields(x)} if dataclasses.is_dataclass(x) else {}

@@ -36,7 +36,7 @@ def set_threads(count: int | None) -> None:
 
 
 def in_pool() -> bool:
-    """True inside a task of the pool, where waiting for the pool again could wait for ever."""
+    """True inside a task of the pool, where waiting for the pool again could wait forever."""
     return threading.current_thread().name.startswith(_PREFIX)
 
 

@@ -1,3 +1,4 @@
+from holdfast.motion.events import Curvature as Curvature
 from holdfast.motion.redundancy import AugmentedJacobian as AugmentedJacobian
 from holdfast.motion.redundancy import ExtendedJacobian as ExtendedJacobian
 from holdfast.motion.redundancy import GradientProjection as GradientProjection

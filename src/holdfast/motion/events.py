@@ -48,6 +48,10 @@ class Curvature:
 
     The curvature is the central difference of the projected gradient: exact derivatives through the null space take
     seconds to compile, and 9 digits are enough to say where it vanishes.
+
+    Args:
+        objective: Whose slope and curvature.
+        task: That the self-motion leaves alone.
     """
 
     def __init__(self, objective: Objective, task: Task) -> None:

@@ -1,4 +1,4 @@
-"""The laws: what each wants of the self-motion."""
+"""The resolution laws: what each does with the self-motion."""
 
 from __future__ import annotations
 

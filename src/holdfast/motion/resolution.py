@@ -1,4 +1,4 @@
-"""Redundancy resolution: the end effector does its task, and the freedom that is left serves an objective.
+"""Redundancy resolution: the end effector does its task, and the self-motion serves an objective.
 
 Every law is one straight-line program: joint rates ``d + J_A^+ (v - J d) + s (z - J_A^+ J z)``, where the columns of J that
 belong to joints at a limit are taken out (A) and these joints move at their bound (d), z is what the law wants of the

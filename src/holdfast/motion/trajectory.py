@@ -1,4 +1,4 @@
-"""What came of following a path: joints over time, what it cost, and what happened on the way."""
+"""The result of following a path: joints over time, what it cost, and what happened on the way."""
 
 from __future__ import annotations
 
@@ -43,17 +43,17 @@ class Event:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Trajectory(Result):
-    """Joints along a path of the hand, T samples.
+    """Joints along a path of the end effector, T samples.
 
     Attributes:
-        arm, task, objective: What moved, which rows of the hand were prescribed, and what the self-motion served.
+        arm, task, objective: What moved, which rows of the end effector were prescribed, and what the self-motion served.
         method: The law, for people.
         gain: Of the law; see :func:`holdfast.follow`.
         seed: Of the search for a start.
         rate_cap: Largest norm of the joint rates that was asked for, rad/s, or None.
         time: (T,) s.
         q, qd, qdd: (T, n) rad and m, and their rates per s and s^2.
-        poses: (T, 4, 4) wanted poses of the hand in the world.
+        poses: (T, 4, 4) wanted poses of the end effector in the world.
         position_error: (T,) m, of the task's rows.
         rotation_error: (T,) rad.
         value: (T,) of the objective.
@@ -100,17 +100,17 @@ class Trajectory(Result):
 
     @property
     def rate_norm(self) -> Array:
-        """(T,) norm of the joint rates, rad/s (sliding joints in m/s)."""
+        """(T,) norm of the joint rates, rad/s (prismatic joints in m/s)."""
         return np.asarray(np.linalg.norm(self.qd, axis=1))
 
     @property
     def on_path(self) -> bool:
-        """True if the hand never left its path by more than 0.1 mm and 0.1 mrad."""
+        """True if the end effector never left its path by more than 0.1 mm and 0.1 mrad."""
         return bool(np.nanmax(self.position_error) <= ON_PATH and np.nanmax(self.rotation_error) <= ON_PATH)
 
     @property
     def hand_error(self) -> str:
-        """The largest error of the hand in what the task prescribes, for people."""
+        """The largest error of the end effector in what the task prescribes, for people."""
         rows = self.task.rows
         parts = []
         for error, unit, used in ((self.position_error, "mm", rows[:, :3]), (self.rotation_error, "mrad", rows[:, 3:])):
@@ -122,16 +122,16 @@ class Trajectory(Result):
 
     @property
     def headline(self) -> str:
-        """Whether the hand stayed on its path, and if not, when it left and how far it got from it."""
+        """Whether the end effector stayed on its path, and if not, when it left and how far it got from it."""
         if self.on_path:
-            return f"the hand stays on its path, off it by {self.hand_error}"
+            return f"the end effector stays on its path, off it by {self.hand_error}"
         off = (self.position_error > ON_PATH) | (self.rotation_error > ON_PATH)
         slowed = {"end effector slowed", "near a singularity"}
         why = [e.kind for e in self.events if e.kind in slowed or e.kind == "joint limit"]
         reason = f" ({', '.join(dict.fromkeys(why))})" if why else ""
         return (
-            f"THE HAND LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s and gets up to {self.hand_error} away from it, "
-            f"off it for {off.mean():.0%} of the time{reason}"
+            f"THE END EFFECTOR LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s, by up to {self.hand_error}, "
+            f"for {off.mean():.0%} of the time{reason}"
         )
 
     @property

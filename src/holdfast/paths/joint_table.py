@@ -61,7 +61,7 @@ def read_joint_table(arm: Arm, file: Path, what: str, first: str) -> JointTable:
         arm: The arm.
         file: CSV.
         what: It should hold, for messages.
-        first: Name of a column that may stand before the joints', for messages.
+        first: Name of a column that may precede the joints', for messages.
 
     Raises:
         InputError: Unreadable, or a joint's column is missing or there twice.

@@ -74,7 +74,7 @@ class TimedPath:
     Attributes:
         path: The path.
         timing: :class:`Trapezoid`, :class:`Constant`, or any object with the members of :class:`Timing`.
-        stop: Come to the timing's own beginning and end at each corner of the path (with a trapezoid: to rest). The parts
+        stop: Use the timing's own beginning and end at each corner of the path (with a trapezoid: to rest). The parts
             share the duration in proportion to their lengths.
     """
 

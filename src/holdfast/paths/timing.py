@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 class Timing(Protocol):
     """How s goes from 0 to 1. Any object with these members will do; each method takes t (N,), s, and gives (N,).
 
-    At t below 0 or above the duration the end effector stands at the start or the end.
+    At t below 0 or above the duration the end effector is at the start or the end.
     """
 
     @property

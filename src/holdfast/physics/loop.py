@@ -191,7 +191,7 @@ class _Plant:
 
     @property
     def torque(self) -> Array:
-        """(n,) of the motors, 0 where the joint stands."""
+        """(n,) of the motors, 0 where the joint is locked."""
         torque = np.zeros(self.arm.n)
         torque[self.free] = self.data.qfrc_actuator
         return torque
@@ -255,7 +255,7 @@ def _goal(law: Law, runs: Runs) -> tuple[Array, Array]:
 
 
 def _verdict(speed: Array) -> tuple[Ending, Why]:
-    """How a run stands at the time limit, by the speeds commanded to the healthy joints, per time limit."""
+    """What a run is doing at the time limit, by the speeds commanded to the healthy joints, per time limit."""
     first, half = (int(share * len(speed)) for share in (WINDOW, HALF))
     early, late = speed[first:half].max(initial=0.0), speed[half:].max(initial=0.0)
     moving = speed[first:].min(initial=np.inf) > MOVES and early > 0 and late >= DECAYS * early

@@ -32,7 +32,7 @@ class PhysicalRun(Result):
     Attributes:
         law: The law of the controller.
         servos: The joint servos.
-        stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for sliding joints).
+        stiffness, damping: (n,) their gains, N m/rad and N m s/rad (N/m and N s/m for prismatic joints).
         kinematic: The same run of :func:`holdfast.simulation.simulate`.
         outcome: ``converged``, ``stuck``, ``moving`` or ``undecided``.
         reason: Why it is undecided: ``singular``, ``slow`` or ``unstable``; else ``none``.
@@ -82,7 +82,7 @@ class PhysicalRun(Result):
 
     @cached_property
     def path_distance(self) -> float:
-        """Largest distance of a point of either hand path from the other path, as curves, whenever they are there, m."""
+        """Largest distance of a point of either tool path from the other path, as curves, whenever they are there, m."""
         ours, theirs = _even(self.x), _even(self.kinematic_path.x)
         return max(_farthest(ours, theirs), _farthest(theirs, ours))
 
@@ -109,7 +109,7 @@ class PhysicalRun(Result):
         why = "" if self.reason == "none" else f" ({self.reason})"
         lines = [
             f"{self.servos.describe()}, on MuJoCo: {self.outcome}{why}; kinematic: {self.kinematic.outcome}",
-            f"hand paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
+            f"tool paths at most {1000 * self.path_distance:.3g} mm apart, ends {1000 * self.terminal_distance:.3g} mm",
         ]
         full = [name for name, share in zip(self.law.arm.joint_names, self.saturated, strict=True) if share > 0]
         if full:

@@ -1,4 +1,4 @@
-"""What really happens when a joint lets go: it swings under gravity until friction brings it to rest, all others held."""
+"""Free swing of a failed joint: it swings under gravity until friction stops it, all others held."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class BrakedDrop:
 
 @dataclass(frozen=True, kw_only=True)
 class FreeSwing(Result):
-    """The motion of an arm whose joint ``joint`` lets go at time 0, at rest, with all other joints held.
+    """The motion of an arm at rest whose joint ``joint`` swings free from time 0, all others held.
 
     Attributes:
         arm: The arm.
@@ -75,9 +75,9 @@ class FreeSwing(Result):
         angle: (T,) how far the joint has moved since the failure, rad or m; positive about or along its axis.
         velocity: (T,) rad/s or m/s.
         tool_position: (T, 3) tool point in the world, m.
-        rest_angle: Where it comes to rest, counted from the failure, rad or m; NaN if it was still moving at the end.
+        rest_angle: Where it stops, counted from the failure, rad or m; NaN if it was still moving at the end.
             Without stops this is the swing angle of English and Maciejewski (1998), eq. (38).
-        peak: Largest distance from where it let go, rad or m.
+        peak: Largest distance from where it failed, rad or m.
         initial_acceleration: At the moment of failure, stops aside, rad/s^2 or m/s^2; the acceleration measure of English
             and Maciejewski (1998), eq. (22), with the rotor inertia added.
         outcome: ``rest`` (hangs still), ``stop`` (lies against a limit), ``balanced`` (gravity does not move it) or
@@ -152,14 +152,14 @@ def free_swing(
     """Simulate the free swing of one failed joint under gravity, on MuJoCo (needs ``holdfast[physics]``).
 
     The joint transmits no torque from time 0 on except viscous friction; the arm was at rest; all other joints are held
-    exactly. Nothing is in the way, and no limit unless ``limits``; a sliding joint always falls to its limit. A stop takes the
-    impact without rebound. From exactly upright, rounding decides to which side it falls, so its rest angle may have either
+    exactly. Nothing is in the way, and no limit unless ``limits``; a prismatic joint always falls to its limit. A stop takes
+    the impact without rebound. From exactly upright, rounding decides to which side it falls, so its rest angle may have either
     sign.
 
     Friction, if ``damping`` is not given: the joint's own, if the arm states one above 2 % of the critical damping of the
-    small oscillation about its rest (less is a placeholder in many files, and the joint would swing for minutes); else 10 %
-    of it, so that the joint swings widely (each swing loses about 27 % of its amplitude) and still comes to rest; for a
-    sliding joint its own, or none. It changes the peak and a little the drops, but neither the rest angle nor the initial
+    small oscillation about its rest position (less is a placeholder in many files, and the joint would swing for minutes); else
+    10 % of it, so that the joint swings widely (each swing loses about 27 % of its amplitude) and still stops; for a
+    prismatic joint its own, or none. It changes the peak and a little the drops, but neither the rest angle nor the initial
     acceleration. The motion is integrated by Runge-Kutta of fourth order, or implicitly where friction is too stiff for that.
 
     Args:
@@ -167,7 +167,7 @@ def free_swing(
         q: (n,) configuration at the failure, rad or m.
         joint: Name, or index from 0, of the failed joint.
         damping: Viscous friction, N m s/rad or N s/m.
-        duration: Longest time, s; it ends sooner where the joint has come to rest (an amplitude below 1e-4 rad is left). If not
+        duration: Longest time, s; it ends sooner where the joint has stopped (an amplitude below 1e-4 rad is left). If not
             given, 60 s, and up to 300 s where it swings slowly.
         brake_after: Times from the failure to the brakes, ms.
         step: Time step, s.
@@ -175,7 +175,7 @@ def free_swing(
 
     Raises:
         InputError: A wrong joint, configuration or option.
-        ArmError: Inertial data are missing or impossible, nothing heavy hangs on the joint, or a sliding joint has no limit
+        ArmError: Inertial data are missing or impossible, nothing heavy hangs on the joint, or a prismatic joint has no limit
             on the side to which it falls.
         HoldfastError: MuJoCo is not installed.
     """
@@ -315,7 +315,7 @@ class _Swing:
         return value
 
     def patience(self, friction: float) -> float:
-        """Time that should be enough to come to rest, s."""
+        """Time that should be enough to stop, s."""
         if self.flat:
             return 1.0
         if friction == 0 or self.stiffness == 0:

@@ -44,6 +44,6 @@ def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:
     words, pictures = next((PRESENTERS[name] for name in names if name in PRESENTERS), ("", ""))
     for module in (words if function in _WORDS else pictures, "results"):
         found = getattr(import_module(f"holdfast.present.{module}"), function, None) if module else None
-        if found is not None:
+        if callable(found):  # `figures` may be a module that the presenter imports
             return found  # type: ignore[no-any-return]
     raise AttributeError(f"nothing in holdfast.present has '{function}' for {names[0]}")

@@ -1,2 +1,3 @@
 from holdfast.probability.distribution import Distribution as Distribution
-from holdfast.probability.distribution import Interval as Interval
+from holdfast.probability.intervals import Difference as Difference
+from holdfast.probability.intervals import Interval as Interval

@@ -1,4 +1,4 @@
-"""The distribution of an index over a region: probabilities with honest error bars."""
+"""The distribution of an index over a region: probabilities with error bars."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Distribution:
         unreached_weights: ArrayLike = (),
         heaviest: float = 0.0,
     ) -> Distribution:
-        """The distribution of values at hand.
+        """The distribution of given values.
 
         Args:
             values: (N,) at the poses that have a configuration.

@@ -20,7 +20,7 @@ ORDERS = 16  # in which a gambler meets the same values; his mean capital hardly
 _SHARE = 0.75  # of the capital is the most that a single bet may lose
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Interval:
     """A probability, or a mean of values between 0 and 1, with its confidence interval."""
 
@@ -40,12 +40,13 @@ class Interval:
         rest = (1 - confidence) / 2
         low = quantile(hits, size - hits + 1, rest) if hits > 0 else 0.0
         high = quantile(hits + 1, size - hits, 1 - rest) if hits < size else 1.0
-        return cls(float(hits / size), low, high, confidence)
+        return cls(value=float(hits / size), low=low, high=high, confidence=confidence)
 
     @classmethod
     def of_share(cls, share: float, effective: float, confidence: float = 0.95) -> Interval:
         """A share of weighted samples with the interval of ``effective`` equal ones; see ``Sums.effective``."""
-        return cls(share, *_ends(cls.of(share * effective, effective, confidence)), confidence)
+        low, high = _ends(cls.of(share * effective, effective, confidence))
+        return cls(value=share, low=low, high=high, confidence=confidence)
 
     @classmethod
     def of_fractions(cls, values: Array, confidence: float = 0.95) -> Interval:
@@ -61,13 +62,13 @@ class Interval:
         low = _betting_limit(values, confidence)
         high = 1 - _betting_limit(1 - values, confidence)
         mean = float(np.mean(values))
-        return cls(mean, min(low, mean), max(high, mean), confidence)
+        return cls(value=mean, low=min(low, mean), high=max(high, mean), confidence=confidence)
 
     def __str__(self) -> str:
         return f"{self.value:.4f} ({self.low:.4f} to {self.high:.4f}, {self.confidence:.0%})"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Difference:
     """A mean difference between two things that were tried on the same cases, with its confidence interval.
 
@@ -110,7 +111,7 @@ class Difference:
         p = float(stats.binomtest(round(won), round(won + lost)).pvalue) if won + lost else 1.0
         if p > 1 - confidence:
             low, high = min(low, 0.0), max(high, 0.0)
-        return cls(value, max(low, -1.0), min(high, 1.0), confidence, p)
+        return cls(value=value, low=max(low, -1.0), high=min(high, 1.0), confidence=confidence, p_value=p)
 
     @classmethod
     def of_fractions(cls, differences: Array, confidence: float = 0.95) -> Difference:
@@ -123,7 +124,7 @@ class Difference:
         mean = Interval.of_fractions(halves, confidence)
         capital = max(float(np.exp(_Gambler(x, confidence).log_capital(0.5))) for x in (halves, 1 - halves))
         low, high = 2 * mean.low - 1, 2 * mean.high - 1
-        return cls(float(np.mean(differences)), low, high, confidence, min(2 / capital, 1.0))
+        return cls(value=float(np.mean(differences)), low=low, high=high, confidence=confidence, p_value=min(2 / capital, 1.0))
 
     @classmethod
     def of_means(cls, differences: Array, confidence: float = 0.95) -> Difference:
@@ -136,10 +137,16 @@ class Difference:
 
         value, error = float(np.mean(differences)), float(stats.sem(differences))
         if error == 0:
-            return cls(value, value, value, confidence, 1.0 if value == 0 else 0.0)
+            return cls(value=value, low=value, high=value, confidence=confidence, p_value=1.0 if value == 0 else 0.0)
         degrees = len(differences) - 1
         half = float(stats.t.ppf(0.5 + confidence / 2, degrees)) * error
-        return cls(value, value - half, value + half, confidence, float(2 * stats.t.sf(abs(value) / error, degrees)))
+        return cls(
+            value=value,
+            low=value - half,
+            high=value + half,
+            confidence=confidence,
+            p_value=float(2 * stats.t.sf(abs(value) / error, degrees)),
+        )
 
 
 def _side(a: float, b: float, correlation: float) -> float:
@@ -206,6 +213,6 @@ class Sums:
 
 
 def check_confidence(confidence: float) -> None:
-    """Refuse what is no confidence."""
+    """Raise :class:`InputError` unless it lies between 0 and 1."""
     if not 0 < confidence < 1:
         raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")

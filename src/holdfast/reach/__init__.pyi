@@ -1,3 +1,4 @@
+from holdfast.reach import closed_form as closed_form
 from holdfast.reach.bounds import joint_bounds as joint_bounds
 from holdfast.reach.reachable import reachable_when_locked as reachable_when_locked
 from holdfast.reach.tolerance import TolerantWorkspace as TolerantWorkspace

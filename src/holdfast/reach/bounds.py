@@ -44,8 +44,8 @@ def joint_bounds(
     The ends are critical points of the joint on the self-motion manifold: equations (8) and (9), solved by Newton's method
     from many starts (with joint limits also on the faces where joints rest on theirs). These and a scan of 90 values cut the
     range of the joint into segments; one is reached if a configuration known to be on the target lies in it, or inverse
-    kinematics with the joint locked at its middle finds one. An end that is no critical point, because Newton's method missed
-    it, is found by bisection.
+    kinematics with the joint locked at its middle finds one. An end that is not a critical point, because Newton's method
+    missed it, is found by bisection.
 
     Ends that are critical points are exact to 1e-9, others to 1e-6 rad where inverse kinematics finds what there is; at the
     edge of the workspace, where arcs shrink to points, to 1e-4. Gaps and arcs narrower than a 90th of the joint's range may be

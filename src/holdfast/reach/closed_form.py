@@ -171,7 +171,7 @@ def _directions(arm: ThreeLinks, limits: Array, r: Array) -> tuple[Array, Array]
         values += [np.where(_within(s * bend + turn - angle[:, None], limits[:, 2]), turn + s * aim, np.nan) for s in (1, -1)]
     found = np.sort(np.stack(values, axis=-1) % FULL, axis=-1)  # NaN last
     empty = np.isnan(found[..., :1])
-    # What is no direction repeats the last one: arcs of length 0. Without any direction all or nothing is reached.
+    # Rows without a direction repeat the last one: arcs of length 0. Without any direction all or nothing is reached.
     found = np.where(np.isnan(found), np.nanmax(np.where(empty, 0.0, found), axis=-1, keepdims=True), found)
     start, end = found, np.concatenate([found[..., 1:], found[..., :1] + FULL], axis=-1)
     reached = _reached(arm, limits, r, (start + end) / 2)

@@ -31,7 +31,7 @@ class CriticalPoints:
     (9) ``n_j(i) = 0`` for every null vector says that joint i takes no part in any self-motion, which is
     ``rank(iJ) < m``: there is a unit vector u with ``j_k' u = 0`` for every joint k but i. In (q, u) these are n + m
     equations for n + m unknowns, whatever n - m is; a joint that rests on a limit adds its column to those left out, and its
-    value to those that stand. Where J itself loses rank they hold too, and the manifold may end or cross itself there.
+    value to locked joints. Where J itself loses rank they hold too, and the manifold may end or cross itself there.
     """
 
     def __init__(self, arm: Arm, task: Task) -> None:

@@ -35,7 +35,7 @@ def reachable_when_locked(
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
         joint: The locked joint, by name or index from 0.
-        at: Where it stands, rad or m: one value, or (N,). One target goes with many values, and the other way round.
+        at: Where it is, rad or m: one value, or (N,). One target goes with many values, and the other way round.
         task: Rows of the pose that matter.
         seed: Of the random starts.
         restarts: Random starts per row before giving up.

@@ -75,7 +75,7 @@ class Space:
 
 
 def limited(arm: Arm, limits: Array) -> Arm:
-    """The arm with artificial limits (n, 2); those of a whole turn or more of a joint without limits are none."""
+    """The arm with artificial limits (n, 2); those of a whole turn or more of a joint without limits do not count."""
     low, high = limits.T
     free = joint_space.turning(arm) & (high - low >= 2 * np.pi - 1e-9)
     return arm.with_limits(np.where(free, arm.lower, low), np.where(free, arm.upper, high))
@@ -170,7 +170,7 @@ def _grid_range(arm: Arm) -> tuple[Array, Array]:
 
 
 def _configurations(arm: Arm, task: Task, poses: Array, generator: np.random.Generator) -> Array:
-    """(H, S, n) configurations of each pose, NaN where a start arrived nowhere."""
+    """(H, S, n) configurations of each pose, NaN where a start did not converge."""
     engine = solver(arm, task)
     rows = np.repeat(np.arange(len(poses)), _SOLUTIONS)
     q, ok = engine.attempt(engine.starts(rows.size, generator), poses[rows], _TOLERANCE)

@@ -163,7 +163,7 @@ def tolerant_workspace(
 
     Args:
         arm: The arm.
-        task: What must be met at each point; with angular rows the end effector stands as ``rotation`` says.
+        task: What must be met at each point; with angular rows the tool has the ``rotation`` given.
         limits: (n, 2) artificial limits, rad and m, or a mapping from joints (names or indices) to pairs; the arm's own, or a
             whole turn, for joints that are not given.
         optimise: Look for the limits that make the region largest: by differential evolution and a simplex where it is

@@ -1,4 +1,4 @@
-"""What geometry alone says: how fast distances on an arm can change, and how far its hand can never be."""
+"""Bounds from geometry alone: how fast distances on an arm can change, and where its end effector can never be."""
 
 from __future__ import annotations
 
@@ -42,17 +42,17 @@ def clearance_slopes(clearance: Clearance, low: Array, high: Array) -> Array:
 
 
 def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool, planar: Array | None) -> str | None:
-    """A sentence that proves that the hand cannot come to a pose with joints standing, or None if this bound is silent.
+    """A sentence that proves a pose out of reach with joints locked; None if this bound cannot.
 
-    The failed arm is a chain of rigid parts between the axes that still move. The hand is no farther from the first of them
-    than the sum of the parts' lengths, and no nearer than the longest less the others. Of a full pose also the origin of the
-    last axis is known, which leaves one part less and a sharper bound.
+    The failed arm is a chain of rigid parts between the axes that still move. The end effector is no farther from the first of
+    them than the sum of the parts' lengths, and no nearer than the longest less the others. Of a full pose also the origin of
+    the last axis is known, which leaves one part less and a sharper bound.
 
     Args:
         arm: The arm.
         free: (n,) joints that move.
-        at: (n,) where the others stand.
-        pose: (4, 4) of the hand, m.
+        at: (n,) where the others are.
+        pose: (4, 4) of the end effector, m.
         whole_pose: The orientation counts too.
         planar: Normal (3,) of the plane in which the arm moves and the position counts, or None for the whole position.
     """
@@ -71,7 +71,7 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
     tail = place @ arm.tool  # from the last moving joint to the tool
     centre = offsets[0]
     lengths = [_range(arm, k, offset, flat) for k, offset in zip(moving[:-1], offsets[1:], strict=True)]
-    proofs = [("the hand", pose[:3, 3], [*lengths, _range(arm, moving[-1], tail[:3, 3], flat)])]
+    proofs = [("the end effector", pose[:3, 3], [*lengths, _range(arm, moving[-1], tail[:3, 3], flat)])]
     if whole_pose and not arm.prismatic[moving[-1]] and len(lengths):
         wrist = pose @ np.linalg.inv(tail)
         proofs.append((f"the axis of {arm.joint_names[moving[-1]]}", wrist[:3, 3], lengths))
@@ -87,12 +87,12 @@ def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool
         if distance > most + slack:
             return (
                 f"proved out of reach: {what} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with these "
-                f"joints standing it is at most {most:.4g} m away"
+                f"joints locked it is at most {most:.4g} m away"
             )
         if (planar is None or flat) and distance < least - slack:
             return (
                 f"proved out of reach: {what} would be {distance:.4g} m from {arm.joint_names[moving[0]]}, and with these "
-                f"joints standing it is at least {least:.4g} m away"
+                f"joints locked it is at least {least:.4g} m away"
             )
     return None
 

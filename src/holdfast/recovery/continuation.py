@@ -1,4 +1,4 @@
-"""Whether the rest of a hand path can still be finished with joints standing, in one continuous motion."""
+"""Whether the rest of a tool path can still be finished with joints locked, in one continuous motion."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from holdfast.recovery.rows import RowSolver, preferred, subsets
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_SPACING = 0.01  # m or rad of the hand between samples
+_SPACING = 0.01  # m or rad of the end effector between samples
 _LEAST, _MOST = 20, 400  # samples
 _JUMP = 0.35  # rad or m of one joint from sample to sample: more is another branch, no motion
 _STARTS_PER_SET = 12
@@ -25,7 +25,7 @@ _STARTS_PER_SET = 12
 
 @dataclass(frozen=True, kw_only=True)
 class RestOfPath:
-    """What became of the rest of a hand path.
+    """What became of the rest of a tool path.
 
     Attributes:
         furthest: Share of the path, 0 to 1, up to which a motion was found that keeps every row.
@@ -62,16 +62,16 @@ class RestOfPath:
         """One sentence for people."""
         if self.finished:
             return (
-                f"The rest of the hand path can be finished: {len(self.q)} waypoints, off the path by at most "
+                f"The rest of the tool path can be finished: {len(self.q)} waypoints, off the path by at most "
                 f"{self.deviation:.2g} (m and rad) between them."
             )
         if self.cut_off:
-            why = "motions along it exist, but no way from where the arm stands to the beginning of any was found"
+            why = "motions along it exist, but no route from here to the beginning of any was found"
         elif self.first_lost is not None:
             why = f"no configuration was found at {100 * self.first_lost:.1f} % of it, which proves nothing"
         else:
             why = "each of its poses is reached on its own, but no continuous motion through all of them was found"
-        text = f"The rest of the hand path was not finished: {why}; the best motion gets to {100 * self.furthest:.1f} %."
+        text = f"The rest of the tool path was not finished: {why}; the best motion gets to {100 * self.furthest:.1f} %."
         if self.given_up is not None:
             text += f" It can be followed if these rows are given up, which then miss at most: {self.given_up}."
         return text

@@ -18,7 +18,7 @@ _MOST = 48  # configurations of a goal that are kept, the nearest ones
 _SLIDES = 25
 _SAME = 1e-4  # rad and m
 _STARTS_PER_SET = 96
-_POLISHED = 4  # of the best configurations of a set
+_POLISHED = 4  # of the best configurations of a set, each another one
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def rows_to_give_up(
             minimal.append(given_up)
             lost = list(given_up)
             some = some[np.argsort(missed[some], kind="stable")]
-            better = [_polished(solver, space, pose, q[i], lost) for i in some[:_POLISHED]]
+            better = [_polished(solver, space, pose, x, lost) for x in _distinct(q[some])[:_POLISHED]]
             ends = np.concatenate([np.stack(better), q[some]])
             error = np.abs(solver.errors(ends, np.repeat(pose[None], len(ends), axis=0))[:, lost])
             size = np.linalg.norm(error, axis=1)
@@ -138,7 +138,7 @@ def rows_to_give_up(
 
 
 def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list[int]) -> Array:
-    """From q (n,) where the other rows are met, the rows lost missed by as little as can be had next to it."""
+    """From q (n,) where the other rows are met, the rows lost missed by as little as possible."""
     arm, clearance = solver.arm, space.clearance
     kept = [k for k in range(solver.rows.m) if k not in lost]
 

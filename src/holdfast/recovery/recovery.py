@@ -1,4 +1,4 @@
-"""What came of a recovery."""
+"""The result of a recovery."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 class Ending(IntEnum):
-    """How a recovery ends. Only ``HOME`` is success: everything that was asked for, nothing dropped."""
+    """How a recovery ends. Only ``HOME`` is success: all that was asked for, nothing dropped."""
 
     HOME = 0
     HOME_WITH_ROWS_GIVEN_UP = 1
@@ -45,15 +45,15 @@ class Ending(IntEnum):
 _SENTENCES = {
     Ending.HOME: "the whole goal is met, within limits, locks and clearance",
     Ending.HOME_WITH_ROWS_GIVEN_UP: "the goal is NOT met as a whole: a motion was found to a configuration that gives rows up",
-    Ending.PATH_UNFINISHED: "the rest of the hand path is NOT finished; if a goal was given too, it is met",
+    Ending.PATH_UNFINISHED: "the rest of the tool path is NOT finished; if a goal was given too, it is met",
     Ending.NO_ROUTE_FOUND: "configurations of the goal were found, but NO motion to any of them; this does not prove that "
     "there is none: give more tries",
     Ending.NOTHING_FOUND: "NO configuration of the goal was found, not even with rows given up; this does not prove that there "
     "is none: give more starts",
     Ending.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
-    Ending.START_OUTSIDE_LIMITS: "no motion: the arm stands outside its limits",
-    Ending.START_TOO_CLOSE: "no motion: where it stands the arm is closer to itself than the clearance that must be kept",
-    Ending.LOCK_ELSEWHERE: "no motion: a joint does not stand where it is said to be locked",
+    Ending.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
+    Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself than the clearance that must be kept",
+    Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
 }
 
 
@@ -79,15 +79,15 @@ class Leg:
 
 @dataclass(frozen=True, kw_only=True)
 class Recovery(Result):
-    """The answer to "my joint is stuck now".
+    """What an arm with joints known to be locked can still do; see :func:`holdfast.recover`.
 
     Attributes:
         arm: The arm.
-        locked: Where each locked joint stands, by name, rad or m.
-        at: (n,) where the arm stands, rad and m.
+        locked: Where each locked joint is, by name, rad or m.
+        at: (n,) where the arm is, rad and m.
         goal: What was asked for, for people.
-        goal_pose: (4, 4) of the hand, m, world; None if only a hand path was asked for.
-        task: Whose rows the hand must meet.
+        goal_pose: (4, 4) of the end effector, m, world; None if only a tool path was asked for.
+        task: Whose rows the end effector must meet.
         ending: :class:`holdfast.recovery.Ending`.
         reason: What is in the way, a sentence; empty if nothing is.
         q: (K, n) waypoints, rad and m, joints moving in straight lines between them; (0, n) if there is no motion.
@@ -96,7 +96,7 @@ class Recovery(Result):
         choices: Every minimal set of rows found to give up, best first; empty where the goal is met.
         proof: Why the goal cannot be reached, if that is proved; else None.
         left: What is left of the workspace, if asked for.
-        rest: What became of the hand path, if one was given.
+        rest: What became of the tool path, if one was given.
         starts: Random starts of the search for configurations of the goal.
         found: Configurations of the goal that were found and are clear.
         metric: ``travel`` or ``time``.
@@ -170,13 +170,13 @@ class Recovery(Result):
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        stands = ", ".join(
+        locked = ", ".join(
             f"{name} at {value:.4g} m"
             if self.arm.joints[self.arm.joint_index(name)].prismatic
             else f"{name} at {np.rad2deg(value):.4g} deg"
             for name, value in self.locked.items()
         )
-        lines = [f"{self.arm.title}, locked: {stands}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
+        lines = [f"{self.arm.title}, locked: {locked}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
         if self.reason:
             lines.append(self.reason)
         if self.given_up is not None:

@@ -1,4 +1,4 @@
-"""Which part of the workspace is left once joints stand."""
+"""Which part of the workspace is left once joints are locked."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STARTS = 48  # per target
 
 @dataclass(frozen=True, kw_only=True)
 class WhatIsLeft(Result):
-    """The share of targets that are still reached with joints standing.
+    """The share of targets that are still reached with joints locked.
 
     A target counts as left if a configuration is found in ``starts`` random starts, so the share is a lower bound.
 
@@ -72,11 +72,11 @@ def what_is_left(
     samples: int,
     seed: int,
 ) -> WhatIsLeft:
-    """Sample targets and look which are still reached.
+    """Sample targets and see which are still reached.
 
     Args:
         solver: Of the rows that count.
-        at: (n,) where the joints that are not free stand.
+        at: (n,) where the joints that are not free are.
         free: (n,) joints that move.
         clearance: Kept, if given.
         margin: m.

@@ -1,4 +1,4 @@
-"""The shortest way found through joint space: straight if nothing is in between, else by two growing trees, then cut short."""
+"""The shortest route found through joint space: straight if nothing is in between, else two growing trees, then cut short."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _IDLE = 8  # rounds without a gain before the way counts as short
 
 @dataclass(frozen=True)
 class Metric:
-    """How long a way through joint space is.
+    """How long a route through joint space is.
 
     Attributes:
         name: ``travel``: the Euclidean length of the joints' motion, each joint times its scale. ``time``: every straight
@@ -96,13 +96,13 @@ class Space:
         low, high = finite_limits(arm)
         self.low = np.where(free, np.minimum(low, around.min(axis=0)), around[0])
         self.high = np.where(free, np.maximum(high, around.max(axis=0)), around[0])
-        # Joints that turn may wind beyond the box, no bound below depends on where they stand; slides may not.
+        # Joints that turn may wind beyond the box, no bound below depends on their values; slides may not.
         self._lower = np.where(arm.prismatic, self.low, arm.lower)
         self._upper = np.where(arm.prismatic, self.high, arm.upper)
         self._slopes = None if self.clearance is None else clearance_slopes(self.clearance, self.low, self.high)
 
     def inside(self, q: Array) -> Flags:
-        """(N,) True within the limits, the joints that stand left aside."""
+        """(N,) True within the limits, locked joints left aside."""
         return np.asarray((((q >= self._lower) & (q <= self._upper)) | ~self.free).all(axis=-1))
 
     def clear(self, q: Array) -> Flags:
@@ -159,7 +159,7 @@ class Space:
 
 @dataclass(frozen=True)
 class Route:
-    """A way from a configuration to one of several goals, straight in joint space from waypoint to waypoint.
+    """A route from a configuration to one of several goals, straight in joint space from waypoint to waypoint.
 
     Attributes:
         q: (K, n) waypoints, rad and m.
@@ -177,7 +177,7 @@ class Route:
 
 
 def find_route(space: Space, metric: Metric, start: Array, goals: Array, tries: int, rng: np.random.Generator) -> Route | None:
-    """The shortest way found from start (n,) to any of the goals (G, n), or None; all of them must be clear.
+    """The shortest route found from start (n,) to any of the goals (G, n), or None; all of them must be clear.
 
     Straight lines to all goals first. Goals that could be nearer than the nearest one with a free line are then tried by
     trees that grow from both sides (RRT-Connect, Kuffner and LaValle 2000, here in batches), several times, and
@@ -219,7 +219,7 @@ class _Tree:
         self._points = self._embedded(roots)
 
     def _embedded(self, q: Array) -> Array:
-        """Points (N, e) whose distances order configurations as the metric does, nearly: a turning joint is a circle."""
+        """Points (N, e) whose distances order configurations as the metric does, nearly: a revolute joint is a circle."""
         flat = (q * self._metric.scale)[:, self._space.free & ~self._turning]
         scale = self._metric.scale[self._turning]
         turned = q[:, self._turning]
@@ -247,7 +247,7 @@ class _Tree:
 
 
 def _connect(space: Space, metric: Metric, start: Array, goals: Array, rng: np.random.Generator) -> tuple[Array, int] | None:
-    """A way from start (n,) to one of the goals (G, n) and which, or None after the last round."""
+    """A route from start (n,) to one of the goals (G, n) and which, or None after the last round."""
     here, there = _Tree(space, metric, start[None]), _Tree(space, metric, goals)
     reach = _REACH * float(metric.length(np.where(space.free, space.high - space.low, 0.0)))
     forward = True
@@ -275,7 +275,7 @@ def _shortened_step(metric: Metric, away: Array, reach: float) -> Array:
 def _meet(
     space: Space, metric: Metric, grown: _Tree, other: _Tree, new: NDArray[np.intp], reach: float
 ) -> tuple[int, int] | None:
-    """Grows the other tree towards new nodes step by step until one arrives: the two nodes that meet."""
+    """Grows the other tree towards new nodes step by step until one gets there: the two nodes that meet."""
     target = new
     while target.size:
         index, away = other.nearest(grown.nodes[target])

@@ -94,7 +94,7 @@ def _log_slope(phi: SX) -> SX:
 
 
 class RowSolver:
-    """Damped least squares on weighted rows with some joints standing: one kernel for every set of rows and joints.
+    """Damped least squares on weighted rows with some joints locked: one kernel for every set of rows and joints.
 
     The Jacobian is the exact derivative of the error, also where rows that are given up leave a large one.
     """
@@ -164,7 +164,7 @@ class RowSolver:
         return np.asarray(flat.reshape(self.rows.m, self.arm.n))
 
     def run(self, q: Array, poses: Array, weights: Array, free: Flags, steps: int = _STEPS) -> Array:
-        """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) standing."""
+        """Where starts q (N, n) lead with row weights (N, m), joints that are not free (n,) locked."""
         count = len(q)
         parameters = np.concatenate(
             [
@@ -184,7 +184,7 @@ class RowSolver:
         return np.asarray(inside & (missed <= self._tolerance))
 
     def nearest(self, q: Array, poses: Array, kept: Array, free: Flags) -> Array:
-        """From starts q (N, n): the rows kept (N, m) met, and of the others as little error as can be had next to it."""
+        """From starts q (N, n): the rows kept (N, m) met, and of the others as little error as possible."""
         if (kept == 0).any():
             q = self.run(q, poses, np.where(kept > 0, 1.0, _LIGHT), free)
         return self.run(q, poses, kept, free)

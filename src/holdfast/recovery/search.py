@@ -1,4 +1,4 @@
-"""A joint is stuck and it is known: what can the arm still do, and how does it get home?"""
+"""A joint is known to be locked: what the arm can still do, and a route home."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ from holdfast.solvers import joint_space
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SAME = 1e-6  # rad and m: a joint this near to its angle stands there
+SAME = 1e-6  # rad and m: a joint this near to its angle is there
 
 
 @dataclass(frozen=True)
 class _Goal:
-    """What the hand, or the arm, should come to.
+    """What the end effector, or the arm, should reach.
 
     Attributes:
         text: For people.
-        pose: (4, 4) of the hand.
+        pose: (4, 4) of the end effector.
         q: (n,) the configuration, if that itself is the goal; else None.
-        lost: Joints of that configuration that stand elsewhere, or None.
+        lost: Joints locked elsewhere than in that configuration, or None.
     """
 
     text: str
@@ -83,33 +83,33 @@ def recover(
         arm: The arm.
         locked: ``{joint: value}``, joints by name or index from 0, values in rad or m; ``{joint: None}``, or the joints alone,
             for where ``at`` has them.
-        at: (n,) where the arm stands, rad and m.
-        goal: (4, 4) pose of the hand in the world, m; (n,) a configuration; the name of one of ``arm.states`` (a built-in arm's
-            home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of an arm without a state of this name:
-            all joints at 0, or at the limit nearest to it; None, with a path: where that ends. A configuration means all its
-            joints, unless a task is given: then it means the hand's pose there. Where a locked joint stands elsewhere than a
-            configuration asks, that joint is given up and the hand's pose is aimed at.
-        task: Rows of the hand's pose that matter; if not given, the pose, or position for an arm that moves in a plane or for
-            a path without orientations.
-        path: The rest of a hand path, to be finished before going to the goal.
+        at: (n,) where the arm is, rad and m.
+        goal: (4, 4) pose of the end effector in the world, m; (n,) a configuration; the name of one of ``arm.states`` (a
+            built-in arm's home, the states of an SRDF file, the keyframes of an MJCF file); ``"home"`` of an arm without a
+            state of this name: all joints at 0, or at the limit nearest to it; None, with a path: where that ends. A
+            configuration means all its joints, unless a task is given: then it means the end effector's pose there. Where a
+            locked joint is elsewhere than a configuration asks, that joint is given up and the end effector's pose is aimed at.
+        task: Rows of the end effector's pose that matter; if not given, the pose, or position for an arm that moves in a plane
+            or for a path without orientations.
+        path: The rest of a tool path, to be finished before going to the goal.
         clearance: Kept between links; None: capsules of an assumed radius, but not for an arm that moves in a plane; False:
             none.
         margin: m, smallest clearance.
-        metric: Of the shortest way: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at the
+        metric: Of the shortest route: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at the
             velocity limits).
         weights: (n,) of the joints in ``travel``; 1 if not given.
         region: Of targets for what is left of the workspace; else poses of random configurations of the healthy arm.
-        samples: Of these; 0: do not look.
+        samples: How many; 0: none.
         starts: Random starts of the search for configurations.
-        tries: Searches for a way where straight lines are blocked.
+        tries: Searches for a route where straight lines are blocked.
         seed: The same seed gives the same result.
 
     Returns:
         A :class:`holdfast.Recovery`; ``ok`` only if everything that was asked for is met.
 
     Raises:
-        InputError: A joint, angle, goal or number that is none.
-        TaskError: A task that is none.
+        InputError: An invalid joint, angle, goal or number.
+        TaskError: An invalid task.
     """
     q, single = as_configurations(arm, at)
     if not single:
@@ -152,7 +152,7 @@ def recover(
     standing[list(stands)] = list(stands.values())
     aim = _goal(arm, goal, task is not None, standing, free, kept, margin, path)
     made = replace(
-        made, goal=aim.text if aim is not None else "the end of the hand path", goal_pose=None if aim is None else aim.pose
+        made, goal=aim.text if aim is not None else "the end of the tool path", goal_pose=None if aim is None else aim.pose
     )
     if samples:
         made = replace(made, left=what_is_left(solver, standing, free, kept, margin, region, samples, seed))
@@ -209,7 +209,7 @@ def _goal(
         if given.ndim == 2 and given.shape == (4, 4):
             if not np.isfinite(given).all():
                 raise InputError("goal holds NaN or infinity; give a pose of finite numbers")
-            return _Goal("a pose of the hand", check_poses(given)[0])
+            return _Goal("a pose of the end effector", check_poses(given)[0])
         if given.shape != (arm.n,) or not np.isfinite(given).all():
             raise InputError(
                 f"goal has shape {given.shape}; give 'home', a pose (4, 4), or a configuration of {arm.n} finite numbers"
@@ -220,7 +220,7 @@ def _goal(
         raise InputError(f"goal: joint '{beyond[0]}' is outside its limits there; give a configuration within them")
     pose = arm.forward_kinematics(q)
     if by_hand:
-        return _Goal(f"the hand where it is at {text}", pose)
+        return _Goal(f"the end effector where it is at {text}", pose)
     if clearance is not None and float(clearance(q)) < margin:
         raise InputError(f"goal: at that configuration the arm {too_close(margin)}; give a clear one, or no clearance")
     away = np.abs(joint_space.difference(arm, q, standing))
@@ -239,13 +239,13 @@ def _trouble(
     for k, value in stands.items():
         if abs(at[k] - value) > SAME:
             return Ending.LOCK_ELSEWHERE, (
-                f"{arm.joint_names[k]} is said to be locked at {value:.6g} and stands at {at[k]:.6g} {arm.joints[k].unit}; "
-                "give the angle at which it stands, or leave the angle out"
+                f"{arm.joint_names[k]} is said to be locked at {value:.6g} and is at {at[k]:.6g} {arm.joints[k].unit}; "
+                "give the angle at which it is, or leave the angle out"
             )
     for joint, x in zip(arm.joints, at, strict=True):
         if not joint.lower <= x <= joint.upper:
             return Ending.START_OUTSIDE_LIMITS, (
-                f"{joint.name} stands at {x:.6g} {joint.unit}, its limits are {joint.lower:.6g} to {joint.upper:.6g}; if it "
+                f"{joint.name} is at {x:.6g} {joint.unit}, its limits are {joint.lower:.6g} to {joint.upper:.6g}; if it "
                 "can move there, widen the limits of the arm"
             )
     if clearance is not None and clearance.pairs and float(clearance(at)) < margin:
@@ -329,7 +329,7 @@ class _Search:
         if aim.lost is not None:
             made = replace(made, given_up=aim.lost)
             reasons.append(
-                f"{' and '.join(aim.lost.names)} cannot be where {aim.text} has it; the hand's pose there is aimed at"
+                f"{' and '.join(aim.lost.names)} cannot be where {aim.text} has it; the end effector's pose there is aimed at"
             )
         if len(goals):
             route = self._route(here, goals)

@@ -71,14 +71,14 @@ def read_waypoints(arm: Arm, path: str | Path) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class WaypointCheck(Result):
-    """What a motion through waypoints does, looked at in small steps.
+    """What a motion through waypoints does, in small steps.
 
     Attributes:
         q: (K, n) the waypoints, rad and m.
-        poses: (K, 4, 4) of the hand at them, world, m.
+        poses: (K, 4, 4) of the end effector at them, world, m.
         looked_at: Configurations on the way that were looked at.
         beyond_limits: Joints that leave their limits, by name, with the most by which they do, rad or m.
-        locks_moved: Joints that should stand and do not, by name, with the farthest from their angle, rad or m.
+        locks_moved: Locked joints that move, by name, with the farthest from their angle, rad or m.
         least_clearance: m; None if the clearance was not looked at.
         margin: m, that was asked for.
     """
@@ -101,7 +101,7 @@ class WaypointCheck(Result):
         """A few sentences for people."""
         lines = [f"{len(self.q)} waypoints, looked at in {self.looked_at:,} configurations"]
         lines += [f"{name} leaves its limits by {miss:.4g}" for name, miss in self.beyond_limits.items()]
-        lines += [f"{name} should stand and moves {miss:.4g} away" for name, miss in self.locks_moved.items()]
+        lines += [f"{name} should be locked and moves {miss:.4g} away" for name, miss in self.locks_moved.items()]
         if self.least_clearance is None:
             lines.append("clearance was not looked at")
         else:
@@ -120,7 +120,7 @@ def check_waypoints(
     clearance: Clearance | None = None,
     margin: float = 0.0,
 ) -> WaypointCheck:
-    """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by other code than planned them.
+    """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by code that shares nothing with the planner.
 
     Args:
         arm: The arm.
@@ -130,7 +130,7 @@ def check_waypoints(
         margin: m that it should keep.
 
     Raises:
-        InputError: Waypoints that are none, or a joint that is not there.
+        InputError: Invalid waypoints, or an unknown joint.
     """
     a = np.atleast_2d(arm.check_configurations(q))
     if not len(a) or not np.isfinite(a).all():

@@ -449,7 +449,10 @@ class Region:
 
 
 def builtin_region(arm: str) -> Region | None:
-    """The region that a paper gives for a built-in arm.
+    """The region that a paper gives for a built-in arm; None if none does.
+
+    Args:
+        arm: Name of the arm: ``pa10-9dof`` has one.
 
     Source: Abdi et al. 2012, section V.B, printed centre; the pose at the nominal configuration differs by 0.5 mm.
     """

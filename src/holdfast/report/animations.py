@@ -16,22 +16,13 @@ from numpy.typing import NDArray
 from holdfast.notice import another
 from holdfast.report.page import environment
 from holdfast.report.scales import round_numbers
+from holdfast.report.views import View
 
 Array = NDArray[np.float64]
 
 _WIDE = 460.0  # pixels of a view beside another
 _ALONE = 560.0
 _MARGIN = (46.0, 30.0, 14.0, 38.0)  # pixels left, above, right and below
-
-
-@dataclass(frozen=True)
-class Projection:
-    """A view: unit vectors (3,) to the right and up, names of both axes, and a title."""
-
-    right: Array
-    up: Array
-    names: tuple[str, str]
-    title: str
 
 
 @dataclass(frozen=True)
@@ -57,7 +48,7 @@ class Motion:
     goal: Array | None = None
 
 
-def animation(motion: Motion, views: Sequence[Projection], name: str, about: str) -> Markup:
+def animation(motion: Motion, views: Sequence[View], name: str, about: str) -> Markup:
     """The motion as HTML: views side by side, a button, a slider and a reading.
 
     Args:
@@ -69,7 +60,7 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
     width = _WIDE if len(views) > 1 else _ALONE
     goal = np.zeros((0, 3)) if motion.goal is None else motion.goal[None]
     everything = np.concatenate([motion.chain.reshape(-1, 3), motion.path, goal])
-    flat = [(everything @ v.right, everything @ v.up) for v in views]
+    flat = [view.of(everything).T for view in views]
     span = max(float(np.ptp(x)) for x, _ in flat) * 1.1 or 1.0
     tall = max(float(np.ptp(y)) for _, y in flat) * 1.1
     left, above, right, below = _MARGIN
@@ -81,9 +72,8 @@ def animation(motion: Motion, views: Sequence[Projection], name: str, about: str
         middle = np.array([(x.min() + x.max()) / 2, (y.min() + y.max()) / 2])
         center = np.array([left + (width - left - right) / 2, above + (height - above - below) / 2])
 
-        def place(points: Array, view: Projection = view, middle: Array = middle, center: Array = center) -> Array:
-            flat = np.stack([points @ view.right, points @ view.up], axis=-1) - middle
-            return np.asarray(np.round(center + flat * [scale, -scale], 1))
+        def place(points: Array, view: View = view, middle: Array = middle, center: Array = center) -> Array:
+            return np.asarray(np.round(center + (view.of(points) - middle) * [scale, -scale], 1))
 
         frames = place(motion.chain)
         panels.append(

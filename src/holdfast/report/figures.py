@@ -176,7 +176,9 @@ class Bin:
     ylabel: str
 
 
-def draw_cdf(axes: Axes, curves: Sequence[Curve], marks: Sequence[Mark], xlabel: str, ylabel: str, log: bool = False) -> None:
+def draw_cdf(
+    axes: Axes, curves: Sequence[Curve], marks: Sequence[Mark], *, xlabel: str, ylabel: str, log: bool = False
+) -> None:
     """Cumulative distributions with their bands, and marks."""
     for c in curves:
         color = ORANGE if c.second else BLUE
@@ -233,7 +235,7 @@ def cdf_figure(
     with style():
         figure = Figure(figsize=(width, 3.9))
         axes = figure.add_subplot()
-        draw_cdf(axes, curves, marks, xlabel, ylabel, log)
+        draw_cdf(axes, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
         axes.set_title(title)
         legend_below(figure, axes)
         return finished(figure)
@@ -254,7 +256,7 @@ def distribution_figure(
         figure = Figure(figsize=(WIDTH, 3.9))
         left, right = figure.subplots(1, 2)
         draw_histogram(left, bins, marks, xlabel, log)
-        draw_cdf(right, curves, marks, xlabel, ylabel, log)
+        draw_cdf(right, curves, marks, xlabel=xlabel, ylabel=ylabel, log=log)
         left.set_title(titles[0])
         right.set_title(titles[1])
         legend_below(figure, right)
@@ -265,6 +267,7 @@ def compare_cdf_figure(
     panels: Sequence[tuple[str, Sequence[Curve]]],
     marks: Sequence[Mark],
     xlabel: str,
+    *,
     ylabel: str,
     log: bool = False,
 ) -> Figure:

@@ -13,8 +13,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from holdfast.report.animations import Projection
 from holdfast.report.figures import BLUE, INK, ORANGE, PALE, SKY, SOFT, WIDTH, finished, plain, style
+from holdfast.report.views import View
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -41,7 +41,7 @@ def self_motion_figure(
     joints: Sequence[JointPanel],
     curves: Sequence[tuple[Array, Array]],
     chains: Array,
-    views: Sequence[Projection],
+    views: Sequence[View],
     caption: str,
 ) -> Figure:
     """A row for each joint: its values along the curves one after the other, and its arcs as bands; beside it the arm.
@@ -102,7 +102,7 @@ def _draw_joint(axes: Axes, panel: JointPanel, k: int, curves: Sequence[tuple[Ar
         axes.set_xlim(-0.01 * total, at - _GAP * total + 0.01 * total)
 
 
-def _draw_arm(axes: Axes, chains: Array, view: Projection) -> None:
+def _draw_arm(axes: Axes, chains: Array, view: View) -> None:
     for shade, chain in zip(np.linspace(0.25, 1.0, len(chains)), chains, strict=True):
         axes.plot(*chain.T, color=INK, alpha=0.25 + 0.55 * shade, linewidth=1.2 + 0.9 * shade, solid_joinstyle="round")
         axes.plot(*chain[1:-1].T, "o", color="white", markeredgecolor=INK, markeredgewidth=1.0, markersize=4, zorder=3)
@@ -125,7 +125,7 @@ class RegionMap:
     """
 
     points: Array
-    view: Projection
+    view: View
     healthy: Bools
     within: Bools
     inside: Bools

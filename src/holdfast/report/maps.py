@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.report.figures import INK, WIDTH, finished, style
-from holdfast.report.scenes import AXES, Scale, View, finish_bar
+from holdfast.report.scenes import Scale, finish_bar
+from holdfast.report.views import View
 
 Array = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ def map_figure(
     lost = any(bool(np.isnan(values).any()) for values in samples.values())
     scale = replace(Scale.of(cells[~np.isnan(cells)], log, smaller_is_better), pale=True)
     with style():
-        tall = max(float((high - low)[v.up] / (high - low)[v.right]) for v in views)
+        tall = max(float(up / right) for right, up in (view.of(high - low) for view in views))
         height = float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8
         figure = Figure(figsize=(WIDTH if len(views) > 1 else 6.2, height * len(samples)))
         panels = figure.subplots(len(samples), len(views), squeeze=False)
@@ -57,7 +58,7 @@ def map_figure(
             for axes, view, (x, y, mean, reached, drawn) in zip(line, views, row, strict=True):
                 _draw_cells(axes, x, y, mean, reached, drawn, scale, lost)
                 title = f"{view.title}, {name}" if len(samples) > 1 else view.title
-                axes.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=title)
+                axes.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
         b = figure.colorbar(
             scale.mappable,
             ax=list(panels.ravel()),
@@ -92,13 +93,14 @@ def share_figure(
     low, high = points.min(axis=0), points.max(axis=0)
     scale = Scale(0.0, 1.0, pale=True)
     with style():
-        tall = float((high - low)[view.up] / (high - low)[view.right])
+        right, up = view.of(high - low)
+        tall = float(up / right)
         figure = Figure(figsize=(WIDTH, float(np.clip(4.0 * tall, 1.6, 4.6)) + 0.8))
         axes = figure.subplots(1, len(panels), squeeze=False)[0]
         for a, (title, having) in zip(axes, panels, strict=True):
             x, y, share, count, _ = _grid(points, having.astype(np.float64), view, low, high, bins, False, weights)
             _draw_cells(a, x, y, share, count, count, scale, False)
-            a.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=title)
+            a.set(xlabel=view.names[0], ylabel=view.names[1], title=title)
         finish_bar(figure.colorbar(scale.mappable, ax=list(axes), shrink=0.85, aspect=26, pad=0.015), label, scale)
         return finished(figure)
 
@@ -106,13 +108,12 @@ def share_figure(
 def _grid(
     points: Array, values: Array, view: View, low: Array, high: Array, bins: int, median: bool, weights: Array | None = None
 ) -> tuple[Array, Array, Array, Array, Array]:
-    pick = [view.right, view.up]
-    size = (high - low)[pick]
+    low, size = view.of(low), view.of(high - low)
     count = np.maximum(np.round(bins * size / size.max()), 1).astype(int)
-    x, y = (np.linspace(low[a], high[a], n + 1) for a, n in zip(pick, count, strict=True))
+    x, y = (np.linspace(a, a + s, n + 1) for a, s, n in zip(low, size, count, strict=True))
 
     def place(p: Array) -> NDArray[np.int64]:
-        at = np.minimum(((p[:, pick] - low[pick]) / size * count).astype(np.int64), count - 1)
+        at = np.minimum(((view.of(p) - low) / size * count).astype(np.int64), count - 1)
         return np.asarray(at[:, 1] * count[0] + at[:, 0])
 
     there = ~np.isnan(values)

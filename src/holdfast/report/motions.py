@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.animations import Motion, Projection
+from holdfast.report.animations import Motion
 from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, plain, style
+from holdfast.report.views import View
 
 Array = NDArray[np.float64]
 
@@ -65,7 +66,7 @@ def draw_panel(axes: Axes, panel: Panel, xlabel: str) -> None:
     axes.margins(y=0.12)
 
 
-def drawn_motion(motion: Motion, views: Sequence[Projection], panel: Panel, caption: str, xlabel: str) -> Figure:
+def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str) -> Figure:
     """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time."""
     with style():
         figure = Figure(figsize=(WIDTH * (1.0 if len(views) == 1 else 1.4), 4.4))
@@ -79,9 +80,9 @@ def drawn_motion(motion: Motion, views: Sequence[Projection], panel: Panel, capt
         return finished(figure)
 
 
-def _draw_view(axes: Axes, motion: Motion, view: Projection) -> None:
+def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
     def flat(points: Array) -> Array:
-        return np.stack([points @ view.right, points @ view.up])
+        return view.of(points).T
 
     last = len(motion.chain) - 1
     marked = np.zeros(len(motion.square), dtype=bool) if motion.marked is None else motion.marked[last]

@@ -22,7 +22,7 @@ FILLS: tuple[tuple[str, str], ...] = ((BLUE, ""), (ORANGE, ""), ("#f0c27b", "///
 MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Stack:
     """Bars of one group, one below the other, each stacked from shares.
 
@@ -42,7 +42,9 @@ class Stack:
     level: float | None = None
 
 
-def stack_figure(stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, level: str = "", caption: str = "") -> Figure:
+def stack_figure(
+    stacks: Sequence[Stack], outcomes: Sequence[str], xlabel: str, *, level: str = "", caption: str = ""
+) -> Figure:
     """Groups of stacked bars with the interval of the first outcome.
 
     Args:
@@ -141,7 +143,7 @@ def _draw_spread(axes: Axes, s: Spread) -> None:
         axes.set_xlim(0, 1.08 * top if top > 1e-9 else 1.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Gains:
     """Differences or shares of one thing over several cases: values, and ends of their intervals, (C,) each."""
 

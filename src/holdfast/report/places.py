@@ -17,7 +17,7 @@ from holdfast.report.scenes import Scale, finish_bar
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Plane:
     """Places in a plane.
 
@@ -39,7 +39,7 @@ class Plane:
 
 
 def place_maps(
-    plane: Plane, rows: Mapping[str, Array], columns: Sequence[str], label: str, caption: str, most: float = 100.0
+    plane: Plane, rows: Mapping[str, Array], columns: Sequence[str], *, label: str, caption: str, most: float = 100.0
 ) -> Figure:
     """A panel for each row and column over the same places.
 
@@ -122,4 +122,4 @@ def binned(points: Array, values: Array, bins: int) -> tuple[Plane, Array]:
     cells = np.stack([number % count[0], number // count[0]], axis=1)
     axes = tuple(low[k] + size * (np.arange(count[k]) + 0.5) for k in range(2))
     centres = np.stack([axes[0][cells[:, 0]], axes[1][cells[:, 1]]], axis=1)
-    return Plane(centres, ("", ""), cells, (axes[0], axes[1])), means
+    return Plane(points=centres, labels=("", ""), cells=cells, axes=(axes[0], axes[1])), means

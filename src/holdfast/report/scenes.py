@@ -21,6 +21,7 @@ from matplotlib.ticker import LogFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from holdfast.report.figures import INK, ORANGE, SOFT, WIDTH, finished, style
+from holdfast.report.views import View
 
 Array = NDArray[np.float64]
 
@@ -67,24 +68,6 @@ class Scale:
 
 
 @dataclass(frozen=True)
-class View:
-    """A projection: which of x, y, z (0, 1, 2) go to the right and up, and its title."""
-
-    right: int
-    up: int
-    title: str
-
-
-def sides(points: Array) -> list[View]:
-    """Side and top view of points (N, 3); only one of them if everything lies in its plane."""
-    size = np.ptp(points, axis=0)
-    flat = size < 1e-6 * max(float(size.max()), 1e-6)
-    side = View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
-    found = [v for v in (side, View(0, 1, "Top view")) if not (flat[v.right] or flat[v.up])]
-    return found or [View(0, 2 if flat[1] else 1, "View")]
-
-
-@dataclass(frozen=True)
 class Scene:
     """Things in space, m.
 
@@ -117,9 +100,6 @@ class Scene:
         return np.array([everything.min(axis=0), everything.max(axis=0)])
 
 
-AXES = "xyz"
-
-
 def draw_view(
     axes: Axes, scene: Scene, view: View, scale: Scale, size: float, spans: tuple[float, float], width: float
 ) -> None:
@@ -134,33 +114,32 @@ def draw_view(
         spans: Lengths of the two axes, m.
         width: Of the panel, inches, about.
     """
-    pick = [view.right, view.up]
     if len(scene.missing):
-        x, y = scene.missing[:, pick].T
+        x, y = view.of(scene.missing).T
         axes.scatter(x, y, s=size * 1.3, marker="x", c="#9aa1a8", linewidths=0.7, rasterized=True, zorder=2)
     if len(scene.points):
-        x, y = scene.points[:, pick].T
+        x, y = view.of(scene.points).T
         axes.scatter(x, y, s=size, c=scale.colors(scene.values), linewidths=0, alpha=0.85, rasterized=True, zorder=2.1)
     if scene.box is not None:
-        (x0, y0), (x1, y1) = scene.box[:, pick]
+        (x0, y0), (x1, y1) = view.of(scene.box)
         axes.add_patch(
             Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=SOFT, linewidth=0.9, linestyle=(0, (4, 2)), zorder=2.2)
         )
-    _draw_chain(axes, scene, pick, 72 * width / spans[0])
-    middle = scene.extent.mean(axis=0)[pick]
+    _draw_chain(axes, scene, view, 72 * width / spans[0])
+    middle = view.of(scene.extent.mean(axis=0))
     axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
     axes.set_ylim(middle[1] - spans[1] / 2, middle[1] + spans[1] / 2)
     axes.set_aspect("equal")
-    axes.set(xlabel=f"{AXES[view.right]}, m", ylabel=f"{AXES[view.up]}, m", title=view.title)
+    axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
 
 
-def _draw_chain(axes: Axes, scene: Scene, pick: list[int], scale: float) -> None:
+def _draw_chain(axes: Axes, scene: Scene, view: View, scale: float) -> None:
     """The polyline with numbered nodes; ``scale`` is points per metre."""
     if not len(scene.chain):
         return
-    line = scene.chain[:, pick]
+    line = view.of(scene.chain)
     halo = [withStroke(linewidth=5.4, foreground="white")]
     axes.plot(
         line[:, 0],
@@ -174,7 +153,7 @@ def _draw_chain(axes: Axes, scene: Scene, pick: list[int], scale: float) -> None
     )
     axes.plot(*line[0], marker="s", color=INK, markersize=8.5, zorder=3.1)
     axes.plot(*line[-1], marker="D", color=ORANGE, markeredgecolor="white", markersize=6, zorder=3.5)
-    nodes = scene.nodes[:, pick]
+    nodes = view.of(scene.nodes)
     for shape, chosen in (("o", ~scene.square), ("s", scene.square)):
         axes.plot(
             nodes[chosen, 0],
@@ -301,8 +280,8 @@ def dot_size(scene: Scene, views: Sequence[View], scale: float) -> float:
     dots = np.concatenate([scene.points, scene.missing])
     if len(dots) < 2:
         return 28.0
-    size = np.ptp(dots, axis=0) * scale * 72
-    area = min(max(size[v.right], 12.0) * max(size[v.up], 12.0) for v in views)
+    sizes = [np.ptp(view.of(dots), axis=0) * scale * 72 for view in views]
+    area = min(max(across, 12.0) * max(upward, 12.0) for across, upward in sizes)
     return float(np.clip(0.85 * area / len(dots), 1.2, 28))
 
 
@@ -310,9 +289,7 @@ def view_spans(
     scene: Scene, views: Sequence[View], width: float, least: float, most: float
 ) -> tuple[tuple[float, float], float]:
     """Lengths of the axes, m, that hold the scene in every view, and the height of a panel, inches."""
-    size = np.diff(scene.extent, axis=0)[0]
-    across = max(float(size[v.right]) for v in views) * 1.2
-    upward = max(float(size[v.up]) for v in views) * 1.2
+    across, upward = 1.2 * np.max([np.ptp(view.of(scene.extent), axis=0) for view in views], axis=0)
     across, upward = max(across, 0.1 * upward, 1e-6), max(upward, 0.1 * across, 1e-6)
     height = float(np.clip(width * upward / across, least, most))
     if height / width < upward / across:

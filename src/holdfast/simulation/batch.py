@@ -177,7 +177,7 @@ class Motion:
 
         Where the motion on either side of half a turn leads to it, steps across it shrink until next to nothing is left of
         them: a row is caught if it is half a turn away at the ends of a few stretches, one after the other, at whose pace it
-        would not come to its end. Of 4,000 runs of a Panda half a turn caught 270; 4 of them would have got away later.
+        would not finish. Of 4,000 runs of a Panda half a turn caught 270; 4 of them would have got away later.
         """
         done, left, states = np.zeros(len(states), dtype=bool), np.arange(len(states)), states.copy()
         parts = self._steps.state.values(states)

@@ -43,7 +43,7 @@ def simulate(
     radius: float = RADIUS,
     time: ArrayLike = 0.0,
 ) -> Runs:
-    """What the arm does when joints lock and its controller goes on as if nothing had happened.
+    """What the arm does when joints lock and its controller does not know.
 
     ``q' = mask G(q) Ke e(q)`` with mask 0 for locked joints, G the law's inverse at the true configuration with no column
     removed, and e the error ``(p_d - p; log(R_d R'))`` of the task's rows in the world. Joint limits are not heeded, only
@@ -63,7 +63,7 @@ def simulate(
       nothing, or the law has no answer), *steps* (100,000 steps, as beside a singularity), *half turn* (likewise with
       the end effector
       half a turn from its target, where the shortest turn, and with it the command, is discontinuous; such a run is given up
-      as soon as it would not come to its end at the pace of its last 2,000 steps), *bad input*.
+      as soon as it would not finish at the pace of its last 2,000 steps), *bad input*.
 
     None of this looks at the steps that were taken, so that it does not depend on their size.
 

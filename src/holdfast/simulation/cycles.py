@@ -38,7 +38,7 @@ class Cycles:
     """Sub-steps of control cycles of one system, as a loop over states.
 
     A state holds the configuration ``q``; the number of the ``substep``, the ``command`` held and where the end effector was
-    (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the end effector stood ``still``; and, as for
+    (``place``) when the cycle began; the ``time`` in cycles; for how many cycles the end effector was ``still``; and, as for
     :class:`holdfast.simulation.runge_kutta.Steps`, path, closest approach, joint excursions, speeds and code.
 
     Parameters of a row, after those of the system: ``until`` and ``limit``, cycles; the ``radius`` of the target.
@@ -92,7 +92,7 @@ class Cycles:
             "clock": time,
         }
         moved |= chosen(first, watched(at, speed, parts["time"], self._limit), at)
-        # A singular configuration makes the rates NaN, and the comparison false: the arm stands where it was.
+        # A singular configuration makes the rates NaN, and the comparison false: the arm stays where it was.
         after = chosen(ca.sumsqr(q) < 1e30, moved, {**at, "code": ca.SX(COLLAPSE)})
         return chosen(at["code"] == RUNNING, after, at)
 

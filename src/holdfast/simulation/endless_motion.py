@@ -1,4 +1,4 @@
-"""Motions that go round for ever, and so fast that their steps run out long before the time limit.
+"""Motions that circle forever, and so fast that their steps run out long before the time limit.
 
 Where a joint turns at tens of radians per time constant, no budget of steps lasts until the limit. Such a motion is told by
 its return: once it is on its limit cycle it comes back to where it was, modulo whole turns, and by how little it misses says

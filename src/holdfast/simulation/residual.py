@@ -1,4 +1,4 @@
-"""How close a failed arm can still come to a target: damped least squares over its healthy joints."""
+"""How close a failed arm can still get to a target: damped least squares over its healthy joints."""
 
 from __future__ import annotations
 

@@ -51,10 +51,9 @@ _EVALUATIONS = 32  # in one call, about
 class Steps:
     """Runge-Kutta steps of one system under one method, as a loop over states.
 
-    A state holds the configuration ``q`` and what is known there (``rates``, speed of the ``hand``, ``share``, ``error``
-    squared and its ``slope``); the next step ``h`` and the ``time``, both in 1/Ke; the ``clock``, which counts time as if no
-    speed limit slowed the motion; the ``path`` of the end effector, m; the ``closest`` squared error so far; the least
-    and greatest
+    A state holds the configuration ``q`` and what is known there (``rates``, tool speed, ``share``, ``error`` squared
+    and its ``slope``); the next step ``h`` and the ``time``, both in 1/Ke; the ``clock``, which counts time as if no speed
+    limit slowed the motion; the ``path`` of the end effector, m; the ``closest`` squared error so far; the least and greatest
     joint values ``low`` and ``high``; the speeds ``slowest``, ``early`` and ``late`` of the end; and its ``code``.
 
     Parameters of a row, after those of the system: ``until``, the time at which the phase ends; the ``limit`` of the clock;
@@ -105,7 +104,7 @@ class Steps:
     @cached_property
     @recalled
     def single(self) -> Kernel:
-        """One step, or one stage of it, of a state: for those who want to see every one."""
+        """One step, or one stage of it, of a state: for whoever needs every one."""
         symbol = ca.SX.sym("state", self.state.size)
         after = (self._stage if self.staged else self._step)(self.state.split(symbol))
         return Kernel("one step", [symbol, *self.parameters], [self.state.join(after)])
@@ -161,7 +160,7 @@ class Steps:
         running = parts["code"] == RUNNING
         rate = ca.sqrt(ca.sumsqr(here.rates))
         if self.tableau.errors:
-            # Beside a singularity a rest point pulls so strongly that errors allowed elsewhere would keep the arm moving.
+            # Beside a singularity a stationary point pulls so strongly that errors allowed elsewhere would keep the arm moving.
             slow = greater(NEARLY * ca.sqrt(ca.sumsqr(parts["rates"])), FINEST)
             size = self._error(h, rates) / lesser(self._tolerance, slow) ** 2
             # A stage that met a singularity makes the estimate NaN, and every comparison with it false. The estimate does not

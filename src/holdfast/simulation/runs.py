@@ -63,10 +63,10 @@ class Reason(IntEnum):
 _SENTENCES = {
     Reason.NONE: "decided",
     Reason.SINGULAR: "the motion ran into a singular configuration, where the law has no answer: its steps shrank to nothing",
-    Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet come to rest: give a longer time_limit",
+    Reason.SLOW: "the time limit came while the arm crept or slowed down, so it may yet stop: give a longer time_limit",
     Reason.STEPS: "the motion took 100,000 steps, as it does close to a singular configuration: look at it with path()",
     Reason.HALF_TURN: (
-        "the hand was caught half a turn from its target, where the shortest turn flips from one instant to the next and the "
+        "the end effector was half a turn from its target, where the shortest turn flips from one instant to the next and the "
         "steps shrink to next to nothing: bring the target nearer to its orientation by poses in between, or leave the "
         "orientation free"
     ),
@@ -83,7 +83,7 @@ class Path:
         q: (T, n) rad and m.
         x: (T, 3) tool point in the world, m.
         error: (T,) norm of the task's error, m and rad.
-        locked: (T, n) True where the joint stands.
+        locked: (T, n) True where the joint is locked.
     """
 
     time: Array
@@ -131,7 +131,7 @@ class Runs(Result):
         code: (N,) :class:`holdfast.simulation.Outcome`.
         reason: (N,) :class:`holdfast.simulation.Reason`.
         q_final: (N, n) where the run ended, not wrapped.
-        x_final: Where the hand ended, in the form of ``target``.
+        x_final: Where the end effector ended, in the form of ``target``.
         error: (N,) norm of the task's error at the end.
         closest: (N,) least norm of the error on the way.
         path_length: (N,) m, of the tool point.
@@ -175,10 +175,10 @@ class Runs(Result):
     @checked
     @says("looking for the least errors")
     def least_error(self, restarts: int = 24, seed: int = 0) -> Array:
-        """(N,) least norm of the task's error that each arm can have with its joints standing where they stood at the end.
+        """(N,) least norm of the task's error that each arm can have with its locked joints where they were at the end.
 
-        Found by damped least squares over the healthy joints, from where the run ended and from random configurations, joint
-        limits left aside as in the run itself: an upper bound of the true least, never above the run's own end.
+        Found by damped least squares over the healthy joints, starting where the run ended and from random configurations,
+        joint limits left aside as in the run itself: an upper bound of the true least, never above the run's own end.
 
         Raises:
             InputError: Fewer than 0 restarts.

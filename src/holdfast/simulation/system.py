@@ -1,6 +1,6 @@
 """The failed arm as a system of differential equations, and what is noted of a motion along the way.
 
-The controller knows of no failure: it commands ``G(q) Ke e``, and the joints that stand do not follow. With ``mask`` 0 for
+The controller knows of no failure: it commands ``G(q) Ke e``, and locked joints do not follow. With ``mask`` 0 for
 a locked joint and 1 for a healthy one, ``q' = mask G(q) Ke e(q)``.
 
 Time is in units of ``1/Ke`` here, so that thresholds are free of units.
@@ -32,11 +32,11 @@ UNROLLED = 12_000  # operations in one call, about
 
 @dataclass(frozen=True)
 class Here:
-    """What there is to know at one configuration, in units of ``1/Ke``.
+    """What is known at one configuration, in units of ``1/Ke``.
 
     Attributes:
         rates: (n,) joint rates, 0 for locked joints.
-        hand: Speed of the end effector, m.
+        hand: Tool speed, m.
         share: By how much the speed limit slows the command: 1 where it does not act.
         squared_error: Of the task's rows, m and rad.
         slope: Its derivative by time.
@@ -111,7 +111,7 @@ class System:
 
 
 def prescribed_way(law: Law, hand: Array, target: Array) -> Array:
-    """(N, 3) from hands to targets, poses (N, 4, 4), in the directions that the task prescribes, m."""
+    """(N, 3) from tools to targets, poses (N, 4, 4), in the directions that the task prescribes, m."""
     linear = law.task.rows[:, :3]
     into = linear.T @ linear
     way = target[:, :3, 3] - hand[:, :3, 3]
@@ -191,7 +191,7 @@ def chosen(condition: SX, yes: dict[str, SX], no: dict[str, SX]) -> dict[str, SX
     return {name: ca.if_else(condition, value, no[name]) for name, value in yes.items()}
 
 
-# How a motion stands: the code in the state of a loop.
+# Where a motion is: the code in the state of a loop.
 RUNNING, REST, COLLAPSE, TIME, PHASE, ARRIVED = range(6)
 WINDOW, HALF = 0.8, 0.9  # shares of the time limit: the end of a motion is watched from the first on, in two halves
 

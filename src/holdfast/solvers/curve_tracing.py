@@ -43,7 +43,7 @@ class Component:
         closed: The curve comes back to its first point (modulo 2 pi on joints that turn without limits).
         bounded_by: Index from 0 of the joint whose limit ends the curve at its first and at its last point; None where none
             does: on a closed curve, and where the curve runs into a singular configuration.
-        length: rad (and m, of sliding joints), of the polygon through the points.
+        length: rad (and m, of prismatic joints), of the polygon through the points.
     """
 
     q: Array
@@ -138,7 +138,7 @@ class Tracer:
             left[mine] = distance_to_curve(self.arm, component, q[mine]) > _ON_CURVE * spacing
 
     def passed_on(self, poses: Array, spacing: float, found: list[list[Component]]) -> list[list[Component]]:
-        """Adds the curves at which inverse kinematics arrives from the middle of a curve of the pose before or behind."""
+        """Adds the curves at which inverse kinematics converges from the middle of a curve of the pose before or behind."""
         fresh = [(i, c) for i, curves in enumerate(found) for c in curves]
         while fresh:
             starts = [(i + to, c.q[len(c.q) // 2]) for i, c in fresh for to in (-1, 1) if 0 <= i + to < len(poses)]

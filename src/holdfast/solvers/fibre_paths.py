@@ -1,4 +1,4 @@
-"""The best motion of the joints along a path of the hand: dynamic programming over sampled self-motion manifolds."""
+"""The best motion of the joints along a path of the end effector: dynamic programming over sampled self-motion manifolds."""
 
 from __future__ import annotations
 
@@ -102,18 +102,22 @@ def best_path(
     if np.ndim(poses) != 3 or np.shape(poses)[0] < 2:
         raise InputError(f"poses have shape {np.shape(poses)}; a path needs (T, 4, 4) with T of 2 or more")
     found = fibres(arm, poses, task, spacing=spacing, seed=seed, starts=starts, follow=True)
-    return best_path_over(arm, found, objective_value, rate_limit, cost, motion)
+    return best_path_over(arm, found, objective_value, rate_limit=rate_limit, cost=cost, motion=motion)
 
 
 def best_path_over(
     arm: Arm,
     found: Sequence[SelfMotion],
     objective_value: Objective,
+    *,
     rate_limit: ArrayLike | None = None,
     cost: Literal["mean", "max"] = "mean",
     motion: float = 1e-2,
 ) -> FibrePath:
-    """As :func:`best_path` for manifolds that are there already, so that several objectives can share them."""
+    """As :func:`best_path` for the manifolds of its poses that are there already (:func:`fibres`, ``follow=True``).
+
+    So several objectives can share them.
+    """
     if cost not in ("mean", "max"):
         raise InputError(f"cost is '{cost}'; use 'mean' or 'max'")
     if not (np.isfinite(motion) and motion >= 0):

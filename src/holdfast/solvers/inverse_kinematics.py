@@ -30,7 +30,7 @@ from holdfast.status import Status, require_ok
 
 Array = NDArray[np.float64]
 
-STEPS = 40  # per start; most starts that arrive do so within 15
+STEPS = 40  # per start; most starts that reach the target do so within 15
 _FLAT, _TINY, _ROUNDING = 1e-6, 1e-9, 1e-15  # sines of half a turn, of no turn, and of which nothing is left but rounding
 _WAVE = 8192  # rows of starts that run side by side when poses are left over
 _BY_ROW, _BY_START = 2654435761, 40503  # odd numbers: each row walks through the whole pool of starts
@@ -113,7 +113,7 @@ def _skew_part(r: SX) -> SX:
 
 
 def hand_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
-    """World-frame error (6,) of the hand, of which a task takes its rows: the shortest turn that a task asks for."""
+    """World-frame error (6,) of the end effector, of which a task takes its rows: the shortest turn that a task asks for."""
     return (pointing_error if _free_spin(task) else pose_error)(position, rotation, target, target_rotation)
 
 
@@ -225,21 +225,21 @@ class InverseKinematics:
         restarts: int,
         tolerance: float,
     ) -> Reach:
-        """As :meth:`solve` with joint ``locked[i]`` of row i standing at ``angles[i]``; joint values are not wrapped."""
+        """As :meth:`solve` with joint ``locked[i]`` of row i locked at ``angles[i]``; joint values are not wrapped."""
         rows = np.arange(len(poses))
         free = np.ones((len(poses), self.arm.n))
         free[rows, locked] = 0.0
         parameters = np.concatenate([_parameters(poses), free], axis=1)
         finite = np.isfinite(parameters).all(axis=1) & np.isfinite(angles)
 
-        def stand(start: Array, chosen: NDArray[np.int64]) -> Array:
+        def lock(start: Array, chosen: NDArray[np.int64]) -> Array:
             start[np.arange(chosen.size), locked[chosen]] = angles[chosen]
             return start
 
-        found = self._search(self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, stand)
-        stood = found.q[rows, locked] == angles
+        found = self._search(self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock)
+        kept = found.q[rows, locked] == angles
         position_error, rotation_error = self.errors(found.q, poses)
-        reached = self.verdict(found.q, poses, tolerance) & stood
+        reached = self.verdict(found.q, poses, tolerance) & kept
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(
@@ -255,19 +255,19 @@ class InverseKinematics:
         restarts: int,
         tolerance: float,
     ) -> NDArray[np.bool_]:
-        """(N,) True where a configuration of pose i is found with joint ``locked[i]`` standing at ``angles[i]``.
+        """(N,) True where a configuration of pose i is found with joint ``locked[i]`` locked at ``angles[i]``.
 
         False says that none was found in ``restarts`` starts, which proves nothing. Poses must be finite.
         """
         return self.solve_locked(poses, locked, angles, seed, restarts, tolerance).success
 
     def near(self, q: Array, pose: Array, free: Array, tolerance: float, steps: int = STEPS) -> tuple[Array, bool]:
-        """From q (n,) towards one pose (4, 4), without restarts: for a hand that is dragged.
+        """From q (n,) towards one pose (4, 4), without restarts: for an end effector that is dragged.
 
         Args:
             q: (n,) where the arm is, rad and m.
             pose: (4, 4) in the world.
-            free: (n,) 1 for joints that may move, 0 for those that stand.
+            free: (n,) 1 for joints that may move, 0 for locked ones.
             tolerance: rad, and lengths in units of the arm's own.
             steps: At most so many.
 
@@ -306,7 +306,7 @@ class InverseKinematics:
         left, k = rows, 0
         with Count("starts of each pose", restarts, most=True) as tell:
             while left.size and k < restarts:
-                # Doubling: most rows arrive early, and starts that run beside a successful one are wasted.
+                # Doubling: most rows converge early, and starts that run beside a successful one are wasted.
                 wave = 1 if k == 0 else min(restarts - k, k, max(1, _WAVE // left.size))
                 number = np.repeat(np.arange(k, k + wave), left.size)
                 chosen = np.tile(left, wave)
@@ -316,7 +316,7 @@ class InverseKinematics:
                 run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
                 done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
                 arrived = done.any(axis=0)
-                # The first start that arrived, else the one that came closest; NaN never wins.
+                # The first start that reached the target, else the one that came closest; NaN never wins.
                 pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
                 column = np.arange(left.size)
                 best = rest[pick, column]
@@ -408,7 +408,7 @@ def solve_ik(
     tolerance: float = 1e-6,
     start: ArrayLike | None = None,
 ) -> Reach:
-    """Configurations that put the hand at poses, within the joint limits.
+    """Configurations that put the end effector at poses, within the joint limits.
 
     Args:
         arm: The arm.

@@ -205,7 +205,7 @@ class Ascent:
     ) -> tuple[NDArray[np.int64], Array]:
         """Configurations of the reached poses to climb from, and whose they are.
 
-        Where joint limits let few random starts arrive, more waves of them follow, so that hard poses are searched as
+        Where joint limits let few random starts converge, more waves of them follow, so that hard poses are searched as
         well as easy ones. Start k of pose i is the same number whichever other poses are reached.
         """
         reached = np.flatnonzero(first.success)

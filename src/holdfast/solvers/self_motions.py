@@ -145,8 +145,8 @@ def fibres(
 ) -> list[SelfMotion]:
     """The self-motion manifold of each pose, within the joint limits.
 
-    With one degree of redundancy every curve on which a start of inverse kinematics arrives is traced, both ways, until it
-    closes or a joint comes to its limit. Curves on which no start arrives are missed: more starts find shorter ones. With
+    With one degree of redundancy every curve on which a start of inverse kinematics converges is traced, both ways, until it
+    closes or a joint reaches its limit. Curves that no start converges to are missed: more starts find shorter ones. With
     more redundancy the manifold is sampled: neighbours of known points are added until none is farther than about the
     spacing from the points (or until there are 4000).
 
@@ -154,7 +154,7 @@ def fibres(
         arm: The arm.
         poses: (4, 4) or (N, 4, 4) in the world; only the rows of the task must be met.
         task: Rows of the pose that matter.
-        spacing: Distance of neighbouring points in joint space, rad (a sliding joint counts 1 m as 1 rad). Steps are
+        spacing: Distance of neighbouring points in joint space, rad (a prismatic joint counts 1 m as 1 rad). Steps are
             shortened where the curve bends.
         seed: Of the starts; start k of pose i does not depend on the number of poses behind it.
         starts: Random starts of inverse kinematics per pose.

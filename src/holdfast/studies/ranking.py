@@ -1,4 +1,4 @@
-"""Which arm for what: of each question that a study answers, how the arms stand, and whether the first is really ahead."""
+"""Which arm for what: for each question of a study the ranking of the arms, and whether the first is really ahead."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NOT_ZERO = ("mean-singular-value",)  # at a singular configuration
 
 @dataclass(frozen=True)
 class Standing:
-    """How the arms stand at one question.
+    """The ranking of the arms for one question.
 
     Attributes:
         question: For people, short.

@@ -22,7 +22,7 @@ _TEXT = """\
 # A study of holdfast: what is computed is every combination of the lists below.
 #
 #   holdfast study run {file} --dry-run        what it would compute, how long it would take, how large it would be
-#   holdfast study run {file} --out DIR        compute; Ctrl-C stops, and the same command goes on
+#   holdfast study run {file} --out DIR        compute; Ctrl-C stops, and the same command resumes
 #   holdfast study status|verify|report DIR    how far it is; is every chunk sound; one HTML page
 #
 # Folders of different seeds are different studies. Everything but name and thresholds defines the results.
@@ -33,7 +33,7 @@ name: {name}
 seed: {seed}
 
 # Samples of each cell, and how many of them are computed and committed together: a chunk of a second to a minute is good.
-# A crash costs at most the chunks in hand.
+# A crash costs at most the chunks being computed.
 poses: {poses}
 chunk: {chunk}
 

@@ -70,7 +70,7 @@ def read_motion(arm: Arm, path: str | Path) -> Motion:
 
 
 def law_motions(machine: Machine, state: State, progress: Callable[[int, int], None]) -> list[Motion]:
-    """The motion to a target under each of the two laws, failed joints standing from the start, with how it ended.
+    """The motion to a target under each of the two laws, failed joints locked from the start, with how it ended.
 
     Args:
         machine: The arm and its laws.

@@ -110,7 +110,7 @@ class Panel:
         for handle in self.laws:
             self._on(handle.on_update, "laws", lambda h: (self.laws[0].value, self.laws[1].value))
         self._button("Choose a target", "target", "Shows a second handle: drag it to where the end effector should go.")
-        self._button("Move under both laws", "laws", "Failed joints stand; the controller does not know.")
+        self._button("Move under both laws", "laws", "Failed joints are locked; the controller does not know.")
         self.file = self.gui.add_text("file", state.file or "", hint="CSV or folder that follow, simulate or recover wrote.")
         self._button("Open the motion", "file", "Scrub or play it with the slider below.")
         self._player()
@@ -159,7 +159,7 @@ class Panel:
                 handle.content = content
 
     def follow(self, q: Array, held: int | None) -> None:
-        """Sliders as the arm stands, but for the one that is held."""
+        """Sliders where the arm is, but for the one that is held."""
         for k, (slider, joint) in enumerate(zip(self.sliders, self.machine.arm.joints, strict=True)):
             value = round(float(np.clip(joint.shown[0] * q[k], slider.min, slider.max)), 3 if joint.prismatic else 1)
             if k != held and abs(slider.value - value) > 0.5 * slider.step:

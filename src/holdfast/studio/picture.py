@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from holdfast.present.stick_figure import projections
+from holdfast.present.stick_figure import views_of
 from holdfast.report.figures import GREEN, INK, ORANGE, PURPLE, SOFT, WIDTH, finished, plain, style, svg
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
@@ -33,20 +33,20 @@ def drawing(machine: Machine, state: State, ghosts: Sequence[Array] = ()) -> str
 
     Args:
         machine: The arm.
-        state: Where it stands, and what has failed.
+        state: Its configuration, and what has failed.
         ghosts: (n,) configurations of other arms in the picture, green and orange.
     """
     from matplotlib.figure import Figure
 
     chains = machine.arm.frames(np.array([*ghosts, state.q]))[..., :3, 3]
-    views = projections(machine.arm, chains)
+    views = views_of(machine.arm, chains)
     with style():
         figure = Figure(figsize=(WIDTH, WIDTH / len(views) * 0.95 if len(views) > 1 else 0.7 * WIDTH))
         for number, view in enumerate(views, 1):
             axes = figure.add_subplot(1, len(views), number)
             for chain, color in zip(chains[:-1], (GREEN, ORANGE, PURPLE), strict=False):
-                axes.plot(chain @ view.right, chain @ view.up, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
-            _arm(axes, chains[-1] @ np.stack([view.right, view.up], 1), state)
+                axes.plot(*view.of(chain).T, color=color, linewidth=3, alpha=0.55, solid_capstyle="round")
+            _arm(axes, view.of(chains[-1]), state)
             axes.set_aspect("equal", adjustable="datalim")
             axes.set(xlabel=view.names[0], ylabel=view.names[1], title=view.title)
         figure.suptitle(plain(_caption(state)), x=0.01, ha="left", fontsize=9.5)

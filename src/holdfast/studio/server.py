@@ -196,7 +196,7 @@ def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> t
 
 
 def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """From where, and at what, a window looks at first."""
+    """The first view of a window: from where, and at what."""
     places = machine.arm.frames(q)[:, :3, 3]
     centre = 0.5 * (places.min(axis=0) + places.max(axis=0))
     flat = machine.task.rows[:, :3]

@@ -24,7 +24,7 @@ class State:
         q: (n,) configuration, rad and m.
         task: Rows of the pose that matter, as on the command line.
         base, tip: Links of the file, if chosen.
-        hold: Joints of the file that stand for good, and where, rad or m.
+        hold: Joints of the file that are held, and where, rad or m.
         conditions: (n,) ``healthy``, ``locked`` or ``free`` (swinging) for each joint.
         index: The index of the bars.
         susceptibility: The susceptibility of the bars.

@@ -77,7 +77,7 @@ class Window:
         return np.array(self.state.q)
 
     def close(self) -> None:
-        """Stop everything that goes on for this window."""
+        """Stop all work for this window."""
         self._closed = True
         self._clock.stop()
         for thread in (self.live, self.work, self._saver):
@@ -157,13 +157,13 @@ class Window:
         phase, position, quaternion = value
         self._held = None if phase == "end" else "hand"
         q, on = self.machine.reach(self.q, pose_of(position, quaternion), self.state.failed)
-        stands = f" with {self._failed_names()} standing" if self.state.failed else ""
+        locked = f" with {self._failed_names()} locked" if self.state.failed else ""
         self._leave(q)
         self._place(q)
         if on:
             self.panel.say("The end effector follows.")
         else:
-            self.panel.say(f"Out of reach{stands}: the arm is as near as it gets from here.", bad=True)
+            self.panel.say(f"Out of reach{locked}: the arm is as near as it gets from here.", bad=True)
 
     def _on_slide(self, value: float) -> None:
         self._rate = float(value)
@@ -215,7 +215,7 @@ class Window:
             return
         self.work.cancel()
         if self._ghosts:
-            self.panel.say("The ghosts were of where the arm stood; ask again for here.")
+            self.panel.say("The ghosts were for the previous configuration; ask again for this one.")
         self._drop_ghosts()
         self.state = replace(self.state, show="arm", time=0.0)
 
@@ -393,7 +393,7 @@ class Window:
         self.panel.time_range(end, begin, f"time, {motions[0].unit}" if motions[0].unit != "rad" else "travel, rad")
         self.panel.say(text)
         self._seek(begin)
-        # What was asked for moves at once; a view that a command line brought back stands where it was.
+        # What was asked for moves at once; a view that a command line brought back stays where it was.
         if colors and end > 0 and not begin:
             self._on_play(None)
 

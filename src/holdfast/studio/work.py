@@ -20,7 +20,7 @@ class Latest:
     So that an end effector that is dragged faster than pictures can be made is always where the mouse is, and not where it was.
 
     Args:
-        complain: Told of every exception of a request; the thread goes on.
+        complain: Told of every exception of a request; the thread continues.
     """
 
     def __init__(self, complain: Complain) -> None:

@@ -84,7 +84,7 @@ def _named(arm: Arm, weights: str) -> Array:
 def largest_static_torque(arm: Arm) -> Array:
     """The largest magnitude of each joint's holding torque or force over the joint limits, (n,), N m and N.
 
-    As English and Maciejewski 1998, eq. (46), take for their planar arm, computed for any. Turning joints without limits
+    As English and Maciejewski 1998, eq. (46), take for their planar arm, computed for any. Revolute joints without limits
     take every angle. It is 0 for a joint that gravity never loads.
 
     Every torque is a sinusoid of each revolute joint and affine in each prismatic joint, so the best value of one joint, the

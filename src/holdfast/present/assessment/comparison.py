@@ -178,7 +178,9 @@ def figures(c: Comparison) -> dict[str, Figure]:
     ends += [m.x for m in marks]
     axis = np.geomspace(min(ends), max(ends), 801) if log else np.linspace(min(0.0, *ends), 1.04 * max(0.0, *ends), 801)
     panels = [(title, [Curve(axis, a.cdf(axis, optimised=o), n) for n, a in some]) for title, some, o in samples]
-    return {"compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, "fraction with a smaller value, F", log)}
+    return {
+        "compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
+    }
 
 
 def _distributions(c: Comparison, f: Facts) -> list[Block]:

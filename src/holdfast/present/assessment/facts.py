@@ -16,7 +16,8 @@ from holdfast.caching import cached_property
 from holdfast.probability.distribution import Distribution
 from holdfast.report import figures
 from holdfast.report.figures import Bin, Curve, Mark
-from holdfast.report.scenes import Scale, Scene, View, sides
+from holdfast.report.scenes import Scale, Scene
+from holdfast.report.views import SIDE, View, sides
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.words import as_given, number
 
@@ -150,7 +151,7 @@ class Facts(Answer):
     @cached_property
     def views(self) -> list[View]:
         """Side and top view; only one of them if everything lies in its plane."""
-        return sides(self.scene[0].extent)
+        return sides(self.scene[0].extent) or [SIDE]
 
     @property
     def side(self) -> View:

@@ -26,12 +26,14 @@ def outcome_figure(c: LawComparison) -> Figure:
         shares = np.array([[case.ended(o).mean() for o in OUTCOMES] for case in cases])
         ends = [case.share() for case in cases]
         low, high = (np.array([getattr(e, end) if e else np.nan for e in ends]) for end in ("low", "high"))
-        stacks.append(Stack(failure, c.names, shares, low, high, float(cases[0].reachable.mean())))
+        stacks.append(
+            Stack(name=failure, bars=c.names, shares=shares, low=low, high=high, level=float(cases[0].reachable.mean()))
+        )
     return stack_figure(
         stacks,
         OUTCOMES,
         f"fraction of {len(c):,} motions, each law and failure",
-        "targets still within reach",
+        level="targets still within reach",
     )
 
 
@@ -41,7 +43,7 @@ def gains_figure(c: LawComparison) -> Figure:
 
     def of(name: str, differences: list[Difference]) -> Gains:
         value, low, high = (np.array([getattr(d, x) for d in differences]) for x in ("value", "low", "high"))
-        return Gains(name, value, low, high)
+        return Gains(label=name, value=value, low=low, high=high)
 
     more = [of(name, [c.gain(name, j) for j in cases]) for name in c.names[1:]]
     nearer = [of(name, [c.change(name, "error", j) for j in cases]) for name in c.names[1:]]
@@ -67,7 +69,7 @@ def error_figure(c: LawComparison) -> Figure:
             finite = np.sort(values[np.isfinite(values)])
             curves.append(Curve(axis, np.searchsorted(finite, axis, side="right") / max(len(values), 1), name))
         panels.append((title, curves))
-    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", "fraction of runs with at most that", log=True)
+    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", ylabel="fraction of runs with at most that", log=True)
 
 
 def healthy_figure(c: LawComparison) -> Figure:

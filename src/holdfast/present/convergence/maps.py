@@ -79,7 +79,11 @@ def _bars(title: str, m: ConvergenceMap) -> Stack:
     there, low, high = (np.array([getattr(s, end) for s in converged.values()]) for end in ("value", "low", "high"))
     stuck, moving = _far(m, "stuck"), _far(m, "moving")
     return Stack(
-        title, names, np.column_stack([there, trapped, stuck, moving, 1 - there - trapped - stuck - moving]), low, high
+        name=title,
+        bars=names,
+        shares=np.column_stack([there, trapped, stuck, moving, 1 - there - trapped - stuck - moving]),
+        low=low,
+        high=high,
     )
 
 

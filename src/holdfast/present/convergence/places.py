@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from holdfast.convergence.measures import FINISH, REACH
 from holdfast.convergence.places import Places, in_a_plane
-from holdfast.convergence.table import axis_label
 from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
@@ -45,22 +44,23 @@ def panels(
     cells if ``gathered``, as those of spatial arms always are; else each is a dot.
     """
     from holdfast.report.places import Plane, binned, place_maps
+    from holdfast.report.views import View
 
     found = {}
     views = {"": None} if in_a_plane(task) else _VIEWS
     for name, axes in views.items():
-        across = task.rows[:, :3] if axes is None else np.eye(3)[list(axes)]
-        words = axis_label(across[0]), axis_label(across[1])
-        where = None if mark is None else (float(across[0] @ mark), float(across[1] @ mark))
-        points, told = places.points @ across.T, ""
-        plane, shown = Plane(points, words, places.cells, places.axes, where, "target"), dict(rows)
+        right, up = task.rows[:2, :3] if axes is None else np.eye(3)[list(axes)]
+        view = View(right, up, name)
+        where = None if mark is None else tuple(view.of(mark).tolist())
+        points, told, shown = view.of(places.points), "", dict(rows)
+        plane = Plane(points=points, labels=view.names, cells=places.cells, axes=places.axes, mark=where, mark_label="target")
         if places.cells is None and (gathered or axes is not None):
             pairs = {word: binned(points, v, _BINS) for word, v in rows.items()}
             first = next(iter(pairs.values()))[0]
-            plane = replace(first, labels=words, mark=where, mark_label="target")
+            plane = replace(first, labels=view.names, mark=where, mark_label="target")
             shown = {word: v for word, (_, v) in pairs.items()}
             told = "\nmean over the places in a cell" + ("" if axes is None else ", whatever their depth")
-        found[name] = place_maps(plane, shown, columns, label, caption + told)
+        found[name] = place_maps(plane, shown, columns, label=label, caption=caption + told)
     return found
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from markupsafe import Markup
+from matplotlib.figure import Figure
 
 from holdfast import arms
 from holdfast.assessment.rows import provenance
@@ -16,7 +17,8 @@ from holdfast.notice import says
 from holdfast.present.designs.figures import parameters_figure
 from holdfast.present.designs.page import ARM_FILE, bounds_callout, parameters_table
 from holdfast.probability.intervals import Difference, Interval
-from holdfast.report import figures, page
+from holdfast.report import figures as drawing
+from holdfast.report import page
 from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
 from holdfast.words import fixed, percent
 
@@ -42,6 +44,15 @@ def save(d: ConvergenceDesigns, folder: Path) -> list[Path]:
     lines += [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
     files = put(folder, {"designs.csv": "\n".join(lines) + "\n", ARM_FILE: d.arm_file()})
     return [*files, d.report(folder / "report.html")]
+
+
+def figures(d: ConvergenceDesigns) -> dict[str, Figure]:
+    """What each design is worth, by one number at a time."""
+    factors = np.array([p.shown[0] for p in d.space.parameters])
+    names = [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
+    value = d.measures[d.objective if d.exact else "converged"]
+    start = d.values[0] * factors, float(value[0])
+    return {"parameters": parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")}
 
 
 def build(d: ConvergenceDesigns) -> Page:
@@ -108,13 +119,9 @@ def _gains(d: ConvergenceDesigns) -> list[Block]:
 
 
 def _numbers(d: ConvergenceDesigns) -> Picture:
-    factors = np.array([p.shown[0] for p in d.space.parameters])
-    names = [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
-    value = d.measures[d.objective if d.exact else "converged"]
-    start = d.values[0] * factors, float(value[0])
-    figure = parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")
+    (figure,) = figures(d).values()
     text = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
-    return Picture(figures.svg(figure, "parameters", "Measure of the designs against each parameter"), text)
+    return Picture(drawing.svg(figure, "parameters", "Measure of the designs against each parameter"), text)
 
 
 def _file(d: ConvergenceDesigns) -> list[Block]:

@@ -11,10 +11,11 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.arm.task import Task, plane_normal
+from holdfast.arm.task import Task
+from holdfast.present.stick_figure import views_of
 from holdfast.regions.region import Region
 from holdfast.report.figures import BLUE, INK, ORANGE, SKY, SOFT, WIDTH, finished, plain, style
-from holdfast.report.scenes import Scale, Scene, View, draw_view, view_spans
+from holdfast.report.scenes import Scale, Scene, draw_view, view_spans
 from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
@@ -86,7 +87,7 @@ def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) ->
     for arm in (given, best):
         posture = arm.frames(_posture(arm, task, region, seed))[:, :3, 3]
         scenes.append(Scene(none, np.zeros(0), none, chain=posture, nodes=posture[1:-1], square=arm.prismatic, box=box))
-    view = _view(given, scenes)
+    view = views_of(given, np.concatenate([scene.chain for scene in scenes]))[0]
     # Both panels show the same part of the world.
     both = np.concatenate([s.extent for s in scenes])
     everything = Scene(both, np.full(len(both), np.nan), none)
@@ -95,7 +96,7 @@ def arms_figure(given: Arm, best: Arm, task: Task, region: Region, seed: int) ->
         panels: Sequence[Axes] = figure.subplots(1, 2)
         spans, height = view_spans(everything, [view], 4.4, 2.2, 4.6)
         figure.set_figheight(height + 0.9)
-        middle = everything.extent.mean(axis=0)[[view.right, view.up]]
+        middle = view.of(everything.extent.mean(axis=0))
         for axes, scene, title in zip(panels, scenes, ("before: " + given.name, "after: " + best.name), strict=True):
             draw_view(axes, scene, view, Scale(0.0, 1.0), 1.0, spans, 4.4)
             axes.set_xlim(middle[0] - spans[0] / 2, middle[0] + spans[0] / 2)
@@ -114,15 +115,6 @@ def _posture(arm: Arm, task: Task, region: Region, seed: int) -> Array:
             q: Array = found.q[0]
             return q
     return np.asarray((low + high) / 2)
-
-
-def _view(arm: Arm, scenes: Sequence[Scene]) -> View:
-    """From the side, or onto the plane in which the arm moves."""
-    normal = plane_normal(arm)
-    if normal is not None and abs(normal[2]) > 0.9:
-        return View(0, 1, "Top view")
-    size = np.ptp(np.concatenate([s.chain for s in scenes]), axis=0)
-    return View(1, 2, "Side view") if size[1] > 1.5 * size[0] else View(0, 2, "Side view")
 
 
 def parameters_figure(

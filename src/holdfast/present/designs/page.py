@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from markupsafe import Markup
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast import arms
@@ -22,7 +23,8 @@ from holdfast.notice import says
 from holdfast.present.commands import failures_option, region_file, region_files, task_option
 from holdfast.present.designs.console import at_bound
 from holdfast.present.designs.figures import arms_figure, front_figure
-from holdfast.report import figures, page
+from holdfast.report import figures as drawing
+from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
 from holdfast.words import as_given, counted, either, number, percent
@@ -78,14 +80,23 @@ def _table(d: Designs) -> str:
     return out.getvalue()
 
 
+def figures(d: Designs) -> dict[str, Figure]:
+    """All designs by reach and what they guarantee; the given arm and the best design, unless that is the same."""
+    start = (d.start_reach, d.start_guaranteed)
+    drawn = {"front": front_figure(d.reach, d.guaranteed, d.front.tolist(), d.best, start, _label(d), d.index.bound)}
+    if not d.best_is_start:
+        drawn["arms"] = arms_figure(d.space.arm, d.arm(d.best), d.index.task, d.region, d.seed)
+    return drawn
+
+
 def build(designs: Designs) -> Page:
     """The report as blocks, before it becomes HTML."""
-    d = designs
+    d, drawn = designs, figures(designs)
     sections = [
         Section("", _remarks(d)),
         Section("What to build", [parameters_table(d.space, d.values[d.best])]),
-        Section("Before and after", [] if d.best_is_start else _arms(d)),
-        Section("What is guaranteed against how far the arm reaches", _front(d)),
+        Section("Before and after", [] if d.best_is_start else _arms(drawn["arms"])),
+        Section("What is guaranteed against how far the arm reaches", _front(d, drawn["front"])),
         Section("How the index is distributed, before and after", _distributions(d)),
         Section("The best arm as a file", _file(d)),
         Section("How it was computed", _method(d)),
@@ -160,26 +171,22 @@ def _value(x: float) -> str:
     return f"{round(x, 4) + 0.0:.6g}".replace("-", "−")
 
 
-def _arms(d: Designs) -> list[Block]:
-    given, best = d.space.arm, d.arm(d.best)
-    figure = arms_figure(given, best, d.index.task, d.region, d.seed)
+def _arms(figure: Figure) -> list[Block]:
     text = (
         "Each arm with its tool at the middle of the region (dashed), or in the middle of its joint limits if it does not get "
         "there. Circles are joints, squares prismatic joints; the orange diamond is the tool point. Equal scales."
     )
-    return [Picture(figures.svg(figure, "arms", "The given arm and the best design"), text)]
+    return [Picture(drawing.svg(figure, "arms", "The given arm and the best design"), text)]
 
 
 # ---- why -----------------------------------------------------------------------------------------------------------------
 
 
 def _label(d: Designs) -> str:
-    return figures.plain(f"guaranteed {d.index.name} ({chosen(d.level)} of the poses)")
+    return drawing.plain(f"guaranteed {d.index.name} ({chosen(d.level)} of the poses)")
 
 
-def _front(d: Designs) -> list[Block]:
-    start = (d.start_reach, d.start_guaranteed)
-    figure = front_figure(d.reach, d.guaranteed, d.front.tolist(), d.best, start, _label(d), d.index.bound)
+def _front(d: Designs, figure: Figure) -> list[Block]:
     text = (
         f"Guaranteed: the worst-case {d.index.name} that {chosen(d.level)} of the {counted(d.poses, 'pose')} of the search "
         "have at least, each at its best configuration; a pose that is not reached counts as 0. Reach: the largest distance of "
@@ -198,7 +205,7 @@ def _front(d: Designs) -> list[Block]:
     shown = "all of them" if len(picked) == len(d.front) else f"{len(picked)} of {len(d.front)}, spread over the reach"
     caption = f"Designs of the front by reach ({shown}): none that was found has more of both."
     return [
-        Picture(figures.svg(figure, "front", "Guaranteed index against reach of all designs"), text),
+        Picture(drawing.svg(figure, "front", "Guaranteed index against reach of all designs"), text),
         Table(rows, head, frozenset(range(1, len(head))), caption=caption, wide=True),
     ]
 
@@ -223,7 +230,7 @@ def _distributions(d: Designs) -> list[Block]:
         Curve(
             axis,
             c.distribution.cdf(axis),
-            f"{figures.plain(name, 40)}, 95 % band ±{c.distribution.band():.3f}",
+            f"{drawing.plain(name, 40)}, 95 % band ±{c.distribution.band():.3f}",
             second=second,
             band=band,
         )
@@ -231,8 +238,8 @@ def _distributions(d: Designs) -> list[Block]:
         for band in (c.distribution.band(),)
     ]
     unit = "" if d.index.unit == "1" else f", {d.index.unit}"
-    label = figures.plain(f"worst-case {d.index.name}{unit}")
-    figure = figures.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
+    label = drawing.plain(f"worst-case {d.index.name}{unit}")
+    figure = drawing.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
     samples = d.checked.best.distribution.samples
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (
@@ -249,7 +256,7 @@ def _distributions(d: Designs) -> list[Block]:
         f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is the optimism of choosing on them."
     )
     return [
-        Picture(figures.svg(figure, "cdf", "Cumulative distributions of the given arm and the best design"), text),
+        Picture(drawing.svg(figure, "cdf", "Cumulative distributions of the given arm and the best design"), text),
         Table(rows, head, frozenset({1, 2, 3})),
         Text(honest),
     ]

@@ -13,7 +13,7 @@ from holdfast.files.output import made
 from holdfast.motion.slowness import SlowMotion
 from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.notice import says
-from holdfast.present.stick_figure import projections
+from holdfast.present.stick_figure import views_of
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
@@ -117,7 +117,7 @@ class _Facts:
         ]
         square = np.r_[False, t.arm.prismatic, False]
         moving = Motion(t.time[few], t.arm.frames(t.q[few])[..., :3, 3], square, t.poses[few][:, :3, 3], readings)
-        drawn = animation(moving, projections(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
+        drawn = animation(moving, views_of(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
         speed = t.time[-1] / shown_seconds(t.time)
         how = "in real time" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as in reality"
         caption = (

@@ -51,19 +51,19 @@ def show(region: TolerantWorkspace, out: Console) -> None:
 
 def figures(region: TolerantWorkspace) -> dict[str, Figure]:
     """The region inside what the healthy arm reaches, seen along one or two directions, and the sizes."""
-    from holdfast.present.stick_figure import projections
+    from holdfast.present.stick_figure import views_of
     from holdfast.report.manifolds import RegionMap, region_figure
 
     maps = [
         RegionMap(
-            region.points @ np.stack([view.right, view.up]).T,
+            view.of(region.points),
             view,
             region.healthy,
             region.within,
             region.inside,
             round(np.sqrt(len(region.points))) if region.exact else None,
         )
-        for view in projections(region.arm, region.points[None])
+        for view in views_of(region.arm, region.points[None])
     ]
     each = region.healthy_size / max(int(region.healthy.sum()), 1)
     bars = [("healthy arm", region.healthy_size), ("artificial limits", each * float(region.within.sum()))]

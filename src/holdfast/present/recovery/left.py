@@ -32,9 +32,9 @@ def to_dict(left: WhatIsLeft) -> dict[str, Any]:
 def figures(left: WhatIsLeft) -> dict[str, Figure]:
     """Maps of the fraction of targets that the healthy and the failed arm reach; none where the healthy arm reaches none."""
     from holdfast.present.assessment.sections.survival import before_and_after_figure
-    from holdfast.report.scenes import sides
+    from holdfast.report.views import SIDE, sides
 
     if not left.healthy.any():
         return {}
-    view = sides(left.position)[0]
+    view = (sides(left.position) or [SIDE])[0]
     return {"left": before_and_after_figure(left.position, left.healthy, left.locked, view, ", ".join(left.joints))}

@@ -15,7 +15,8 @@ from holdfast.present.recovery.console import checks
 from holdfast.present.results import shown
 from holdfast.report import page
 from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, save_png, style
-from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view, sides, view_spans
+from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view, view_spans
+from holdfast.report.views import SIDE, sides
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ def _motion(recovery: Recovery) -> Figure:
         square=arm.prismatic,
         box=box,
     )
-    views = sides(scene.extent)
+    views = sides(scene.extent) or [SIDE]
     scene = Scene(scene.points, scene.values, scene.missing, chain=scene.chain, nodes=scene.nodes, square=scene.square)
     wide = Scene(reach, np.zeros(len(reach)), points, chain=final)
     scale = Scale(0.0, 100.0)
@@ -89,24 +90,23 @@ def _motion(recovery: Recovery) -> Figure:
         panels = figure.subplots(1, len(views), squeeze=False)[0]
         middle = wide.extent.mean(axis=0)
         for axes, view in zip(panels, views, strict=True):
-            pick = [view.right, view.up]
             for k, ghost in enumerate(ghosts):
-                axes.plot(*ghost[:, pick].T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if k == 0 else None)
+                axes.plot(*view.of(ghost).T, color=FAINT, linewidth=1.6, zorder=1.6, label="on the way" if k == 0 else None)
             if moving:
                 axes.plot(
-                    *start[:, pick].T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
+                    *view.of(start).T, color=BLUE, linewidth=2.0, marker="o", markersize=3, zorder=2.6, label="where it is"
                 )
             draw_view(axes, scene, view, scale, dot_size(scene, views, panel / spans[0]), spans, panel)
             locked = np.array([start[1 + arm.joint_index(name)] for name in recovery.locked])
             last = np.array([final[1 + arm.joint_index(name)] for name in recovery.locked])
-            axes.plot(*locked[:, pick].T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
-            axes.plot(*last[:, pick].T, "X", color=ORANGE, markersize=8, zorder=3.6)
+            axes.plot(*view.of(locked).T, "X", color=ORANGE, markersize=8, zorder=3.6, label="locked joint")
+            axes.plot(*view.of(last).T, "X", color=ORANGE, markersize=8, zorder=3.6)
             axes.plot([], [], color="#1b1f24", linewidth=2.8, label="where it ends" if moving else "where it is and stays")
             if recovery.goal_pose is not None:
-                place = recovery.goal_pose[:3, 3][pick]
+                place = view.of(recovery.goal_pose[:3, 3])
                 axes.plot(*place, "*", color=SKY, markeredgecolor=SOFT, markersize=13, zorder=3.4, label="goal of the tool")
-            axes.set_xlim(middle[view.right] - spans[0] / 2, middle[view.right] + spans[0] / 2)
-            axes.set_ylim(middle[view.up] - spans[1] / 2, middle[view.up] + spans[1] / 2)
+            x, y = view.of(middle)
+            axes.set(xlim=(x - spans[0] / 2, x + spans[0] / 2), ylim=(y - spans[1] / 2, y + spans[1] / 2))
         if moving:
             color_bar(figure, scene, scale, list(panels), "fraction of the tool's path, %")
         legend_below(figure, panels[0], 5)

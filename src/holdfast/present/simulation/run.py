@@ -13,7 +13,7 @@ from holdfast.caching import cached_property
 from holdfast.files.output import made, write_table
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
-from holdfast.present.stick_figure import projections
+from holdfast.present.stick_figure import views_of
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
@@ -164,7 +164,7 @@ class _RunReport:
 
     def figure(self) -> Figure:
         """The arm at start and end, the way of its tool, and the error over time."""
-        views = projections(self.arm, self.motion.chain)
+        views = views_of(self.arm, self.motion.chain)
         return drawn_motion(self.motion, views, self.panel(), self.caption, self._xlabel)
 
     @property
@@ -186,7 +186,7 @@ class _RunReport:
 
     def _animation(self) -> Picture:
         motion = self.motion
-        drawn = animation(motion, projections(self.arm, motion.chain), "motion", f"{self.arm.name} moving")
+        drawn = animation(motion, views_of(self.arm, motion.chain), "motion", f"{self.arm.name} moving")
         speed = (motion.time[-1] - motion.time[0]) / shown_seconds(motion.time)
         unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as in reality"
         caption = (

@@ -78,7 +78,7 @@ def _short(value: float) -> str:
 def figures(motion: SelfMotion) -> dict[str, Figure]:
     """Joint values along the curves with where each joint may lock, and the arm in a few of the configurations."""
     from holdfast.arm.configurations import finite_limits
-    from holdfast.present.stick_figure import projections
+    from holdfast.present.stick_figure import views_of
     from holdfast.reach.bounds import joint_bounds
     from holdfast.report.manifolds import JointPanel, self_motion_figure
 
@@ -98,7 +98,7 @@ def figures(motion: SelfMotion) -> dict[str, Figure]:
     q, closed = (longest[0].q, longest[0].closed) if longest else (motion.q, False)
     some = np.linspace(0, max(len(q) - 1, 0), _CONFIGURATIONS + closed).astype(int)[:_CONFIGURATIONS]
     chains = arm.frames(q[some] if len(q) else q)[..., :3, 3]
-    views = projections(arm, chains) if len(q) else []
+    views = views_of(arm, chains) if len(q) else []
     drawn = f"; the {_CURVES} longest curves are drawn" if len(motion.components) > _CURVES else ""
     return {
         "self-motion": self_motion_figure(

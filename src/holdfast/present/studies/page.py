@@ -116,7 +116,7 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
     for name in names:
         ends = [dict(s.entries).get(name) for s in stand]
         value, low, high = (np.array([np.nan if p is None else getattr(p, x) for p in ends]) for x in ("value", "low", "high"))
-        shares.append(Gains(name, value, low, high))
+        shares.append(Gains(label=name, value=value, low=low, high=high))
     figure = share_figure([s.question for s in stand], shares, "fraction of the poses, or of the motions; bars: 95 % interval")
     rows: list[list[Cell]] = []
     for s in stand:
@@ -254,8 +254,8 @@ def _distributions(found: Sequence[Assessed], asked: dict[Key, float]) -> list[B
             panels,
             [Mark(h, f"threshold {as_given(h)}{said(index.unit)}")],
             f"worst-case {index.name}{unit}",
-            "fraction with a smaller value, F",
-            log,
+            ylabel="fraction with a smaller value, F",
+            log=log,
         )
         poses = counted_range([d.samples for _, some in samples for _, d in some if d is not None])
         band = max(d.band() for _, some in samples for _, d in some if d is not None)
@@ -305,7 +305,7 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         mine = [d for d in laws if d.labels["arm"] == arm]
         shares = np.stack([d.ends[:-1].mean(axis=0) for d in mine])
         low, high = (np.array([getattr(d.any, end) for d in mine]) for end in ("low", "high"))
-        stacks.append(Stack(arm, [d.labels["law"] for d in mine], shares, low, high))
+        stacks.append(Stack(name=arm, bars=[d.labels["law"] for d in mine], shares=shares, low=low, high=high))
     told = counted_range([d.motions for d in laws])
     figure = stack_figure(stacks, _ENDS, "fraction of the runs, mean over the joint that is locked")
     blocks: list[Block] = [

@@ -1,2 +1,11 @@
 from holdfast.present.teleop.allocation import write_allocation as write_allocation
 from holdfast.present.teleop.bank import bank_figure as bank_figure
+from holdfast.present.teleop.figures import Scatter as Scatter
+from holdfast.present.teleop.figures import measures_figure as measures_figure
+from holdfast.present.teleop.figures import scatter_figure as scatter_figure
+from holdfast.present.teleop.figures import tasks_figure as tasks_figure
+from holdfast.present.teleop.motions import Motion as Motion
+from holdfast.present.teleop.motions import Ring as Ring
+from holdfast.present.teleop.motions import motions_figure as motions_figure
+from holdfast.present.teleop.motions import ring as ring
+from holdfast.present.teleop.page import middle_tasks as middle_tasks

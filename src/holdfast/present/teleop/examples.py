@@ -67,7 +67,16 @@ def _motions(a: Analysis, t: int, protocol: Protocol, paths: Paths, who: str) ->
             path: Array | None = paths(name, task, c.scenario)
             if path is not None and len(path):
                 label = f"{c.label}" if title == "operator" else f"computer, {c.label}"
-                found.append(Motion(path, label, tasks.target[k], protocol.radius, whole, left if c.failed else None))
+                found.append(
+                    Motion(
+                        path=path,
+                        title=label,
+                        target=tasks.target[k],
+                        radius=protocol.radius,
+                        whole=whole,
+                        left=left if c.failed else None,
+                    )
+                )
     if not found:
         return []
     joint = "" if tasks.joint[k] < 0 else f"; {protocol.arm.joint_names[int(tasks.joint[k])]} fails"

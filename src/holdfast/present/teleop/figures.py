@@ -28,7 +28,7 @@ _ROUNDING = 1e-9
 _WIDE_RANGE = 30  # largest over smallest: beyond, the axis is logarithmic
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Scatter:
     """Tasks in a plane, with a correlation to go with it."""
 

@@ -55,7 +55,7 @@ def ring(arm: Arm, q: Array, locked: int | None = None) -> Ring | None:
     return Ring((float(corners[0, 0]), float(corners[0, 1])), max(0.0, 2 * float(links.max(initial=0.0)) - outer), outer)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Motion:
     """One trial.
 

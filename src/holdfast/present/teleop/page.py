@@ -156,7 +156,11 @@ def _scatters(a: Analysis) -> list[drawing.Scatter]:
     for c in a.correlations:
         if c.first in _SCALES:
             x, y = (table[name].to_numpy(dtype=np.float64) for name in (c.first, c.second))
-            panels.append(drawing.Scatter(x, y, _SCALES[c.first], _SCALES[c.second], c, a.groups.of_task))
+            panels.append(
+                drawing.Scatter(
+                    x=x, y=y, xlabel=_SCALES[c.first], ylabel=_SCALES[c.second], correlation=c, groups=a.groups.of_task
+                )
+            )
     return panels
 
 

@@ -93,7 +93,7 @@ class AssessJob(PlannedJob[Plan]):
         """Rows of a chunk, one or some blocks at a time: those of an assessment where chunks are whole blocks.
 
         Nothing else is drawn for configurations of joints, so many blocks go at once; where only the worst cases are counted,
-        through the same memory again and again. Threads that hand Python, and the pages of new arrays, to one another after
+        through the same memory again and again. Threads that pass Python, and the pages of new arrays, to one another after
         every block are hardly 1.4 times as fast as one.
         """
         size, joints = plan.region.block, plan.region.kind == "joints"

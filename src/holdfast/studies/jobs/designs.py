@@ -53,7 +53,7 @@ class DesignJob(PlannedJob[Made]):
         """What is evaluated, its reach, all designs, and the weights of the poses."""
         p = self.plan
         space = space_of(p)
-        family = Family(space, p["index"], Task.from_dict(p["task"]), [list(f) for f in p["failures"]])
+        family = Family(space, p["index"], Task.from_dict(p["task"]), failures=[list(f) for f in p["failures"]])
         poses, weights = region_poses(Region.from_dict(p["region"]), p["poses"], p["seed"])
         designs = designs_of(space, self.rows, p["seed"])
         return Evaluator(family, poses, p["seed"]), Reaches(family, p["seed"]), designs, weights

@@ -1,4 +1,4 @@
-"""Workspaces as cells of a study: from which starts the end effector still comes to a target."""
+"""Workspaces as cells of a study: from which starts a target is still reached."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class Part:
 
 
 def stick_parts(arm: Arm, size: float) -> list[Part]:
-    """Tubes for links, cylinders for revolute joints, blocks on rails for sliding ones; from the kinematics alone."""
+    """Tubes for links, cylinders for revolute joints, blocks on rails for prismatic ones; from the kinematics alone."""
     radius = THIN * size
     parts = [Part(0, *_turned(*tube(np.array([0, 0, -0.3 * radius]), np.zeros(3), 4.5 * radius), np.eye(3)), JOINT)]
     for frame in range(arm.n + 1):

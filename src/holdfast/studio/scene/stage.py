@@ -1,4 +1,4 @@
-"""What stands in the 3-D scene of one window, and how it is moved."""
+"""What is in the 3-D scene of one window, and how it is moved."""
 
 from __future__ import annotations
 
@@ -152,7 +152,7 @@ class Stage:
         """Put the ghosts where their frames (n + 2, 4, 4) say."""
         for figure, label, place in zip(self.ghosts, self._labels, frames, strict=True):
             figure.move(place)
-            label.position = place[len(place) // 2, :3, 3]  # at the elbow: hands often meet
+            label.position = place[len(place) // 2, :3, 3]  # at the elbow: tools often meet
 
     def lay(self) -> None:
         """Take the ghosts out of the scene."""

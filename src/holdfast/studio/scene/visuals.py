@@ -22,12 +22,12 @@ MOST_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
 def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[list[Part], list[str]]:
     """The visual shapes of the links of an arm, in the frames of its bodies, and names of mesh files that were not found.
 
-    Links that hang beside the chain on a moving joint stand where the arm's mass has them.
+    Links that hang beside the chain on a moving joint are where the arm's mass has them.
 
     Args:
         path: The URDF file.
         arm: The arm that was read from it.
-        base: The link on which it stands; the root if not given.
+        base: The link that it is mounted on; the root if not given.
     """
     file = Path(path)
     robot = robot_element(file)

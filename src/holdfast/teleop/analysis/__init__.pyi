@@ -13,6 +13,7 @@ from holdfast.teleop.analysis.observations import Observed as Observed
 from holdfast.teleop.analysis.power import subjects_for_f as subjects_for_f
 from holdfast.teleop.analysis.power import subjects_for_t as subjects_for_t
 from holdfast.teleop.analysis.result import Analysis as Analysis
+from holdfast.teleop.analysis.tables import median_operator as median_operator
 from holdfast.teleop.analysis.variance import Anova as Anova
 from holdfast.teleop.analysis.variance import Effect as Effect
 from holdfast.teleop.analysis.variance import anova as anova

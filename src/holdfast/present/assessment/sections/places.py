@@ -11,7 +11,7 @@ from holdfast.probability.distribution import Distribution
 from holdfast.regions.region import Region
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.report.scenes import View
+from holdfast.report.views import sides
 from holdfast.words import counted, fixed, number
 
 TITLE = "The worst {noun}s, and where tolerance is low"
@@ -32,9 +32,7 @@ def blocks(f: Facts) -> list[Block]:
     if f.nothing:
         return [Text(f"Every {f.noun} reached is equally bad, so there is nothing to list or map.")]
     blocks: list[Block] = [_worst_table(f, d, r, name) for name, d, r in f.samples if r is not None and r.reached.any()]
-    low, high = rows.position.min(axis=0), rows.position.max(axis=0)
-    flat = (high - low) < 1e-6 * max(float((high - low).max()), 1e-6)
-    views = [v for v in (View(0, 2, "Seen from the side"), View(0, 1, "Seen from above")) if not (flat[v.right] or flat[v.up])]
+    views = sides(rows.position, ("Seen from the side", "Seen from above"))
     if int(rows.reached.sum()) < _LEAST_FOR_MAP or not views:
         return blocks
     average = "Mean" if f.larger else "Median"

@@ -10,7 +10,7 @@ from holdfast.assessment.plan import LOCK_RESTARTS
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures, maps
 from holdfast.report.page import Block, Picture, Table, Text
-from holdfast.report.scenes import View
+from holdfast.report.views import View, sides
 from holdfast.words import as_given, fixed, interval, percent
 
 TITLE = "What survives a locked joint"
@@ -82,18 +82,16 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
     rows = f.rows
     if rows is None or len(rows.reached) < _LEAST_FOR_MAP:
         return []
-    size = np.ptp(rows.position, axis=0)
-    flat = size < 1e-6 * max(float(size.max()), 1e-6)
-    views = [v for v in (View(0, 2, "seen from the side"), View(0, 1, "seen from above")) if not (flat[v.right] or flat[v.up])]
+    views = sides(rows.position, ("seen from the side", "seen from above"))
     if not views:
         return []
+    view = views[0]
     left = f.a.columns["survives"][:][rows.number, joint] == 1
     name = f.a.arm.joint_names[joint]
-    figure = before_and_after_figure(rows.position, rows.reached, left, views[0], name, rows.weight)
+    figure = before_and_after_figure(rows.position, rows.reached, left, view, name, rows.weight)
     total = len(left)
     text = (
-        f"Fraction of the poses in each cell that are reached, over the whole depth of the region {views[0].title}, and "
-        f"below it "
+        f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
         f"how many poses the cell holds. Left: the healthy arm reaches {int(rows.reached.sum()):,} of {total:,} poses. Right: "
         f"with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
     )

@@ -1,0 +1,66 @@
+"""How things in space are seen: the one projection of every figure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_LONGER = 1.5  # times as long along y as along x: then the side is seen along x
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A projection along one direction.
+
+    Attributes:
+        right, up: Unit vectors (3,).
+        title: One line.
+    """
+
+    right: Array
+    up: Array
+    title: str
+
+    def of(self, points: Array) -> Array:
+        """Points (..., 3) as places (..., 2) to the right and up, m."""
+        return np.stack([points @ self.right, points @ self.up], axis=-1)
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Labels of both axes."""
+        return f"{axis_name(self.right)}, m", f"{axis_name(self.up)}, m"
+
+
+def sides(points: Array, titles: tuple[str, str] = ("Side view", "Top view")) -> list[View]:
+    """Side and top view of points (..., 3), the side being the wider one, without those that show only a line."""
+    x, y, z = np.eye(3)
+    size = np.ptp(points.reshape(-1, 3), axis=0)
+    flat = size < 1e-6 * max(float(size.max()), 1e-6)
+    across = y if size[1] > _LONGER * size[0] else x
+    found = [View(across, z, titles[0]), View(x, y, titles[1])]
+    return [view for view in found if not any(flat @ np.abs([view.right, view.up]).T)]
+
+
+SIDE = View(np.eye(3)[0], np.eye(3)[2], "Side view")
+
+
+def onto_plane(normal: Array, up: Array) -> View:
+    """The view along a normal (3,), with ``up`` (3,) upward, or y or x where that is along the normal."""
+    x, y, _ = np.eye(3)
+    upward = up - normal * (normal @ up)
+    if np.linalg.norm(upward) < 1e-6 * max(float(np.linalg.norm(up)), 1e-12):
+        upward = y - normal * normal[1] if abs(normal[1]) < 0.9 else x - normal * normal[0]
+    upward = upward / np.linalg.norm(upward)
+    return View(np.cross(upward, normal), upward, "In the plane of the arm")
+
+
+def axis_name(direction: Array) -> str:
+    """The name of a direction: of a world axis, or its numbers."""
+    for name, axis in zip("xyz", np.eye(3), strict=True):
+        if abs(direction @ axis) > 1 - 1e-9:
+            return name if direction @ axis > 0 else f"-{name}"
+    return "along (" + ", ".join(f"{x:.2f}" for x in direction) + ")"
