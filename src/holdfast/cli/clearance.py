@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
 
 CapsulesOption = Annotated[
-    Path | None,
-    typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.", show_default=False),
+    Path | None, typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.", show_default=False)
 ]
 RadiusOption = Annotated[
     float | None,

@@ -80,16 +80,9 @@ QOption = Annotated[
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
 PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
 SeedOption = Annotated[int, typer.Option("--seed", help="Seed of all random draws.")]
-FailuresOption = Annotated[
-    str,
-    typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'."),
-]
+FailuresOption = Annotated[str, typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'.")]
 
-MOUNTS = {
-    "floor": np.eye(3),
-    "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
-    "ceiling": np.diag([1.0, -1, -1]),
-}
+MOUNTS = {"floor": np.eye(3), "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]), "ceiling": np.diag([1.0, -1, -1])}
 
 GravityOption = Annotated[
     str | None,

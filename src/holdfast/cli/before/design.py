@@ -53,11 +53,7 @@ def command(
     ] = "relative-manipulability",
     law: Annotated[
         str | None,
-        typer.Option(
-            "--law",
-            help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.",
-            show_default=False,
-        ),
+        typer.Option("--law", help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.", show_default=False),
     ] = None,
     keep_reach: Annotated[
         bool, typer.Option("--keep-reach", help="With --maximise convergence: link lengths keep their sum.")
@@ -73,9 +69,7 @@ def command(
     ] = 0.95,
     poses: Annotated[int, typer.Option("--poses", help="Poses on which designs are compared.")] = 256,
     designs: Annotated[int, typer.Option("--designs", help="How many designs, spread over the bounds, are tried first.")] = 512,
-    climbs: Annotated[
-        int, typer.Option("--climbs", help="How many climbs with exact gradients start from the best of them.")
-    ] = 8,
+    climbs: Annotated[int, typer.Option("--climbs", help="Climbs with exact gradients, from the best of them.")] = 8,
     fresh: Annotated[int, typer.Option("--fresh", help="Fresh poses for the final check.")] = 2000,
     seed: SeedOption = 0,
     out: Annotated[

@@ -37,10 +37,7 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    path: Annotated[
-        Path,
-        typer.Argument(metavar="PATH", help="Path of the end effector (YAML file): line, arc or poses.", show_default=False),
-    ],
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)],
     minimise: Annotated[
         str | None,
         typer.Option(
@@ -69,15 +66,11 @@ def command(
         ),
     ] = None,
     q: Annotated[
-        str | None,
-        typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False),
+        str | None, typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False)
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     gain: Annotated[
-        float | None,
-        typer.Option(
-            "--gain", help="Feedback gain of the law. Default: high enough that the arm hardly lags.", show_default=False
-        ),
+        float | None, typer.Option("--gain", help="Feedback gain. Default: high enough to hardly lag.", show_default=False)
     ] = None,
     wanted: Annotated[
         float | None,
@@ -89,16 +82,10 @@ def command(
     ] = None,
     samples: Annotated[int, typer.Option("--samples", help="Samples over the duration.")] = 501,
     duration: Annotated[
-        float | None,
-        typer.Option(
-            "--duration", help="Duration, s, instead of the file's; needed if the file has no timing.", show_default=False
-        ),
+        float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
     ] = None,
     best: Annotated[
-        bool,
-        typer.Option(
-            "--best", help="Also the best value of each pose over its whole self-motion (one or two degrees of redundancy)."
-        ),
+        bool, typer.Option("--best", help="Also the best of each pose (one or two degrees of redundancy).")
     ] = False,
     torque_bound: Annotated[
         float | None,

@@ -78,15 +78,11 @@ def command(
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
-    seed: Annotated[
-        int, typer.Option("--seed", min=0, help="Seed of the random draws: the same seed gives the same result.")
-    ] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     starts: Annotated[
         int | None,
         typer.Option(
-            "--starts",
-            help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more.",
-            show_default=False,
+            "--starts", help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more.", show_default=False
         ),
     ] = None,
     clearance: ClearanceOption = None,

@@ -43,8 +43,7 @@ def command(
         bool, typer.Option("--limits", help="The joint's limits stop it (those of prismatic joints always do).")
     ] = False,
     duration: Annotated[
-        float | None,
-        typer.Option("--duration", help="Longest time simulated, s. Default: until the joint is at rest.", show_default=False),
+        float | None, typer.Option("--duration", help="Longest time, s. Default: until it is at rest.", show_default=False)
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,

@@ -45,10 +45,7 @@ def command(
         ),
     ] = None,
     at: Annotated[
-        str | None,
-        typer.Option(
-            "--at", help="Current configuration: joint values, rad and m, separated by commas or spaces.", show_default=False
-        ),
+        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
     ] = None,
     goal: Annotated[
         str | None,
@@ -60,21 +57,16 @@ def command(
         ),
     ] = None,
     task: Annotated[
-        str | None,
-        typer.Option(
-            "--task", help=f"{TASK_HELP} With it, home and q: mean the end effector's pose there.", show_default=False
-        ),
+        str | None, typer.Option("--task", help=f"{TASK_HELP} home and q: then mean the tool's pose there.", show_default=False)
     ] = None,
     path: Annotated[
-        Path | None,
-        typer.Option("--path", help="Rest of the end effector's path (YAML file), to be finished first.", show_default=False),
+        Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.", show_default=False)
     ] = None,
     degrees: Annotated[
         bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
     ] = False,
     metric: Annotated[
-        str,
-        typer.Option("--metric", help="What the route keeps short: travel (of the joints) or time (at the velocity limits)."),
+        str, typer.Option("--metric", help="Shortest by: travel (of the joints) or time (at the velocity limits).")
     ] = "travel",
     region: Annotated[
         Path | None,
@@ -84,25 +76,16 @@ def command(
             show_default=False,
         ),
     ] = None,
-    samples: Annotated[
-        int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips the estimate of what is left.")
-    ] = 1000,
+    samples: Annotated[int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips what is left.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
     tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
-    seed: Annotated[
-        int, typer.Option("--seed", min=0, help="Seed of the random draws: the same seed gives the same result.")
-    ] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
     margin: MarginOption = None,
     check: Annotated[
-        Path | None,
-        typer.Option(
-            "--check",
-            help="Plan nothing: replay these waypoints (CSV) and report which requirements they meet.",
-            show_default=False,
-        ),
+        Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.", show_default=False)
     ] = None,
     out: Annotated[
         Path | None,

@@ -37,10 +37,7 @@ PoseOption = Annotated[
     str | None,
     typer.Option("--pose", help="The target as x,y,z,roll,pitch,yaw of the tool, m and degrees.", show_default=False),
 ]
-TargetOption = Annotated[
-    str | None,
-    typer.Option("--target", help=TARGET_HELP, show_default=False),
-]
+TargetOption = Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)]
 
 
 def command(

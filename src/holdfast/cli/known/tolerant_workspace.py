@@ -47,9 +47,7 @@ def command(
     ] = False,
     rotation: Annotated[
         str | None,
-        typer.Option(
-            "--rotation", help="Rotation of the end effector, for tasks with turns: roll,pitch,yaw, deg.", show_default=False
-        ),
+        typer.Option("--rotation", help="Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg.", show_default=False),
     ] = None,
     points: Annotated[int, typer.Option("--points", help="Points in the sample (not for planar arms of three joints).")] = 1000,
     angles: Annotated[int, typer.Option("--angles", help="Locked values tried per joint.")] = 24,

@@ -37,8 +37,7 @@ def new(
     chunk: Annotated[int, typer.Option("--chunk", help="Samples computed and committed together.")] = 500,
     seed: Annotated[int, typer.Option("--seed", help="The same seed gives the same bits.")] = 0,
     index: Annotated[
-        list[str] | None,
-        typer.Option("--index", help="May be given again.", show_default="relative-manipulability"),
+        list[str] | None, typer.Option("--index", help="May be given again.", show_default="relative-manipulability")
     ] = None,
     law: Annotated[
         list[str] | None,
@@ -82,8 +81,7 @@ def run(
         int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
     ] = None,
     part: Annotated[
-        str,
-        typer.Option("--part", help="1/3: only the first of three parts, for machines that share no folder; see merge."),
+        str, typer.Option("--part", help="1/3: only the first of three parts, for machines that share no folder; see merge.")
     ] = "1/1",
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Say what would be computed, how long it takes and how large it is.")

@@ -36,8 +36,7 @@ def tasks(
         str | None, typer.Option("--task", help="What the stick moves: planar or position.", show_default="by the arm")
     ] = None,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.", show_default=False),
+        Path | None, typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.", show_default=False)
     ] = None,
     json_: JsonOption = False,
 ) -> None:

@@ -20,11 +20,7 @@ def command(json_: JsonOption = False) -> None:
 
 
 def describe(
-    arm: ArmArgument,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    json_: JsonOption = False,
+    arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, hold: HoldOption = None, json_: JsonOption = False
 ) -> None:
     """Show an arm, problems in its data, and which joints are single points of failure by structure.
 

@@ -57,8 +57,7 @@ def command(
     ] = None,
     index: IndexOption = "relative-manipulability",
     task: Annotated[
-        list[str] | None,
-        typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False),
+        list[str] | None, typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False)
     ] = None,
     tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP, show_default=False)] = None,
     failures: FailuresOption = "single",
@@ -67,7 +66,7 @@ def command(
         int | None,
         typer.Option("--poses", help="Number of poses. Default: 2000, or each pose of a list once.", show_default=False),
     ] = None,
-    seed: Annotated[int, typer.Option("--seed", help="Seed of the random draws: the same seed gives the same result.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of all random draws.")] = 0,
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
     restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also find the best configuration of each pose.")] = False,

@@ -38,8 +38,7 @@ def command(
         str, typer.Option("--host", help="Address to listen on. Let other machines in only among people you trust.")
     ] = "127.0.0.1",
     q: Annotated[
-        str | None,
-        typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False),
+        str | None, typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False)
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,

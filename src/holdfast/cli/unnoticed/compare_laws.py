@@ -43,9 +43,7 @@ def command(
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
     distance: Annotated[
         str | None,
-        typer.Option(
-            "--distance", help="Distances of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False
-        ),
+        typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False),
     ] = None,
     reachable_after: Annotated[
         list[str] | None,
@@ -58,9 +56,7 @@ def command(
     ] = None,
     start: Annotated[
         str | None,
-        typer.Option(
-            "--start", help="Instead of random motions: one motion from these joint values, rad and m, ...", show_default=False
-        ),
+        typer.Option("--start", help="Instead: one motion from these joint values, rad and m, ...", show_default=False),
     ] = None,
     target: Annotated[
         str | None, typer.Option("--target", help="... to this target, given as in 'holdfast simulate'.", show_default=False)

@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.laws import (
-    CyclesOption,
-    GainOption,
-    LawOption,
-    SpeedLimitOption,
-    TargetOption,
-    TimeLimitOption,
-    law_of,
-)
+from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -40,10 +32,7 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     start: Annotated[
-        str,
-        typer.Option(
-            "--start", help="Joint values at the start, rad and m, separated by commas or spaces.", show_default=False
-        ),
+        str, typer.Option("--start", help="Joint values at the start, rad and m, by commas or spaces.", show_default=False)
     ],
     target: TargetOption,
     lock: Annotated[

@@ -240,15 +240,7 @@ def _candidates(c: Comparison) -> Table:
         rows.append(
             [name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", (source or "no source given") + ends, code]
         )
-    head = [
-        "Candidate",
-        "arm",
-        "tool",
-        "bound of the index",
-        "gap of the median",
-        "source",
-        "fingerprint",
-    ]
+    head = ["Candidate", "arm", "tool", "bound of the index", "gap of the median", "source", "fingerprint"]
     caption = (
         "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
         "Gap: by how much the median of the reached poses falls short of it"

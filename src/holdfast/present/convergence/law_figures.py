@@ -30,10 +30,7 @@ def outcome_figure(c: LawComparison) -> Figure:
             Stack(name=failure, bars=c.names, shares=shares, low=low, high=high, level=float(cases[0].reachable.mean()))
         )
     return stack_figure(
-        stacks,
-        OUTCOMES,
-        f"fraction of {len(c):,} motions, each law and failure",
-        level="targets still within reach",
+        stacks, OUTCOMES, f"fraction of {len(c):,} motions, each law and failure", level="targets still within reach"
     )
 
 

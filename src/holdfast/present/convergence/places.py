@@ -79,12 +79,7 @@ def with_interval(value: float, low: float, high: float) -> str:
 
 
 def measure_maps(
-    law: Law,
-    places: Places,
-    measures: Mapping[str, Array],
-    about: str,
-    failures: str,
-    mark: Array | None = None,
+    law: Law, places: Places, measures: Mapping[str, Array], about: str, failures: str, mark: Array | None = None
 ) -> dict[str, Figure]:
     """Maps of R100, Ravg, Rsens and, where failures were looked at, of F100, Favg, Fsens, by name: ``reach``, ``finish-top``.
 

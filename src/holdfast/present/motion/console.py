@@ -91,7 +91,7 @@ def _show_slowness(t: Trajectory, bound: float, out: Console) -> None:
         else f"too fast: it must take {number(worst.time_scale)} times as long ({number(worst.time_scale * t.time[-1])} s)"
     )
     out.print(
-        f"For torques within {bound:g} N m of gravity's, the motion is {verdict}; joint '{joint}' sets the limit.",
+        f"For torques within {bound:g} N m of gravity's the motion is {verdict}; joint '{joint}' sets the limit.",
         soft_wrap=True,
     )
     table = Table("joint", "time scale", "decided at", box=None, pad_edge=False)

@@ -377,10 +377,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     for region in dict.fromkeys((a.labels["arm"], a.plan.region.describe()) for a in found):
         facts.append((f"Region of {region[0]}", region[1]))
     facts.append(
-        (
-            "Intervals",
-            "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves",
-        )
+        ("Intervals", "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves")
     )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     if study.source:

@@ -75,10 +75,7 @@ def figures(a: Analysis) -> dict[str, Figure]:
 
 
 def build(
-    analysis: Analysis,
-    protocol: Protocol | None = None,
-    paths: Paths | None = None,
-    show: Sequence[int] | None = None,
+    analysis: Analysis, protocol: Protocol | None = None, paths: Paths | None = None, show: Sequence[int] | None = None
 ) -> Page:
     """The report as blocks, before it becomes HTML."""
     a = analysis

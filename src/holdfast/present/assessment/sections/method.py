@@ -39,10 +39,7 @@ def blocks(f: Facts) -> list[Block]:
     if box:
         solved = f"damped least squares from up to {a.restarts:,} random starts within the joint limits"
         facts += [
-            (
-                "Method",
-                f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
-            ),
+            ("Method", f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
             (
                 "Not optimised",
                 "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "

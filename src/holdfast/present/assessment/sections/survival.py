@@ -101,12 +101,7 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
 
 
 def before_and_after_figure(
-    position: Array,
-    healthy: NDArray[np.bool_],
-    locked: NDArray[np.bool_],
-    view: View,
-    joint: str,
-    weights: Array | None = None,
+    position: Array, healthy: NDArray[np.bool_], locked: NDArray[np.bool_], view: View, joint: str, weights: Array | None = None
 ) -> Figure:
     """Maps of the fraction of poses (N, 3), m, reached (N,) before and after a lock, by weight (N,) if there is one."""
     panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
