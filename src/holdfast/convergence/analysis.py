@@ -235,7 +235,7 @@ def _sinks(law: Law, pose: Array) -> dict[int, Arcs]:
     """Of each joint, the locked values with a sink, and those beside which motions may circle or creep."""
     found: dict[int, Arcs] = {}
     for j in range(law.arm.n):
-        curves = stationary_points(law, pose, locked=j)
+        curves = stationary_points(law, pose, {j: None})
         if len(curves.loose):
             raise InputError(
                 f"with {law.arm.joint_names[j]} locked the stationary points form surfaces, which were only sampled, so the "

@@ -176,7 +176,7 @@ class LawComparison(Result):
             InputError: No such law, or no joint was locked.
         """
         if not self.joints:
-            raise InputError("no joint was locked here; give locked='each' or a list of joints")
+            raise InputError("no joint was locked here; give failures='single' or a list of joints")
         return np.array([getattr(self.case(law, joint), of) for joint in self.joints])
 
     def share_any(self, law: str, outcome: str = "converged") -> Interval:
@@ -218,7 +218,7 @@ class LawComparison(Result):
         generous = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
         if failure == ANY:
             if not self.joints:
-                raise InputError("a mean over the joints takes a locked joint; give locked='each' or name one joint")
+                raise InputError("a mean over the joints takes a locked joint; give failures='single' or name one joint")
             one, two = (
                 np.array([_arrived(self.case(x, joint), kind) for joint in self.joints])
                 for x, kind in zip((other, law), generous, strict=True)
