@@ -237,7 +237,7 @@ def test_an_argument_named_progress_is_told():
 
 QUICK = {
     "load": "reads a file",
-    "compare": "compares what is computed",
+    "compare_assessments": "compares what is computed",
     "set_threads": "sets a number",
     "susceptibility": "is a module, and a function of one configuration",
     "self_motion": "is one of fibres, which says so",
@@ -292,7 +292,7 @@ CALLS = {
     "simulating the basins": lambda arm, law, x: hf.basins(law, [1.5, 1.5], {1: 1.0}, starts=4),
     "simulating failures": lambda arm, law, x: hf.convergence_map(law, 1, 2, configurations=1),
     "looking for the ranges of the joints": lambda arm, law, x: hf.joint_bounds(arm, [1.5, 1.5], "planar", starts=4),
-    "planning the way back": lambda arm, law, x: hf.recover(arm, "joint2", x, goal="home", samples=20),
+    "planning the route": lambda arm, law, x: hf.recover(arm, "joint2", x, goal="home", samples=20),
     "optimising configurations": lambda arm, law, x: hf.optimise(arm, arm.forward_kinematics(x), wish(arm), starts=3),
     "following the path": lambda arm, law, x: hf.follow(arm, along(arm, x), maximise=wish(arm), q=x, samples=5),
     "looking for the best path": lambda arm, law, x: best_path(arm, x),

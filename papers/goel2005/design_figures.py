@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 _PANELS = (
     ("pseudoinverse", "guaranteed", "Pseudoinverse:\ntargets guaranteed, % of the area"),
     ("pseudoinverse", "free", "Pseudoinverse:\nlocks that nothing can hold, %"),
-    ("pseudoinverse", "arrival", "Pseudoinverse:\narrival, % of all locks"),
+    ("pseudoinverse", "converged", "Pseudoinverse:\nconverged, % of all locks"),
     ("damped", "free", "Damped, 0.1 m:\nlocks that nothing can hold, %"),
 )
 

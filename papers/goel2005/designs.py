@@ -104,7 +104,7 @@ def designs_of_interest(best: Array, arrival: Array) -> list[tuple[str, Array]]:
     return [
         ("the paper's", np.ones(3)),
         ("best, guaranteed", best),
-        ("best, arrival", arrival),
+        ("best, converged", arrival),
         ("l2 = l3, long first link", np.array([1.4, 0.8, 0.8])),
         ("10 % off", np.array([0.9, 1.1, 1.0])),
         ("long last link", np.array([0.8, 0.8, 1.4])),
@@ -144,7 +144,7 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
     seconds = time.process_time() - clock
     maps["damped"] = planar_measures(damped.radial(every, rings()))
     say(f"{len(every)} designs in {seconds:.0f} s")
-    found = {objective: searched(objective) for objective in ("guaranteed", "arrival")}
+    found = {objective: searched(objective) for objective in ("guaranteed", "converged")}
     best, arrival = (f.values[f.best] for f in found.values())
     for f in found.values():
         say("\n".join(f.describe()))
@@ -185,13 +185,13 @@ def main(folder: Path = Path(__file__).parent, say: Callable[[str], None] = prin
         "## Designs",
         "",
         f"Reach 3 m. The search was within {BOUNDS[0]:g} to {BOUNDS[1]:g} m for each link, with the pseudoinverse: "
-        f"{len(found['guaranteed'].values)} and {len(found['arrival'].values)} designs looked at. Damped: {DAMPING:g} m.",
+        f"{len(found['guaranteed'].values)} and {len(found['converged'].values)} designs looked at. Damped: {DAMPING:g} m.",
         "",
-        "| design | lengths (m) | guaranteed | free | arrival | damped: guaranteed | free | arrival |",
+        "| design | lengths (m) | guaranteed | free | converged | damped: guaranteed | free | converged |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for k, (name, x) in enumerate(chosen):
-        cells = [f"{100 * m[w][k]:.1f} %" for m in measured.values() for w in ("guaranteed", "free", "arrival")]
+        cells = [f"{100 * m[w][k]:.1f} %" for m in measured.values() for w in ("guaranteed", "free", "converged")]
         lines.append("| " + " | ".join([name, text(x), *cells]) + " |")
     lines += [
         "",

@@ -145,7 +145,7 @@ def test_a_folder_from_before_there_was_a_clearance_still_loads(arm, call, tmp_p
     back = load(tmp_path / "old")
     assert back.collisions is None
     assert back.optimised.reached == old.optimised.reached
-    assert "Not looked at" in back.report(tmp_path / "old.html").read_text()
+    assert "Not checked" in back.report(tmp_path / "old.html").read_text()
 
 
 @pytest.mark.parametrize("name", ["clearance", "blocked", "optimised_status"])
@@ -192,7 +192,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
     for name, count in (
         ("Configurations found that run the arm through itself", found.found),
         ("Poses at whose best configuration the arm comes closer than 0.01 m to itself", found.blocked),
-        ("… and a clear one was chosen instead", found.blocked - found.hopeless),
+        ("… and one that is clear was chosen instead", found.blocked - found.hopeless),
     ):
         assert cells[name].startswith(f"{count} ("), name
     line = collisions.summary(Facts(run, None))

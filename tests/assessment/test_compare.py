@@ -52,7 +52,7 @@ def test_the_table_is_that_of_the_runs(runs, comparison):
         assert r["median"] == np.sort(reached)[int(np.ceil(len(reached) / 2)) - 1]
         counts = np.bincount(a.dataset["worst"].values[np.isfinite(values)], minlength=7)
         assert r["worst_joint"] == a.arm.joint_names[counts.argmax()]
-        assert r["worst_share"] == counts.max() / counts.sum()
+        assert r["worst_fraction"] == counts.max() / counts.sum()
         u = a.upgrades(0.05)[0]
         assert (r["upgrade"], r["upgrade_gain"]) == (u.joint if u.gain else None, u.gain)
     straight, _, pa10, position = comparison.table

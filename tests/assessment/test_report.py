@@ -199,7 +199,7 @@ def test_before_and_after_optimisation() -> None:
         u = a.upgrades(0.29, optimised)[0]
         assert f"{u.gain:+.3f} ({u.low:.3f} to {u.high:.3f})" in html
     assert "after: worst of all" in html
-    assert "Which joint deserves the redundant motor or brake" in html
+    assert "Which joint deserves a redundant motor or brake" in html
 
 
 def test_names_are_escaped() -> None:

@@ -213,7 +213,7 @@ def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_l
     run = hf.assess(arm, region, poses=210, task="planar", after_lock=after_lock, locked={2: -1.25})
     html = run.report(tmp_path / "report.html").read_text()
     assert "−71.6 deg (−1.25 rad)" in html
-    assert ("where it stood at another pose" in html) == after_lock
+    assert ("where it was at another pose" in html) == after_lock
     assert "Right: with joint" in html
     assert "--lock joint3=-1.25" in html
     command, _ = rerun.command_line(run)

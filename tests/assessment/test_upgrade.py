@@ -1,4 +1,4 @@
-"""Which joint deserves the redundant motor or brake, against the worst case worked out again from the rows."""
+"""Which joint deserves a redundant motor or brake, against the worst case worked out again from the rows."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tm
         found.hopeless,
         found.reached,
     ]
-    assert data["found_share"] == found.found / found.reached
+    assert data["found_fraction"] == found.found / found.reached
     assert (data["capsules"], data["radius_m"], data["margin_m"]) == ("given radius", 0.13, 0.01)
     assert data["pairs_checked"] == thick.pair_names
     assert ask(*common)["clearance"] is None
@@ -94,15 +94,18 @@ def test_optimise_says_why_nothing_is_clear(cli):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (("--no-clearance", "--radius", 0.1), "--radius says how clear of itself the arm stays and --no-clearance lets it"),
-        (("--no-clearance", "--margin", 0.1), "--margin says"),
-        (("--no-clearance", "--capsules", "x.yaml"), "--capsules says"),
+        (
+            ("--no-clearance", "--radius", 0.1),
+            "--radius asks for a clearance of the arm from itself and --no-clearance asks for none",
+        ),
+        (("--no-clearance", "--margin", 0.1), "--margin asks for"),
+        (("--no-clearance", "--capsules", "x.yaml"), "--capsules asks for"),
         (("--radius", 0.1, "--capsules", "x.yaml"), "give one of --capsules and --radius"),
         (("--radius", 0), "--radius is 0; it must be a finite number of metres above 0"),
         (("--radius", "nan"), "--radius is nan"),
         (("--margin", "inf"), "--margin is inf"),
         (("--capsules", "missing.yaml"), "missing.yaml"),
-        (("--margin", 0.1), "--margin has nothing to keep"),
+        (("--margin", 0.1), "--margin has no effect"),
     ],
 )
 def test_options_that_make_no_sense(options, sentence, refused, close):

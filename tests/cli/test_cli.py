@@ -525,7 +525,7 @@ def test_bad_input_is_one_sentence(case, refused):
     [
         ("box: {center: [0, 0, 0], size: 1, edge: 2}", ["'box.edge' is not known", "rpy_size"]),
         ("box: {center: [0, 0, .nan], size: 1}", ["center", "finite"]),
-        ("box: [", ["not sound YAML"]),
+        ("box: [", ["not valid YAML"]),
         ("joints: {lower: [0], upper: [1]}", ["1 joints", "9"]),
     ],
 )
@@ -680,7 +680,7 @@ BAD_URDF = {
             links=["base", "l1", "l2"],
         ),
         [],
-        ["'b'", "upside down", "lower 1", "upper -1"],
+        ["'b'", "reversed", "lower 1", "upper -1"],
     ),
     "loop": (robot(*CHAIN, joint("c", "revolute", "l2", "l1"), links=["base", "l1", "l2"]), [], ["l1"]),
     "not XML": ("<robot", [], ["XML"]),

@@ -41,7 +41,7 @@ def test_basins_are_printed_and_drawn(cli, ask, tmp_path):
         assert "sink 1" in out
         assert matplotlib.image.imread(figure).shape[1] > 600
     data = ask(*BASINS, "--starts", "50")
-    assert data["shares"][0]["share"] == 1
+    assert data["fractions"][0]["fraction"] == 1
     assert data["converged"]["high"] < 0.1
 
 

@@ -44,7 +44,7 @@ def test_help_has_an_example(cli):
 
 def test_json_is_the_library_s_answer(ask, path, expected):
     data = ask("follow", "planar-3r", path, *WISH, "--samples", 41, "--torque-bound", "2")
-    assert data["hand_on_path"] is True
+    assert data["tool_on_path"] is True
     assert data["task"] == "planar"
     assert data["value"]["start"] == expected.value[0]
     assert data["value"]["mean"] == expected.value.mean()

@@ -236,7 +236,7 @@ def test_status_verify_and_a_damaged_chunk(cli, ask, file, folder, tmp_path):
     assert "cell 'planar-3r-pseudoinverse' is lost: it was begun, and nothing of it is left" in err
     code, out, _ = cli("study", "verify", whole)
     assert code == 0
-    assert "are not computed\nnothing is there of 1 cell: planar-3r-pseudoinverse" in out
+    assert "are not computed\nnothing is computed of 1 cell: planar-3r-pseudoinverse" in out
     assert ask("study", "run", file, "--out", whole)["complete"]
 
 
@@ -365,7 +365,7 @@ def test_a_wrong_study_file_is_a_sentence(change, words, tmp_path):
 def test_wrong_calls_are_sentences(refused, file, folder, tmp_path):
     assert "--out is missing" in refused("study", "run", file)
     assert "cannot be read" in refused("study", "run", tmp_path / "none.yaml", "--out", tmp_path / "o")
-    assert "--part '3/2' is no share" in refused("study", "run", file, "--out", tmp_path / "o", "--part", "3/2")
+    assert "--part '3/2' is not a part" in refused("study", "run", file, "--out", tmp_path / "o", "--part", "3/2")
     assert "scheduler 'x' is not known" in refused("study", "run", file, "--out", tmp_path / "o", "--scheduler", "x")
     assert not (tmp_path / "o").exists()
     file.write_text(file.read_text().replace("seed: 3", "seed: 4"))

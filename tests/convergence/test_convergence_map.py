@@ -140,7 +140,7 @@ def test_files(sampled, tmp_path):
     assert names == {"map.csv", "map.json", "outcomes.png", "map-top.png", "map-side.png", "report.html"}
     data = json.loads((tmp_path / "a" / "map.json").read_text())
     assert data["motions"] == 48
-    assert data["shares"]["converged"][sampled.columns[3]]["share"] == pytest.approx(sampled.values()[:, 3].mean())
+    assert data["fractions"]["converged"][sampled.columns[3]]["fraction"] == pytest.approx(sampled.values()[:, 3].mean())
     assert len((tmp_path / "a" / "map.csv").read_text().splitlines()) == 13
 
 

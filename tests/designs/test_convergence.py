@@ -150,11 +150,11 @@ def test_sampled_search(tmp_path):
     )
     assert not found.exact
     assert found.checked is not None
-    assert ((found.measures["arrival"] >= 0) & (found.measures["arrival"] <= found.measures["reached"] + 1e-12)).all()
+    assert ((found.measures["converged"] >= 0) & (found.measures["converged"] <= found.measures["reached"] + 1e-12)).all()
     assert found.checked[1].low <= found.checked[1].value <= found.checked[1].high
     table, best, page = found.save(tmp_path / "new")
     text = table.read_text().splitlines()
-    assert text[0] == "a2,a3,free,arrival,reached"
+    assert text[0] == "a2,a3,free,converged,reached"
     assert len(text) == 1 + len(found.values)
     q = np.array([0.3, -0.4, 0.9])
     np.testing.assert_allclose(hf.arms.resolve(str(best)).forward_kinematics(q), found.arm().forward_kinematics(q), atol=1e-12)
@@ -163,7 +163,7 @@ def test_sampled_search(tmp_path):
     check(text)
     words = re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)
     assert "simulation: 4 targets, 1 failures of each joint" in words
-    for share in (found.checked[1].value, found.measures["arrival"][found.best], found.measures["reached"][0]):
+    for share in (found.checked[1].value, found.measures["converged"][found.best], found.measures["reached"][0]):
         assert percent(float(share)) in words
 
 

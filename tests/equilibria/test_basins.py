@@ -1,4 +1,4 @@
-"""Basins and orbits against the published shares, the limit cycle and the arm that turns for ever."""
+"""Basins and orbits against the published shares, the limit cycle and the arm that turns forever."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ TABLES = [
             ["panda", "failure-tolerant:0.5", "pose", SHARE, "−0.018 (−0.121 to 0.086)", f"{name}: 0.000", SHARE]
             for name in NAMES
         ],
-        ["Arm", "law", "task", "arrives", "gain over the first law", "worst joint", "arrives, none locked"],
+        ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked"],
         frozenset({3, 4, 6}),
         wide=True,
     ),

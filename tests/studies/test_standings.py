@@ -51,7 +51,7 @@ def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     assert (second.law, second.level) == ("damped:0.1", ["a"])
     text = render(Page("t", headline([first, second]), [Section("s", _standings([first, second]))]))
     assert "level with a" in text
-    assert "a arrives most often, under damped:0.1" in text
+    assert "a reaches its target most often, under damped:0.1" in text
 
 
 def test_smaller_is_better_where_the_index_says_so_and_units_are_said():

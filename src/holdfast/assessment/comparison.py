@@ -53,7 +53,7 @@ class Comparison(Result):
 
         ``name, arm, joints, task, redundancy`` (joints minus rows of the task), ``poses``, ``reached``, ``probability`` (of
         an index that meets the threshold), ``median`` (over the reached poses), ``gap`` (of the median to the bound),
-        ``worst_joint`` (or set of joints) and ``worst_share`` of the reached, not singular poses; the same at the best
+        ``worst_joint`` (or set of joints) and ``worst_fraction`` of the reached, not singular poses; the same at the best
         configurations with ``optimised_`` in front; ``expected_survival`` (share of the poses left after a lock, every joint
         that was asked for equally likely to fail), ``single_points_of_failure`` by structure, ``upgrade`` and
         ``upgrade_gain``: the joint that gains most if it never fails. ``_low`` and ``_high`` are ends of intervals. What a
@@ -80,10 +80,10 @@ class Comparison(Result):
             row[f"{before}median"] = float(a.of(optimised).quantile(0.5)) if some else None
             row[f"{before}gap"] = a.gap(optimised) if some else None
             counts = a.optimised_worst_counts if optimised else a.worst_counts
-            row |= {f"{before}worst_joint": None, f"{before}worst_share": None}
+            row |= {f"{before}worst_joint": None, f"{before}worst_fraction": None}
             if counts is not None and counts.sum() > 0:
                 row[f"{before}worst_joint"] = a.index.failure_names[int(counts.argmax())]
-                row[f"{before}worst_share"] = float(counts.max() / counts.sum())
+                row[f"{before}worst_fraction"] = float(counts.max() / counts.sum())
         left = None if a.survivors is None else [x.value for x in a.survival().values()]
         row["expected_survival"] = None if left is None else float(np.mean(left))
         fatal = range(a.arm.n) if found.never or found.redundancy <= 0 else found.fatal
@@ -142,7 +142,7 @@ class Comparison(Result):
 
     @cached_property
     def notes(self) -> list[str]:
-        """What differs between the candidates and must be known when they are compared, one sentence each."""
+        """Differences between the candidates that matter when they are compared, one sentence each."""
         runs = self.assessments
         first = runs[0]
         found = []
@@ -178,7 +178,7 @@ class Comparison(Result):
         return found
 
     def describe(self) -> list[str]:
-        """Which candidate is the best, of each task, and what must be known before they are compared."""
+        """The best candidate for each task, and differences that matter when they are compared."""
         sign = "least" if self.assessments[0].index.better == "larger" else "most"
         said = []
         for task in dict.fromkeys(a.index.task.name for a in self.assessments):
@@ -285,7 +285,7 @@ def load_comparison(path: str | Path, threshold: float | None = None) -> Compari
 
 
 def check_names(names: Sequence[str]) -> None:
-    """Refuse candidates that have one name.
+    """Raise :class:`InputError` if two candidates have one name.
 
     Raises:
         InputError: A name is empty or given twice.

@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
 
 CapsulesOption = Annotated[
-    Path | None,
-    typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.", show_default=False),
+    Path | None, typer.Option("--capsules", help="Capsule file (YAML): the shape of the arm's links.", show_default=False)
 ]
 RadiusOption = Annotated[
     float | None,
@@ -45,11 +44,13 @@ def check_clearance(wanted: bool | None, capsules: Path | None, radius: float | 
     """Refuse options that contradict each other, before any work is done.
 
     Raises:
-        InputError: Which ones, or a radius or margin that is none.
+        InputError: Which ones, or an invalid radius or margin.
     """
     given = [name for name, x in (("--capsules", capsules), ("--radius", radius), ("--margin", margin)) if x is not None]
     if wanted is False and given:
-        raise InputError(f"{given[0]} says how clear of itself the arm stays and --no-clearance lets it; give one of them")
+        raise InputError(
+            f"{given[0]} asks for a clearance of the arm from itself and --no-clearance asks for none; give one of them"
+        )
     if capsules is not None and radius is not None:
         raise InputError("give one of --capsules and --radius; a capsule file may hold a radius")
     if radius is not None and not (math.isfinite(radius) and radius > 0):
@@ -89,7 +90,7 @@ def read_clearance(
     found = Clearance.by_default(arm) if wanted is None and chooses else None
     if margin is not None and found is None:
         raise InputError(
-            f"--margin has nothing to keep: the links of '{arm.name}' lie beside each other, so its clearance is not looked "
-            "at unless you say so; add --clearance or --capsules"
+            f"--margin has no effect: the links of '{arm.name}' lie beside each other, so its clearance is not checked "
+            f"unless you ask for it; add --clearance or --capsules"
         )
     return found

@@ -28,19 +28,17 @@ LawOption = Annotated[str, typer.Option("--law", help=LAW_HELP)]
 LawsOption = Annotated[
     list[str] | None,
     typer.Option(
-        "--law",
-        help=f"A law to compare: {LAW_HELP} May be given again.",
-        show_default="pseudoinverse and failure-tolerant",
+        "--law", help=f"A law to compare: {LAW_HELP} May be given again.", show_default="pseudoinverse and failure-tolerant"
     ),
 ]
-GainOption = Annotated[float, typer.Option("--gain", help="Ke, per s or per cycle.")]
+GainOption = Annotated[float, typer.Option("--gain", help="Feedback gain Ke, per s or per cycle.")]
 SpeedLimitOption = Annotated[
     float | None,
     typer.Option("--speed-limit", help="Of the end effector, m/s or m per cycle. Default: none.", show_default=False),
 ]
 CyclesOption = Annotated[bool, typer.Option("--cycles", help="Discrete control cycles in place of continuous time.")]
 TimeLimitOption = Annotated[
-    float | None, typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles")
+    float | None, typer.Option("--time-limit", help="Time limit, s or cycles.", show_default="3000/gain s, or 1000 cycles")
 ]
 LockDegreesOption = Annotated[bool, typer.Option("--degrees", help="--lock is in degrees (prismatic joints stay in m).")]
 

@@ -42,7 +42,7 @@ HoldOption = Annotated[
     list[str] | None,
     typer.Option(
         "--hold",
-        help="URDF, MJCF: JOINT=value, rad or m, at which a joint stands for good: a gripper's, or an external axis. May be "
+        help="URDF, MJCF: JOINT=value, rad or m, at which a joint is held for good: a gripper's, or an external axis. May be "
         "given again.",
         show_default=False,
     ),
@@ -65,7 +65,7 @@ HoldsOption = Annotated[
     list[str] | None,
     typer.Option(
         "--hold",
-        help=f"URDF, MJCF: JOINT=value, rad or m, at which joints stand for good, separated by commas, {PER_ARM}",
+        help=f"URDF, MJCF: JOINT=value, rad or m, at which joints are held for good, separated by commas, {PER_ARM}",
         show_default=False,
     ),
 ]
@@ -77,19 +77,12 @@ QOption = Annotated[
     list[str],
     typer.Option("--q", help="Joint values, rad and m, separated by commas or spaces. May be given again.", show_default=False),
 ]
-DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")]
+DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
 PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
-SeedOption = Annotated[int, typer.Option("--seed", help="Of all random draws.")]
-FailuresOption = Annotated[
-    str,
-    typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'."),
-]
+SeedOption = Annotated[int, typer.Option("--seed", help="Seed of all random draws.")]
+FailuresOption = Annotated[str, typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'.")]
 
-MOUNTS = {
-    "floor": np.eye(3),
-    "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
-    "ceiling": np.diag([1.0, -1, -1]),
-}
+MOUNTS = {"floor": np.eye(3), "wall": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]), "ceiling": np.diag([1.0, -1, -1])}
 
 GravityOption = Annotated[
     str | None,
@@ -104,7 +97,7 @@ PayloadOption = Annotated[
     str | None,
     typer.Option(
         "--payload",
-        help="A point mass in the hand: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
+        help="A point mass at the end effector: kg, then x,y,z of its place in the last link's frame, m (default 0,0,0).",
         show_default=False,
     ),
 ]
@@ -122,7 +115,8 @@ def read_by_joint(
 ) -> dict[str | int, Any]:
     """``joint=number`` of an option that may be given again, by name; joints are given by name or number from 1.
 
-    With ``degrees`` the numbers of revolute joints are in degrees; a joint may stand ``alone``, with None, where that is so.
+    With ``degrees`` the numbers of revolute joints are in degrees; with ``alone`` a joint may be given without a number and
+    gets None.
     """
     found: dict[str | int, Any] = {}
     for text in texts or []:
@@ -186,7 +180,7 @@ def check_unit_of_places(arm: Arm, places: NDArray[np.float64], option: str) -> 
 
 
 def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") -> NDArray[np.float64]:
-    """Joint values separated by commas or spaces; with degrees, of the turning joints (sliding ones stay in m)."""
+    """Joint values separated by commas or spaces; with degrees, of the revolute joints (prismatic ones stay in m)."""
     q = read_numbers(option, text, f"{arm.n} numbers")
     q = arm.check_configurations(q)
     if not np.isfinite(q).all():

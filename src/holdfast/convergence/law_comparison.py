@@ -182,8 +182,8 @@ class LawComparison(Result):
     def share_any(self, law: str, outcome: str = "converged") -> Interval:
         """Share of an outcome where each of the joints is as likely to lock as any other, with its 95 % interval.
 
-        The runs of one motion with different joints locked are no independent samples: the unit is the motion, and the interval
-        that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
+        The runs of one motion with different joints locked are not independent samples: the unit is the motion, and the
+        interval that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
         """
         return Interval.of_fractions((self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0))
 

@@ -30,7 +30,7 @@ from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
-Aim = Literal["guaranteed", "arrival"]
+Aim = Literal["guaranteed", "converged"]
 
 RINGS = 40
 TARGETS, FAILURES = 12, 2  # of a sampled search; each failure is one of every joint
@@ -167,8 +167,8 @@ def design_for_convergence(
     Source: Goel, Maciejewski, Balakrishnan 2005, footnote 11, say that their analysis can be extended to design such arms, and
     not how. Measures and search are ours.
     """
-    if objective not in ("guaranteed", "arrival"):
-        raise InputError(f"objective '{objective}' is not known; use guaranteed or arrival")
+    if objective not in ("guaranteed", "converged"):
+        raise InputError(f"objective '{objective}' is not known; use guaranteed or converged")
     for what, number, least in (("designs", designs, 1), ("climbs", climbs, 0), ("failures", failures, 1)):
         if number < least:
             raise InputError(f"{what} is {number}; it must be {least} or more")
@@ -183,7 +183,7 @@ def design_for_convergence(
                 raise
     if rest is not None:
         if space.lower.min() <= 0:
-            raise InputError("a link of length 0 or less is none; give bounds above 0")
+            raise InputError("a link cannot have length 0 or less; give bounds above 0")
         return _exact(rest, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
     if keep_reach:
         raise InputError("keep_reach belongs to the exact search for planar arms of three joints; leave it out")
@@ -194,7 +194,7 @@ def _planar(law: Law, space: DesignSpace) -> PlanarRest:
     rest = PlanarRest(law)
     other = [name for name in space.names if name not in ("a1", "a2", "a3")]
     if other:
-        raise InputError(f"'{other[0]}' is no link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
+        raise InputError(f"'{other[0]}' is not a link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
     return rest
 
 
@@ -227,7 +227,7 @@ def _exact(
     def measured(values: Array) -> dict[str, Array]:
         return planar_measures(rest.radial(_lengths(rest, box.space, values), rings))
 
-    order = ("guaranteed", "free", "arrival") if objective == "guaranteed" else ("arrival",)
+    order = ("guaranteed", "free", "converged") if objective == "guaranteed" else ("converged",)
     values, measures = improved(box, measured, order, designs, climbs, seed, progress)
     best = _best(measures, order)
     searched = {"designs": designs, "climbs": climbs, "seed": seed, "keep_reach": box.total is not None}
@@ -255,7 +255,7 @@ def planar_measures(radial: Radial) -> dict[str, Array]:
     return {
         "guaranteed": (area * radial.guaranteed).sum(axis=1),
         "free": free,
-        "arrival": (in_reach - stuck).mean(axis=1),
+        "converged": (in_reach - stuck).mean(axis=1),
         "reached": (area * radial.reached).sum(axis=1),
     }
 
@@ -306,10 +306,11 @@ def _sampled(
         # What a design is worth does not depend on its company, so that a stopped search loses little.
         chunks = [values[k : k + _CHUNK] for k in range(0, len(values), _CHUNK)]
         found = [part(f"designs {next(parts)}", lambda c=c: looked(c)) for c in chunks]  # type: ignore[misc]
-        return {name: np.concatenate([f[name] for f in found]) for name in found[0]}
+        named = {"arrival": "converged"}  # stored under its former name
+        return {named.get(name, name): np.concatenate([f[name] for f in found]) for name in found[0]}
 
-    values, measures = improved(box, measured, ("arrival",), designs, climbs, seed, progress)
-    best = _best(measures, ("arrival",))
+    values, measures = improved(box, measured, ("converged",), designs, climbs, seed, progress)
+    best = _best(measures, ("converged",))
     # What was chosen for doing well on some failures is judged by others; targets that were given stay what they are.
     more = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
     fresh = read_places(law.arm, law.task, more, np.random.default_rng(check))
@@ -320,7 +321,7 @@ def _sampled(
         space=box.space,
         values=values,
         measures=measures,
-        objective="arrival",
+        objective="converged",
         exact=False,
         best=best,
         checked=compared,

@@ -162,8 +162,8 @@ class Trajectory(Result):
             "position_error_m": self.position_error,
             "rotation_error_rad": self.rotation_error,
             "objective": self.value,
-            "self_motion_share": self.self_motion,
-            "task_share": self.task_share,
+            "self_motion_fraction": self.self_motion,
+            "task_fraction": self.task_share,
         }
         for measure in susceptibilities(self.objective):
             for joint, unit, column in zip(self.arm.joints, measure.joint_unit, measure.by_joint(self.q).T, strict=True):

@@ -159,7 +159,7 @@ def share_bars(names: Sequence[str], shares: Sequence[tuple[float, float, float]
         for row, v, top in zip(rows, value, high, strict=True):
             axes.annotate(f"{v:.1f} %", (top, row), (6, 0), textcoords="offset points", va="center", fontsize=9)
         axes.set_yticks(rows, [plain(n, 40) for n in names])
-        axes.set(xlabel="share of starts, %", xlim=(0, 112), ylim=(len(names) - 0.45, -0.55))
+        axes.set(xlabel="fraction of starts, %", xlim=(0, 112), ylim=(len(names) - 0.45, -0.55))
         axes.grid(axis="y", visible=False)
         figure.supxlabel(plain(caption, 200), fontsize=9, color=SOFT)
         return finished(figure)

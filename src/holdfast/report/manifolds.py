@@ -29,7 +29,7 @@ class JointPanel:
     Attributes:
         label: Name and unit.
         arcs: The values that it takes.
-        whole: Between which values it can stand.
+        whole: The values between which it can be.
     """
 
     label: str

@@ -80,7 +80,7 @@ def share_figure(
     bins: int = 6,
     weights: Array | None = None,
 ) -> Figure:
-    """The share of points with a property over one projection, a panel for each property, all on one scale from 0 to 1.
+    """The fraction of points with a property over one projection, a panel for each property, all on one scale from 0 to 1.
 
     Args:
         points: (N, 3) m.

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 Kind = Literal["linear", "log", "symlog"]
 
 _STEPS = (1.0, 2.0, 2.5, 5.0)
-_FLAT = 1e-6  # a share of the size of the values that is no change to look at
+_FLAT = 1e-6  # a fraction of the size of the values that is no change to look at
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _LINEAR = 10 / 9  # decades that half of the linear part of a symlog axis takes
 
@@ -55,7 +55,7 @@ class AxisScale:
         values: What it is to show; what is not finite, or on a log axis not above 0, has no place.
         kind: ``linear``, ``log`` (linear if nothing is above 0), or ``symlog``, linear between ``-small`` and ``small``.
         small: See kind.
-        margin: Room beyond the values, a share of what they take.
+        margin: Room beyond the values, a fraction of what they take.
         most: Spaces between ticks.
 
     Attributes:

@@ -76,7 +76,7 @@ def test_translations_have_the_same_keys(built, tmp_path):
         (english + "title: again\n", "given twice"),
         (english + english.split("forms:\n")[1], "two of them have the same name"),
         ("[1, 2]", "keys and values"),
-        ("a: [", "not sound YAML"),
+        ("a: [", "not valid YAML"),
         ("title: x\n", "forms"),
     ]:
         file.write_text(text)

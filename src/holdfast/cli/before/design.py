@@ -38,8 +38,8 @@ def command(
         list[str],
         typer.Option(
             "--vary",
-            help="What is open, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
-            "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. Give it again for more.",
+            help="What to vary, and its bounds: a3=0.2..0.6 (m), alpha4=-90..90deg; a, alpha, d, theta of a row of the arm's "
+            "standard DH table, lower and upper limit of a joint, tool.x, .y, .z, .roll, .pitch, .yaw. May be given again.",
             show_default=False,
         ),
     ],
@@ -47,17 +47,13 @@ def command(
         str,
         typer.Option(
             "--maximise",
-            help="Index of which a quantile over the region is made as great as can be; or convergence: that the arm arrives "
-            "after a lock that its controller does not know of.",
+            help="What to maximise: an index, of which a quantile over the region counts; or convergence, how often the "
+            "arm reaches its target after a lock that its controller does not know of.",
         ),
     ] = "relative-manipulability",
     law: Annotated[
         str | None,
-        typer.Option(
-            "--law",
-            help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.",
-            show_default=False,
-        ),
+        typer.Option("--law", help=f"With --maximise convergence: {LAWS.usage}. Default: pseudoinverse.", show_default=False),
     ] = None,
     keep_reach: Annotated[
         bool, typer.Option("--keep-reach", help="With --maximise convergence: link lengths keep their sum.")
@@ -68,15 +64,17 @@ def command(
     task: Annotated[str | None, typer.Option("--task", help=TASK_HELP, show_default=False)] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
-    level: Annotated[float, typer.Option("--level", help="Share of the poses for which the index is to be guaranteed.")] = 0.95,
+    level: Annotated[
+        float, typer.Option("--level", help="Fraction of the poses for which the index is to be guaranteed.")
+    ] = 0.95,
     poses: Annotated[int, typer.Option("--poses", help="Poses on which designs are compared.")] = 256,
-    designs: Annotated[int, typer.Option("--designs", help="Designs spread over the bounds that are tried first.")] = 512,
-    climbs: Annotated[int, typer.Option("--climbs", help="Climbs with exact gradients from the best of them.")] = 8,
-    fresh: Annotated[int, typer.Option("--fresh", help="Poses of the final check, which no choice was made on.")] = 2000,
+    designs: Annotated[int, typer.Option("--designs", help="How many designs, spread over the bounds, are tried first.")] = 512,
+    climbs: Annotated[int, typer.Option("--climbs", help="Climbs with exact gradients, from the best of them.")] = 8,
+    fresh: Annotated[int, typer.Option("--fresh", help="Fresh poses for the final check.")] = 2000,
     seed: SeedOption = 0,
     out: Annotated[
         Path | None,
-        typer.Option("--out", help="Folder for report, best arm, designs; a stopped search goes on.", show_default=False),
+        typer.Option("--out", help="Folder for report, best arm and designs; a stopped search resumes.", show_default=False),
     ] = None,
     threads: Annotated[
         int | None, typer.Option("--threads", help="Threads. Default: all processors.", show_default=False)
@@ -86,9 +84,9 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Which arm to build: search link lengths, twists, offsets, limits or the tool for the most that is left after a failure.
+    """Which arm to build: search link lengths, twists, offsets, limits or the tool for the most dexterity left after a failure.
 
-    What a design is worth is guaranteed: the index that, say, 95 % of the poses of the region have at least when the worst
+    A design is judged by what it guarantees: the index that, say, 95 % of the poses of the region have at least when the worst
     joint locks. The report shows what that costs in reach, and holds the best arm as a file for 'holdfast assess'.
 
     Example: holdfast design pa10-9dof --vary a8=-0.2..0.2 --vary alpha8=45..135deg --vary tool.z=0..0.3 --out tool

@@ -37,9 +37,7 @@ if TYPE_CHECKING:
 
 def command(
     arm: ArmArgument,
-    path: Annotated[
-        Path, typer.Argument(metavar="PATH", help="Path file of the hand (YAML): line, arc or poses.", show_default=False)
-    ],
+    path: Annotated[Path, typer.Argument(metavar="PATH", help="Path file (YAML): line, arc or poses.", show_default=False)],
     minimise: Annotated[
         str | None,
         typer.Option(
@@ -49,7 +47,7 @@ def command(
         ),
     ] = None,
     maximise: Annotated[
-        str | None, typer.Option("--maximise", help="What it makes large; the same words.", show_default=False)
+        str | None, typer.Option("--maximise", help="What it makes large: the same choices.", show_default=False)
     ] = None,
     method: Annotated[
         str,
@@ -68,12 +66,11 @@ def command(
         ),
     ] = None,
     q: Annotated[
-        str | None,
-        typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False),
+        str | None, typer.Option("--q", help="Where to start, rad and m. Default: the best configuration.", show_default=False)
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     gain: Annotated[
-        float | None, typer.Option("--gain", help="Of the law. Default: so that it hardly lags.", show_default=False)
+        float | None, typer.Option("--gain", help="Feedback gain. Default: high enough to hardly lag.", show_default=False)
     ] = None,
     wanted: Annotated[
         float | None,
@@ -85,22 +82,21 @@ def command(
     ] = None,
     samples: Annotated[int, typer.Option("--samples", help="Samples over the duration.")] = 501,
     duration: Annotated[
-        float | None,
-        typer.Option("--duration", help="s; instead of the file's, needed if it has no timing.", show_default=False),
+        float | None, typer.Option("--duration", help="Duration, s. Default: the file's.", show_default=False)
     ] = None,
     best: Annotated[
-        bool, typer.Option("--best", help="Also the best of each pose over its whole self-motion (one or two joints to spare).")
+        bool, typer.Option("--best", help="Also the best of each pose (one or two degrees of redundancy).")
     ] = False,
     torque_bound: Annotated[
         float | None,
         typer.Option(
             "--torque-bound",
-            help="N m: how slow must the motion be for torques to stay this close to gravity's?",
+            help="N m. How slow must the motion be for torques to stay this close to those of gravity?",
             show_default=False,
         ),
     ] = None,
     no_limits: Annotated[bool, typer.Option("--no-limits", help="Ignore joint limits while moving.")] = False,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the search for a start.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the search for a start.")] = 0,
     mount: MountOption = "floor",
     gravity: GravityOption = None,
     payload: PayloadOption = None,
@@ -116,7 +112,7 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Follow a path with the hand while the self-motion prepares the arm for a joint failure.
+    """Follow a path with the end effector while the self-motion prepares the arm for a joint failure.
 
     Example: holdfast follow panda path.yaml --minimise torque:effort --out motion
     """

@@ -51,7 +51,7 @@ def command(
         str | None,
         typer.Option(
             "--maximise",
-            help="The same objectives. A small index, or a large torque, makes the worst configuration.",
+            help="The same choices. Maximising a torque, or minimising an index, gives the worst configuration.",
             show_default=False,
         ),
     ] = None,
@@ -59,7 +59,7 @@ def command(
         list[str] | None,
         typer.Option(
             "--pose",
-            help="Of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
+            help="Pose of the tool in the world: x,y,z,roll,pitch,yaw in m and degrees, as URDF: Rz(yaw) Ry(pitch) Rx(roll). "
             "x,y,z is enough if the task has no orientation. May be given again.",
             show_default=False,
         ),
@@ -78,13 +78,11 @@ def command(
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed; the same seed gives the same result.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     starts: Annotated[
         int | None,
         typer.Option(
-            "--starts",
-            help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more.",
-            show_default=False,
+            "--starts", help="Random starts per pose. Default: 128, or 32 for a redundancy of 2 or more.", show_default=False
         ),
     ] = None,
     clearance: ClearanceOption = None,

@@ -48,7 +48,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Evaluate what a free-swinging failure of each joint would do at a configuration; smaller is better.
+    """Evaluate how much a free-swinging failure of each joint would do at a configuration; smaller is better.
 
     Example: holdfast susceptibility panda --measure swing-angle --q "0 -45 0 -135 0 90 45" --degrees --mount wall
     """

@@ -29,14 +29,14 @@ def command(
     task: TaskOption = None,
     samples: Annotated[int, typer.Option("--samples", help="Random configurations and directions.")] = 2000,
     allowed: Annotated[str, typer.Option("--allowed", help="Pre-failure errors, from 0 to below 1, increasing.")] = ALLOWED,
-    seed: Annotated[int, typer.Option("--seed", help="Of the samples.", min=0)] = 0,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of the samples.", min=0)] = 0,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the curves into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
 ) -> None:
-    """What a velocity error of the healthy arm buys after a lock that nobody notices: which pre-failure error to choose.
+    """What a velocity error of the healthy arm gains after an unnoticed lock: which pre-failure error to choose.
 
     Example: holdfast trade-off panda --task position --samples 2000 --plot trade-off.png
     """

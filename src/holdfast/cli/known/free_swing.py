@@ -37,15 +37,15 @@ def command(
     ] = None,
     brake: Annotated[
         list[float] | None,
-        typer.Option("--brake", help="Brakes act after so many ms. May be given again.", show_default="50, 100 and 200"),
+        typer.Option("--brake", help="Brakes engage after so many ms. May be given again.", show_default="50, 100 and 200"),
     ] = None,
     limits: Annotated[
-        bool, typer.Option("--limits", help="The joint's limits stop it (those of sliding joints always do).")
+        bool, typer.Option("--limits", help="The joint's limits stop it (those of prismatic joints always do).")
     ] = False,
     duration: Annotated[
-        float | None, typer.Option("--duration", help="At most so many seconds. Default: until at rest.", show_default=False)
+        float | None, typer.Option("--duration", help="Longest time, s. Default: until it is at rest.", show_default=False)
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
@@ -53,9 +53,9 @@ def command(
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate what happens when one joint swings free under gravity, all others held (needs the extra 'physics').
+    """Simulate one joint swinging free under gravity, all others held (needs the extra 'physics').
 
-    The brakes are taken to stop the joint at once.
+    Brakes are assumed to stop the joint at once.
 
     Example: holdfast free-swing panda --q "0 -45 0 -135 0 90 45" --degrees --joint 4 --brake 50 --brake 100
     """

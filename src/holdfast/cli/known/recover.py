@@ -40,13 +40,12 @@ def command(
         list[str] | None,
         typer.Option(
             "--lock",
-            help="JOINT=ANGLE (rad or m), or JOINT, which then stands as in --at. May be given again.",
+            help="JOINT=ANGLE (rad or m), or JOINT: it is locked at its value in --at. May be given again.",
             show_default=False,
         ),
     ] = None,
     at: Annotated[
-        str | None,
-        typer.Option("--at", help="Where the arm stands: joint values, rad and m, by commas or spaces.", show_default=False),
+        str | None, typer.Option("--at", help="Current joint values, rad and m, by commas or spaces.", show_default=False)
     ] = None,
     goal: Annotated[
         str | None,
@@ -58,38 +57,35 @@ def command(
         ),
     ] = None,
     task: Annotated[
-        str | None,
-        typer.Option("--task", help=f"{TASK_HELP} With it, home and q: mean the hand's pose there.", show_default=False),
+        str | None, typer.Option("--task", help=f"{TASK_HELP} home and q: then mean the tool's pose there.", show_default=False)
     ] = None,
     path: Annotated[
-        Path | None,
-        typer.Option("--path", help="Path file (YAML): the rest of the hand's path, to be finished first.", show_default=False),
+        Path | None, typer.Option("--path", help="Rest of the path (YAML file), to be finished first.", show_default=False)
     ] = None,
     degrees: Annotated[
-        bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (sliding joints stay in m).")
+        bool, typer.Option("--degrees", help="--at, --lock and q: are in degrees (prismatic joints stay in m).")
     ] = False,
     metric: Annotated[
-        str, typer.Option("--metric", help="What is short: travel (of the joints) or time (at the velocity limits).")
+        str, typer.Option("--metric", help="Shortest by: travel (of the joints) or time (at the velocity limits).")
     ] = "travel",
     region: Annotated[
         Path | None,
         typer.Option(
             "--region",
-            help="Region file (YAML) of which to say what is left. Default: random poses of the healthy arm.",
+            help="Region (YAML file) whose remaining part is reported. Default: random poses of the healthy arm.",
             show_default=False,
         ),
     ] = None,
-    samples: Annotated[int, typer.Option("--samples", min=0, help="Of these; 0: do not look.")] = 1000,
+    samples: Annotated[int, typer.Option("--samples", min=0, help="Number of random poses; 0 skips what is left.")] = 1000,
     starts: Annotated[int, typer.Option("--starts", min=1, help="Random starts of the search for configurations.")] = 256,
-    tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a way where straight lines are blocked.")] = 4,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same result.")] = 0,
+    tries: Annotated[int, typer.Option("--tries", min=0, help="Searches for a route where straight lines are blocked.")] = 4,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all random draws.")] = 0,
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
     margin: MarginOption = None,
     check: Annotated[
-        Path | None,
-        typer.Option("--check", help="Plan nothing; replay these waypoints (CSV) and say what they keep.", show_default=False),
+        Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.", show_default=False)
     ] = None,
     out: Annotated[
         Path | None,
@@ -101,7 +97,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """My joint is stuck now: what is left of the workspace, can the task be finished, and which is the shortest way home?
+    """A joint has locked: report what is left of the workspace, whether the task can be finished, and the shortest route.
 
     Exit code 0 only if everything that was asked for is met; 3 if a row, a lock, a limit or the goal had to be dropped.
 
@@ -120,9 +116,9 @@ def command(
             raise typer.Exit(NOT_MET)
         return
     if at is None:
-        raise InputError("give --at, where the arm stands now, for example --at " + ",".join("0" * model.n))
+        raise InputError("give --at, the current joint values, for example --at " + ",".join("0" * model.n))
     if not lock:
-        raise InputError(f"give --lock, which joint is stuck, for example --lock {model.joint_names[0]}")
+        raise InputError(f"give --lock, the joint that is locked, for example --lock {model.joint_names[0]}")
     aim, positions = _goal(model, goal or ("home" if path is None else ""), degrees)
     chosen = None if task is None else read_task(task, arm, model)
     hand_path = None if path is None else hf.paths.Path.load(path)
@@ -149,7 +145,7 @@ def command(
         files += result.save(out, command=said())
     printed(result, json_, files)
     if csv is not None and not len(result.q) and not json_:
-        typer.echo(f"holdfast: there is no motion, so '{csv}' is not written", err=True)
+        typer.echo(f"holdfast: no motion was found, so '{csv}' is not written", err=True)
     if not result.ok:
         raise typer.Exit(NOT_MET)
 

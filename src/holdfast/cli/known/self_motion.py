@@ -37,10 +37,7 @@ PoseOption = Annotated[
     str | None,
     typer.Option("--pose", help="The target as x,y,z,roll,pitch,yaw of the tool, m and degrees.", show_default=False),
 ]
-TargetOption = Annotated[
-    str | None,
-    typer.Option("--target", help=TARGET_HELP, show_default=False),
-]
+TargetOption = Annotated[str | None, typer.Option("--target", help=TARGET_HELP, show_default=False)]
 
 
 def command(
@@ -48,9 +45,11 @@ def command(
     target: TargetOption = None,
     pose: PoseOption = None,
     task: TaskOption = None,
-    bounds: Annotated[bool, typer.Option("--bounds", help="Also where each joint may lock without losing the target.")] = False,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (sliding joints stay in m).")] = False,
-    spacing: Annotated[float, typer.Option("--spacing", help="Of the points, rad.")] = 0.05,
+    bounds: Annotated[
+        bool, typer.Option("--bounds", help="Also report where each joint may lock without losing the target.")
+    ] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--csv in degrees (prismatic joints stay in m).")] = False,
+    spacing: Annotated[float, typer.Option("--spacing", help="Spacing of the points, rad.")] = 0.05,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -59,10 +58,10 @@ def command(
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """All configurations of one target, and the values at which each joint may lock without losing it.
+    """Find all configurations for one target, and the values at which each joint may lock without losing it.
 
-    With one redundant joint they are curves, closed or ended by a joint limit; with more a sample. A lock keeps the target
-    within reach if and only if it lies in the range of its joint.
+    With one degree of redundancy they are curves, closed or ended by a joint limit; with more they are sampled. A lock keeps
+    the target within reach if and only if it lies in the range of its joint.
 
     Example: holdfast self-motion planar-3r --target 1.5,1.5 --bounds --plot self-motion.png
     """

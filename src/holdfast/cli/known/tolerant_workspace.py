@@ -38,19 +38,19 @@ def command(
         list[str] | None,
         typer.Option(
             "--limit",
-            help="JOINT=LOW,HIGH: artificial limits, deg (sliding: m). May be given again. Default: the arm's own.",
+            help="JOINT=LOW,HIGH: artificial limits, deg (prismatic: m). May be given again. Default: the arm's own.",
             show_default=False,
         ),
     ] = None,
     optimise: Annotated[
-        bool, typer.Option("--optimise", help="Look for the artificial limits that make the region largest.")
+        bool, typer.Option("--optimise", help="Find the artificial limits that make the region largest.")
     ] = False,
     rotation: Annotated[
         str | None,
-        typer.Option("--rotation", help="Of the hand, for tasks with turns: roll,pitch,yaw, deg.", show_default=False),
+        typer.Option("--rotation", help="Rotation of the tool, for tasks with turns: roll,pitch,yaw, deg.", show_default=False),
     ] = None,
-    points: Annotated[int, typer.Option("--points", help="In the sample (not for planar arms of three joints).")] = 1000,
-    angles: Annotated[int, typer.Option("--angles", help="Locked values per joint that are tried.")] = 24,
+    points: Annotated[int, typer.Option("--points", help="Points in the sample (not for planar arms of three joints).")] = 1000,
+    angles: Annotated[int, typer.Option("--angles", help="Locked values tried per joint.")] = 24,
     seed: SeedOption = 0,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -58,7 +58,7 @@ def command(
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Every point that the arm reaches before and after any single joint locks, under artificial joint limits.
+    """Find every point that the arm reaches before and after any single joint locks, under artificial joint limits.
 
     Example: holdfast tolerant-workspace planar-3r --optimise --plot region.png
     """

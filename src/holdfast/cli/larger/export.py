@@ -21,8 +21,7 @@ def command(
     law: LawOption = "failure-tolerant",
     language: Annotated[str, typer.Option("--language", help="c: C99 that needs only math.h.")] = "c",
     name: Annotated[
-        str | None,
-        typer.Option("--name", help="Of the function and the files. Default: the law's.", show_default=False),
+        str | None, typer.Option("--name", help="Name of the function and the files. Default: the law's.", show_default=False)
     ] = None,
     task: TaskOption = None,
     base: BaseOption = None,

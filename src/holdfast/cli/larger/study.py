@@ -18,7 +18,7 @@ from holdfast.present.printing import console, print_json
 
 command = typer.Typer(
     name="study",
-    help="Studies that outgrow one machine, one night or one crash: sweeps of arms, indices, regions and laws.",
+    help="Sweeps of arms, indices, regions and laws that survive crashes and spread over machines.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -37,8 +37,7 @@ def new(
     chunk: Annotated[int, typer.Option("--chunk", help="Samples computed and committed together.")] = 500,
     seed: Annotated[int, typer.Option("--seed", help="The same seed gives the same bits.")] = 0,
     index: Annotated[
-        list[str] | None,
-        typer.Option("--index", help="May be given again.", show_default="relative-manipulability"),
+        list[str] | None, typer.Option("--index", help="May be given again.", show_default="relative-manipulability")
     ] = None,
     law: Annotated[
         list[str] | None,
@@ -67,7 +66,7 @@ def new(
 def run(
     file: FileArgument,
     out: Annotated[
-        Path | None, typer.Option("--out", help="Folder for the results; a stopped study goes on there.", show_default=False)
+        Path | None, typer.Option("--out", help="Folder for the results; a stopped study resumes.", show_default=False)
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -82,15 +81,14 @@ def run(
         int | None, typer.Option("--threads", min=1, help="Threads, without --scheduler.", show_default="all processors")
     ] = None,
     part: Annotated[
-        str,
-        typer.Option("--part", help="1/3: only the first of three shares, for machines that never see each other; see merge."),
+        str, typer.Option("--part", help="1/3: only the first of three parts, for machines that share no folder; see merge.")
     ] = "1/1",
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Say what would be computed, how long it takes and how large it is.")
     ] = False,
     json_: JsonOption = False,
 ) -> None:
-    """Compute what is missing of a study. Ctrl-C stops after the chunks in hand; the same command goes on.
+    """Compute what is missing of a study. Ctrl-C stops after the current chunks; the same command resumes.
 
     Example: holdfast study run tools.yaml --out tools
 
@@ -136,7 +134,7 @@ def run(
 
 @command.command()
 def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
-    """How far a study is, also while it runs.
+    """Show how far a study is, also while it runs.
 
     Example: holdfast study status tools
     """
@@ -182,14 +180,12 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
 @command.command()
 def merge(
     folders: FoldersArgument,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="Folder to merge into.", show_default="the first DIR, new or not")
-    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="Folder to merge into.", show_default="the first DIR")] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Join folders of one study from machines that never saw each other.
+    """Join folders of one study from machines that shared no folder.
 
-    The first folder takes over what the others have and it lacks; if it does not exist, it is made.
+    The first folder gets what it lacks from the others; it is made if it does not exist.
 
     Example: holdfast study merge whole machine1/tools machine2/tools
     """
@@ -236,10 +232,10 @@ def report(
 
 
 def _share(text: str) -> tuple[int, int]:
-    """--part: which share, of how many."""
+    """--part: which part, of how many."""
     which, _, many = text.partition("/")
     if not (which.isdecimal() and many.isdecimal() and 1 <= int(which) <= int(many)):
-        raise InputError(f"--part '{text}' is no share; write 1/3 for the first of three")
+        raise InputError(f"--part '{text}' is not a part; write 1/3 for the first of three")
     return int(which), int(many)
 
 

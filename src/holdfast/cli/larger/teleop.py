@@ -23,7 +23,9 @@ ProtocolArgument = Annotated[
 ]
 
 command = typer.Typer(
-    no_args_is_help=True, help="With a person at the stick: tasks, protocol, sessions and statistics.", add_completion=False
+    no_args_is_help=True,
+    help="Experiments with a person at the stick: tasks, protocol, sessions and statistics.",
+    add_completion=False,
 )
 
 
@@ -31,11 +33,11 @@ command = typer.Typer(
 def run(
     out: Annotated[Path, typer.Option("--out", help="New folder for the records.", show_default=False)],
     simulated: Annotated[bool, typer.Option("--simulated", help="With simulated people.")] = False,
-    operators: Annotated[int, typer.Option("--operators", min=1, help="How many.")] = 24,
+    operators: Annotated[int, typer.Option("--operators", min=1, help="Number of simulated operators.")] = 24,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same experiment.")] = 0,
     protocol: Annotated[str, typer.Option("--protocol", help="goel2003, goel2003-smooth, or a file (YAML).")] = "goel2003",
 ) -> None:
-    """Run a whole experiment with simulated people, from training to the last rating, and record it.
+    """Run and record a whole experiment with simulated people, from training to the last rating.
 
     Example: holdfast teleop run --simulated --operators 24 --seed 1 --out experiment
     """
@@ -57,13 +59,13 @@ def run(
 @command.command()
 def analyse(
     folder: FolderArgument,
-    groups: Annotated[int, typer.Option("--groups", min=2, help="Groups of difficulty that the tasks are sorted into.")] = 3,
+    groups: Annotated[int, typer.Option("--groups", min=2, help="Number of groups of difficulty.")] = 3,
     missing: Annotated[
         str,
         typer.Option(
             "--missing",
-            help="If a subject has no completed trial in a cell: refuse, complete (leave such subjects out) or mixed (a mixed "
-            "model of single trials).",
+            help="If a subject has completed no trial in a cell: refuse, complete (leave out such subjects) or mixed (a "
+            "mixed model of single trials).",
         ),
     ] = "refuse",
     difficulty: Annotated[
@@ -89,9 +91,9 @@ def analyse(
 
 @command.command()
 def replay(folder: FolderArgument) -> None:
-    """Drive the arm with the recorded commands again: does every trial give the same path?
+    """Drive the arm with the recorded commands again and check that every trial gives the same path.
 
-    Exit code 0 if all do; 3 if one does not.
+    Exit code 0 if so; 3 if not.
 
     Example: holdfast teleop replay experiment
     """
@@ -107,9 +109,9 @@ def replay(folder: FolderArgument) -> None:
 
 @command.command()
 def verify(folder: FolderArgument) -> None:
-    """Is every trial, rating, answer and event as it was written? Compares the records with their digests.
+    """Check that every trial, rating, answer and event is as it was written, by their digests.
 
-    Exit code 0 if all is; 3 if something is not, and then the first damaged trial is named first.
+    Exit code 0 if so; 3 if not, and the first damaged trial is named first.
 
     Example: holdfast teleop verify experiment
     """
@@ -166,7 +168,7 @@ def allocation(
     ] = None,
     out: Annotated[Path | None, typer.Option("--out", help="Write a sheet to print (HTML).", show_default=False)] = None,
 ) -> None:
-    """Who does which task when, in which order of scenarios: to print and to tick.
+    """Print who does which task when and in which order of scenarios, as sheets to tick.
 
     Example: holdfast teleop allocation --out allocation.html
     """
@@ -186,13 +188,13 @@ def subjects(
     folder: FolderArgument,
     drop: Annotated[
         str | None,
-        typer.Option("--drop", help="This subject does not come back: the row goes to somebody else.", show_default=False),
+        typer.Option("--drop", help="This subject will not come back: the row is given to someone else.", show_default=False),
     ] = None,
     delete: Annotated[
         str | None, typer.Option("--delete", help="Delete this subject and everything recorded, for good.", show_default=False)
     ] = None,
 ) -> None:
-    """The subjects of an experiment and where their sessions stand.
+    """List the subjects of an experiment and how far their sessions are.
 
     Example: holdfast teleop subjects experiment
     """
@@ -222,7 +224,7 @@ def protocol_(
         Path | None, typer.Option("--write", help="Copy it to this file, to start from.", show_default=False)
     ] = None,
 ) -> None:
-    """Check a protocol and say what it holds.
+    """Check a protocol and summarise it.
 
     Example: holdfast teleop protocol --write mine.yaml
     """

@@ -27,7 +27,7 @@ def serve(
             show_default=False,
         ),
     ] = None,
-    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="0 for any that is free.")] = 8000,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Port; 0 takes any free one.")] = 8000,
     host: Annotated[
         str, typer.Option("--host", help="Address to listen at; others than this computer's need a token.")
     ] = "127.0.0.1",
@@ -35,8 +35,8 @@ def serve(
         str | None,
         typer.Option(
             "--token",
-            help="Stations must show it: 12 random letters, digits, - or _, or more. Whoever lists processes sees it here: "
-            "better in the environment, or in a file.",
+            help="Stations must show it: 12 random letters, digits, - or _, or more. Anyone who lists processes can read "
+            "it here; the environment or a file is safer.",
             envvar="HOLDFAST_TOKEN",
             show_default=False,
         ),
@@ -49,7 +49,7 @@ def serve(
     ] = None,
     tlx: Annotated[bool, typer.Option("--tlx", help="Ask for the NASA task load index.")] = False,
 ) -> None:
-    """Run an experiment with people: serves the page of the stations and that of the experimenter. Ctrl-C ends it.
+    """Run an experiment with people: serve the pages of the stations and of the experimenter. Ctrl-C ends it.
 
     Example: holdfast teleop serve --data experiment
     """
@@ -103,7 +103,7 @@ def texts(
         Path | None, typer.Option("--write", help="Copy them to this file, to translate.", show_default=False)
     ] = None,
 ) -> None:
-    """The texts of the page, to translate: 'holdfast teleop serve --texts FILE' takes the file.
+    """Print or copy the texts of the page, to translate; 'holdfast teleop serve --texts FILE' uses the translation.
 
     Example: holdfast teleop texts --write de.yaml
     """

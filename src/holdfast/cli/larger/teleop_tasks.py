@@ -20,28 +20,27 @@ def tasks(
     per_joint: Annotated[
         int, typer.Option("--per-joint", min=1, help="Tasks in which this joint fails, for each joint.")
     ] = 400,
-    distance: Annotated[float, typer.Option("--distance", help="From start to target, m.")] = 2.0,
+    distance: Annotated[float, typer.Option("--distance", help="Distance from start to target, m.")] = 2.0,
     seed: Annotated[int, typer.Option("--seed", min=0, help="The same seed gives the same tasks.")] = 0,
     select: Annotated[
-        int, typer.Option("--select", min=1, help="Tasks to choose, one from each cell as far as there are.")
+        int, typer.Option("--select", min=1, help="How many tasks to select, one from each cell as far as possible.")
     ] = 22,
     special: Annotated[
         bool,
         typer.Option(
             "--special/--no-special",
-            help="Also the most disorienting task, and one in which the failed arm is drawn to where it stands still.",
+            help="Also the most disorienting task, and one in which the failed arm is drawn to an erroneous stationary point.",
         ),
     ] = True,
     task: Annotated[
         str | None, typer.Option("--task", help="What the stick moves: planar or position.", show_default="by the arm")
     ] = None,
     out: Annotated[
-        Path | None,
-        typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.", show_default=False),
+        Path | None, typer.Option("--out", help="Folder for bank.csv, protocol.yaml and bank.png.", show_default=False)
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Random tasks, each run by the computer in four scenarios, and the choice of those for an experiment.
+    """Draw random tasks, let the computer run each in four scenarios, and select those for an experiment.
 
     Example: holdfast teleop tasks --seed 1 --out bank
     """

@@ -20,13 +20,9 @@ def command(json_: JsonOption = False) -> None:
 
 
 def describe(
-    arm: ArmArgument,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    hold: HoldOption = None,
-    json_: JsonOption = False,
+    arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, hold: HoldOption = None, json_: JsonOption = False
 ) -> None:
-    """Show an arm, what is wrong with its data, and which joint is a single point of failure by structure.
+    """Show an arm, problems in its data, and which joints are single points of failure by structure.
 
     Example: holdfast describe pa10-7dof
     """

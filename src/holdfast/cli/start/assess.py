@@ -39,7 +39,7 @@ FailureRateOption = Annotated[
     list[str] | None,
     typer.Option(
         "--failure-rate",
-        help="joint=how often it fails, for the fraction left after a failure; may be given again.",
+        help="joint=how often it fails, to weigh what is left after a failure; may be given again.",
         show_default=False,
     ),
 ]
@@ -57,17 +57,16 @@ def command(
     ] = None,
     index: IndexOption = "relative-manipulability",
     task: Annotated[
-        list[str] | None,
-        typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False),
+        list[str] | None, typer.Option("--task", help=f"{TASK_HELP} May be given again, to compare.", show_default=False)
     ] = None,
     tool: Annotated[list[str] | None, typer.Option("--tool", help=TOOL_HELP, show_default=False)] = None,
     failures: FailuresOption = "single",
     length: LengthOption = 1.0,
     poses: Annotated[
         int | None,
-        typer.Option("--poses", help="Number of poses. Default: 2000, or of a list of poses each once.", show_default=False),
+        typer.Option("--poses", help="Number of poses. Default: 2000, or each pose of a list once.", show_default=False),
     ] = None,
-    seed: Annotated[int, typer.Option("--seed", help="Seed; the same seed gives the same result.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of all random draws.")] = 0,
     sampling: Annotated[str, typer.Option("--sampling", help="random or sobol.")] = "random",
     restarts: Annotated[int, typer.Option("--restarts", help="Random starts per pose before it counts as not found.")] = 100,
     optimise: Annotated[bool, typer.Option("--optimise", help="Also find the best configuration of each pose.")] = False,
@@ -98,9 +97,9 @@ def command(
     name: NamesOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Over a region of the workspace: with which probability does the arm keep its dexterity when any one joint locks?
+    """With what probability does an arm keep its dexterity over a region of the workspace when any one joint locks?
 
-    Several arms, tools or tasks are compared: each with each, over one region, in one report. (Control laws of one arm:
+    Several arms, tools or tasks are compared over one region in one report, in every combination. (Control laws of one arm:
     'holdfast compare-laws'.)
 
     Example: holdfast assess pa10-9dof --poses 2000 --seed 1 --out results
@@ -182,7 +181,7 @@ def report(
     failure_rate: FailureRateOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Write the report of a results folder again, also of a run that was stopped, or of a comparison.
+    """Write the report of a results folder again; the folder may hold a stopped run or a comparison.
 
     Example: holdfast report results
     """

@@ -33,15 +33,14 @@ PORT = 8123
 
 def command(
     arm: ArmArgument,
-    port: Annotated[int, typer.Option("--port", help="Of the page; 0: any that is free.")] = PORT,
+    port: Annotated[int, typer.Option("--port", help="Port of the page; 0 takes any free one.")] = PORT,
     host: Annotated[
-        str, typer.Option("--host", help="Address to listen on. Others than this machine's own only among people you trust.")
+        str, typer.Option("--host", help="Address to listen on. Let other machines in only among people you trust.")
     ] = "127.0.0.1",
     q: Annotated[
-        str | None,
-        typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False),
+        str | None, typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False)
     ] = None,
-    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (sliding joints stay in m).")] = False,
+    degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
     lock: Annotated[
         list[str] | None, typer.Option("--lock", help="A joint that is locked. May be given again.", show_default=False)
@@ -49,12 +48,12 @@ def command(
     free: Annotated[
         list[str] | None, typer.Option("--free", help="A joint that swings freely. May be given again.", show_default=False)
     ] = None,
-    index: Annotated[str, typer.Option("--index", help="Of the bars.")] = "relative-manipulability",
-    susceptibility: Annotated[str, typer.Option("--susceptibility", help=f"Of the bars: {SUSCEPTIBILITIES.usage}.")] = (
-        "torque"
-    ),
+    index: Annotated[str, typer.Option("--index", help="Index shown by the bars.")] = "relative-manipulability",
+    susceptibility: Annotated[
+        str, typer.Option("--susceptibility", help=f"Susceptibility shown by the bars: {SUSCEPTIBILITIES.usage}.")
+    ] = ("torque"),
     objective: Annotated[
-        str, typer.Option("--objective", help="Best and worst by this: an index or a susceptibility.")
+        str, typer.Option("--objective", help="Index or susceptibility by which best and worst are found.")
     ] = "relative-manipulability",
     law: Annotated[
         list[str] | None,
@@ -72,12 +71,12 @@ def command(
     region: Annotated[
         str | None, typer.Option("--region", help="A results folder that assess wrote.", show_default=False)
     ] = None,
-    time: Annotated[float, typer.Option("--time", help="Where the motion is shown, s.")] = 0.0,
+    time: Annotated[float, typer.Option("--time", help="Time at which the motion is shown, s.")] = 0.0,
     show: Annotated[
         str | None,
         typer.Option(
             "--show",
-            help="At once: arm, best-worst, laws, swing, region or file.",
+            help="View to open: arm, best-worst, laws, swing, region or file.",
             show_default="file or region if given, else arm",
         ),
     ] = None,
@@ -85,9 +84,9 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
 ) -> None:
-    """Open a page in which an arm is moved, fails, and shows what that takes (needs the extra 'view').
+    """Move an arm in the browser, let joints fail, and see what the failure costs (needs the extra 'view').
 
-    Every window has an arm of its own. Stop it with Ctrl-C.
+    Every browser window has its own arm. Ctrl-C stops the server.
 
     Example: holdfast studio panda --lock 4
     """

@@ -30,7 +30,9 @@ def command(
     starts: Annotated[int, typer.Option("--starts", help="How many random starts.")] = 2000,
     grid: Annotated[
         int | None,
-        typer.Option("--grid", help="Two healthy joints: a map of so many by so many starts instead.", show_default=False),
+        typer.Option(
+            "--grid", help="With two healthy joints, instead: a map of so many by so many starts.", show_default=False
+        ),
     ] = None,
     degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
@@ -42,7 +44,7 @@ def command(
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Find from where an arm with locked joints still reaches its target, and where it ends if not.
+    """Find the starts from which an arm with locked joints still reaches its target, and where it ends from the others.
 
     Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """

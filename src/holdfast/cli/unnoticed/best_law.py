@@ -26,9 +26,9 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Which control law lets an arm reach its targets most often, whichever joint has locked without anybody knowing?
+    """Find the control law with which an arm reaches its targets most often after an unnoticed lock of any joint.
 
-    All laws meet the same failures: those of 'holdfast convergence-map'.
+    All laws are tried on the same failures, those of 'holdfast convergence-map'.
 
     Example: holdfast best-law panda --task position --target 0.5,0.2,0.4 --law pseudoinverse --law failure-tolerant:0.2
     """

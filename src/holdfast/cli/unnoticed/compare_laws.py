@@ -40,7 +40,7 @@ def command(
         int | None,
         typer.Option("--motions", "--tasks", help="How many random motions from point to point.", show_default=str(MOTIONS)),
     ] = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the random motions.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random motions.")] = 0,
     distance: Annotated[
         str | None,
         typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False),
@@ -58,7 +58,7 @@ def command(
         typer.Option("--start", help="Instead: one motion from these joint values, rad and m, ...", show_default=False),
     ] = None,
     target: Annotated[
-        str | None, typer.Option("--target", help="... to here, as 'holdfast simulate' takes it.", show_default=False)
+        str | None, typer.Option("--target", help="... to this target, given as in 'holdfast simulate'.", show_default=False)
     ] = None,
     failures: Annotated[
         str,
@@ -80,10 +80,10 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Compare control laws of one arm on the same motions while a joint has locked and the controller does not know.
+    """Compare control laws of one arm on the same motions with a joint locked and a controller that does not know it.
 
-    The first law is the one that the others are compared with. Arms, tools and tasks are compared by 'holdfast assess A B C',
-    which is something else: how much dexterity a failure leaves.
+    The others are compared with the first law. 'holdfast assess A B C' compares arms, tools and tasks instead: how much
+    dexterity a failure leaves.
 
     Example: holdfast compare-laws panda --task position --law pseudoinverse --law failure-tolerant:0.5 --motions 200 --out laws
     """

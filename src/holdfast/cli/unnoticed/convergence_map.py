@@ -26,7 +26,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """How do motions end with a joint locked from their start, each in turn, and none?
+    """Map how motions end with each joint locked in turn from the start, and with none.
 
     Example: holdfast convergence-map panda --task position --target 0.5,0.2,0.4 --starts 1000 --out results
 

@@ -22,30 +22,36 @@ ConfigurationsOption = Annotated[
     int | None,
     typer.Option(
         "--configurations",
-        help="Of each start: on each curve of its self-motion, or random ones.",
+        help="Configurations per start: on each curve of its self-motion, or random ones.",
         show_default="36, or 8; over targets 8, or 4",
     ),
 ]
 PointsOption = Annotated[
     int | None,
     typer.Option(
-        "--points", help="Failures of each joint on each motion; 0: ranges only.", show_default="10, or 3; over targets 2"
+        "--points",
+        help="Failures of each joint on each motion; 0 for the ranges only.",
+        show_default="10, or 3; over targets 2",
     ),
 ]
 MethodOption = Annotated[
     Literal["brute", "procedure", "sampled"] | None,
     typer.Option(
         "--method",
-        help="Simulate all failures, or only those where there is a sink, or all of random configurations.",
+        help="Simulate all failures, only those where a sink exists, or all failures of random configurations.",
         show_default="brute in a plane, else sampled",
     ),
 ]
 RelativeOption = Annotated[
     Literal["inside", "whole"],
-    typer.Option("--relative-to", help="F of the part of the way within the joints' ranges, or of the whole way."),
+    typer.Option(
+        "--relative-to", help="F as a fraction of the part of the path within the joints' ranges, or of the whole path."
+    ),
 ]
-MeasureTimeOption = Annotated[float | None, typer.Option("--time-limit", help="s.", show_default="2000/gain s")]
+MeasureTimeOption = Annotated[float | None, typer.Option("--time-limit", help="Time limit, s.", show_default="2000/gain s")]
 MapStartsOption = Annotated[str, typer.Option("--starts", help="A number of random places, or a lattice as grid:52.")]
 MapConfigurationsOption = Annotated[int, typer.Option("--configurations", help="Motions for each place.")]
-MapTimeOption = Annotated[float | None, typer.Option("--time-limit", help="s.", show_default="500/gain s")]
-OverOption = Annotated[Literal["starts", "targets"], typer.Option("--over", help="What the places of the map are.")]
+MapTimeOption = Annotated[float | None, typer.Option("--time-limit", help="Time limit, s.", show_default="500/gain s")]
+OverOption = Annotated[
+    Literal["starts", "targets"], typer.Option("--over", help="What the places of the map are: starts or targets.")
+]

@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.laws import (
-    CyclesOption,
-    GainOption,
-    LawOption,
-    SpeedLimitOption,
-    TargetOption,
-    TimeLimitOption,
-    law_of,
-)
+from holdfast.cli.laws import CyclesOption, GainOption, LawOption, SpeedLimitOption, TargetOption, TimeLimitOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -58,9 +50,12 @@ def command(
     cycles: CyclesOption = False,
     time_limit: TimeLimitOption = None,
     physics: Annotated[
-        bool, typer.Option("--physics", help="Also in MuJoCo, with bodies and joint servos (needs the extra 'physics').")
+        bool,
+        typer.Option("--physics", help="Simulate also in MuJoCo, with bodies and joint servos (needs the extra 'physics')."),
     ] = False,
-    servo_bandwidth: Annotated[float, typer.Option("--servo-bandwidth", help="physics: of the joint servos, Hz.")] = 10.0,
+    servo_bandwidth: Annotated[
+        float, typer.Option("--servo-bandwidth", help="With --physics: bandwidth of the joint servos, Hz.")
+    ] = 10.0,
     degrees: Annotated[bool, typer.Option("--degrees", help="--start is in degrees (prismatic joints stay in m).")] = False,
     base: BaseOption = None,
     tip: TipOption = None,
@@ -73,7 +68,7 @@ def command(
     ] = None,
     json_: JsonOption = False,
 ) -> None:
-    """Simulate an arm whose controller does not know that joints have locked: does the hand still arrive?
+    """Simulate an arm whose controller does not know that joints have locked: does it still reach the target?
 
     Example: holdfast simulate planar-3r --start "20 40 60" --degrees --target 1.5,1.5 --lock 2@0.5 --plot run.png
     """

@@ -48,7 +48,7 @@ def command(
     plot: PlotOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Find where an arm can stop when joints have locked and its controller does not know.
+    """Find the stationary points at which an arm with locked joints can stop when its controller does not know.
 
     Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=140 --degrees
     """

@@ -30,7 +30,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """Which targets does a lock put at risk that nobody knows of, wherever the motion began?
+    """Measure which targets an unnoticed lock puts at risk, averaged over starts.
 
     The measures of 'holdfast workspace' for many targets, each over the same starts.
 

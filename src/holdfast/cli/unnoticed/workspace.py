@@ -30,7 +30,7 @@ def command(
     hold: HoldOption = None,
     json_: JsonOption = False,
 ) -> None:
-    """From where does an arm still reach a target when a joint locks on the way and nobody knows?
+    """Map the starts from which an arm still reaches a target when a joint locks on the way and nobody notices.
 
     The measures R100 to Fsens of Goel et al. 2005: for a planar arm over a lattice of starts, for other arms by sampling,
     with 95 % intervals. A stopped analysis resumes if --out is the same. Over targets: 'holdfast target-measures'.

@@ -72,7 +72,7 @@ def show(arm: Arm, out: Console) -> None:
     found = structures(arm)
     for s in found:
         style = "green" if s.survives else "yellow"
-        label = f"{s.task}: " + (f"{s.redundancy} joint(s) more than needed. " if s.redundancy > 0 else "")
+        label = f"{s.task}: " + (f"degree of redundancy {s.redundancy}. " if s.redundancy > 0 else "")
         out.print(f"[{style}]{label}[/]{escape(explain(arm, s, found))}", soft_wrap=True)
     # The same remark about every joint is one line.
     subjects: dict[tuple[str, str], list[str]] = {}

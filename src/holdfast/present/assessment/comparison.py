@@ -40,12 +40,12 @@ def build(comparison: Comparison) -> Page:
     alerts = []
     if unfinished:
         names = ", ".join(unfinished)
-        alerts.append(Callout("Run the same command again to go on.", "bad", f"Not complete: {names}."))
+        alerts.append(Callout("Run the same command again to resume.", "bad", f"Not complete: {names}."))
     sections = [
         Section("", [Callout(" ".join(c.notes), title="Before comparing")] if c.notes else []),
         Section("The candidates", [_table(c, first)]),
         Section("How the index is distributed", _distributions(c, first)),
-        Section("Which joint deserves the redundant motor or brake", _upgrades(c, first)),
+        Section("Which joint deserves a redundant motor or brake", _upgrades(c, first)),
         Section("About each candidate", [_candidates(c)]),
         Section("How it was computed", _method(c, first)),
     ]
@@ -119,7 +119,7 @@ def _table(c: Comparison, f: Facts) -> Table:
         cells.append("every joint" if len(points) == a.arm.n else ", ".join(points) or "none")
         rows.append(cells)
     caption = (
-        f"P: share of the {counted(f.d.samples, f.noun)} whose {f.condition}, with 95 % intervals; medians are over the "
+        f"P: fraction of the {counted(f.d.samples, f.noun)} whose {f.condition}, with 95 % intervals; medians are over the "
         "reached ones. Redundancy: joints minus rows of the task. Joints are numbered from the "
         "base. Single point of failure: a joint whose lock ends the task "
         "in every configuration."
@@ -127,7 +127,7 @@ def _table(c: Comparison, f: Facts) -> Table:
     if optimised:
         caption += " Optimised (opt.): at the best configurations."
     if survival:
-        caption += " Left after a lock: share of the poses still reached, every joint equally likely to fail."
+        caption += " Left after a lock: fraction of the poses still reached, every joint equally likely to fail."
     numbers = frozenset(range(2, 6 + optimised + survival))
     return Table(rows, [*head, "single point of failure"], numbers, caption=caption, wide=True)
 
@@ -155,7 +155,7 @@ def _worst(row: dict[str, Any], a: Assessment, before: str) -> str:
     if name is None:
         return "–"
     failed = a.index.failures[a.index.failure_names.index(name)]
-    return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_share'])})"
+    return f"{'+'.join(str(k + 1) for k in failed)} ({percent(row[f'{before}worst_fraction'])})"
 
 
 def figures(c: Comparison) -> dict[str, Figure]:
@@ -178,7 +178,9 @@ def figures(c: Comparison) -> dict[str, Figure]:
     ends += [m.x for m in marks]
     axis = np.geomspace(min(ends), max(ends), 801) if log else np.linspace(min(0.0, *ends), 1.04 * max(0.0, *ends), 801)
     panels = [(title, [Curve(axis, a.cdf(axis, optimised=o), n) for n, a in some]) for title, some, o in samples]
-    return {"compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="share with a smaller value, F", log=log)}
+    return {
+        "compare": drawing.compare_cdf_figure(panels, marks, f.axis_label, ylabel="fraction with a smaller value, F", log=log)
+    }
 
 
 def _distributions(c: Comparison, f: Facts) -> list[Block]:
@@ -217,13 +219,13 @@ def _upgrades(c: Comparison, f: Facts) -> list[Block]:
         caption = f"P({f.condition}). The {_MOST_UPGRADES} joints of each candidate that gain most; its own report has all."
         blocks.append(Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True))
         text = (
-            "Suppose that one joint cannot fail, thanks to a redundant motor or brake: the worst case is then over the "
+            "Suppose that a redundant motor or brake keeps one joint from failing: the worst case is then over the "
             f"failures in which it has no part, at the same {f.noun}s and configurations. The intervals are paired: a gain is "
-            f"the share of the {f.noun}s that fail now and would not then."
+            f"the fraction of the {f.noun}s that fail now and would not then."
         )
         blocks.append(Text(text, quiet=True))
     if missing:
-        blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so there is no such advice for that."))
+        blocks.append(Text(f"The {f.noun}s of {', '.join(missing)} were not kept, so they are not in this table."))
     return blocks
 
 
@@ -238,18 +240,10 @@ def _candidates(c: Comparison) -> Table:
         rows.append(
             [name, a.arm.name, _tool(a.arm), bound, " → ".join(gaps) or "–", (source or "no source given") + ends, code]
         )
-    head = [
-        "Candidate",
-        "arm",
-        "tool",
-        "bound of the index",
-        "gap of the median",
-        "source",
-        "fingerprint",
-    ]
+    head = ["Candidate", "arm", "tool", "bound of the index", "gap of the median", "source", "fingerprint"]
     caption = (
-        "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. Gap: "
-        "what the median of the reached poses lacks to it"
+        "Tool: x, y, z; roll, pitch, yaw as in URDF, in the last link's own frame. Bound: no configuration can exceed it. "
+        "Gap: by how much the median of the reached poses falls short of it"
     )
     caption += ", before → after optimisation." if any(a.optimised is not None for a in c.assessments) else "."
     return Table(rows, head, frozenset({3, 4}), caption=caption, wide=True)
@@ -266,7 +260,9 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
     if not c.chosen:
         bounded = all(x.index.bound is not None for x in c.assessments)
         why = (
-            "half of the smallest bound" if bounded else "about the middle of the candidates' medians: this index has no bound"
+            "half of the smallest bound"
+            if bounded
+            else "about the middle of the candidates' medians, because this index has no bound"
         )
     seeds = sorted({x.seed for x in c.assessments})
     facts: list[tuple[str, str]] = [

@@ -64,7 +64,7 @@ def show(comparison: Comparison, out: Console, thresholds: Thresholds = None, re
         cells += ["none" if r[f"{b}median"] is None else number(r[f"{b}median"], 3) for b in samples]
         numbers.add_row(*cells, *[_cell(r["expected_survival"])] * survival)
         worst = [
-            "none" if not r[f"{b}worst_joint"] else f"{r[f'{b}worst_joint']} ({r[f'{b}worst_share']:.0%})" for b in samples
+            "none" if not r[f"{b}worst_joint"] else f"{r[f'{b}worst_joint']} ({r[f'{b}worst_fraction']:.0%})" for b in samples
         ]
         names = [*worst, ", ".join(r["single_points_of_failure"]) or "none", r["upgrade"] or "none"]
         gain = "" if r["upgrade"] is None else f"{r['upgrade_gain']:+.3f}"

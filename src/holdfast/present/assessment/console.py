@@ -103,7 +103,7 @@ def _clearance(result: Assessment) -> dict[str, Any] | None:
         "best_without_regard": found.blocked if chosen else None,
         "none_clear": found.hopeless if chosen else None,
     }
-    shares = {f"{name}_share": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
+    shares = {f"{name}_fraction": n / found.reached if n is not None and found.reached else None for name, n in counts.items()}
     return {"reached": found.reached, **counts, **shares, **shape_summary(clearance, found.margin)}
 
 
@@ -241,19 +241,19 @@ def _show_clearance(result: Assessment, out: Console) -> None:
     text = f"the arm runs through itself in {found.found / whole:.1%} of the {whole} configurations found"
     if result.optimised is not None:
         text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {too_close(found.margin)}"
-        text += ", so a clear one was chosen instead" if found.blocked else ""
+        text += ", so one that is clear was chosen instead" if found.blocked else ""
         if found.hopeless:
             text += f", but {found.hopeless} ({found.hopeless / whole:.1%}) have no clear one and count as failed"
     out.print(escape(f"{text} ({shape_text(clearance, found.margin)})"), soft_wrap=True)
 
 
 def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> None:
-    """Which joint deserves the redundant motor or brake, at the first threshold."""
+    """Which joint deserves a redundant motor or brake, at the first threshold."""
     from rich.markup import escape
     from rich.table import Table
 
     if not result.kept:
-        out.print("the poses were not kept, so which joint deserves a redundant motor or brake is not known", soft_wrap=True)
+        out.print("the poses were not kept, so it is not known which joint deserves a redundant motor or brake", soft_wrap=True)
         return
     threshold = thresholds[0] if thresholds else result.default_threshold()
     ranked = result.upgrades(threshold)

@@ -88,7 +88,12 @@ def figures(assessment: Assessment, threshold: float | None = None) -> dict[str,
             scenes.color_bar(figure, scene, facts.scale, [left], facts.axis_label)
         if facts.drawable:
             drawing.draw_cdf(
-                right, facts.curves, facts.marks, xlabel=facts.axis_label, ylabel=f"share of {facts.noun}s below", log=facts.log
+                right,
+                facts.curves,
+                facts.marks,
+                xlabel=facts.axis_label,
+                ylabel=f"fraction of {facts.noun}s below",
+                log=facts.log,
             )
             right.set_title(f"P({facts.condition}) = {interval(facts.answer)}" if facts.decided else "")
             drawing.legend_below(figure, right, 4)

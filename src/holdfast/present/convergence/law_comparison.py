@@ -56,7 +56,7 @@ def build(c: LawComparison, command: str = "") -> Page:
     sections = [
         Section("Which converge", _outcomes(c)),
         Section(f"What the others gain over {c.names[0]}", _gains(c)),
-        Section("How far astray", _errors(c)),
+        Section("How far off the target", _errors(c)),
         Section("What it costs while nothing has failed", _healthy(c)),
         Section("How it was computed", _method(c, command)),
     ]
@@ -76,7 +76,8 @@ def _alerts(c: LawComparison) -> list[Callout]:
     if undecided > 0.05:
         found.append(
             Callout(
-                f"Up to {percent(undecided)} of the runs of a law are undecided and count as not converged; read shares with "
+                f"Up to {percent(undecided)} of the runs of a law are undecided and count as not converged; read the "
+                f"fractions with "
                 "that in mind.",
                 title="Undecided runs",
             )
@@ -126,7 +127,7 @@ def _outcomes(c: LawComparison) -> list[Block]:
         Picture(
             image,
             f"How {counted(len(c), 'motion')} ended under each law, healthy and with each joint locked from the start. Bars "
-            "end at 1; converged is at the target, stuck is at rest elsewhere, moving never comes to rest.",
+            "end at 1; converged: at the target; stuck: stopped elsewhere; moving: never stops.",
         ),
         Table(rows, head, frozenset(range(2, len(head))), caption=caption, wide=True),
     ]

@@ -30,10 +30,7 @@ def outcome_figure(c: LawComparison) -> Figure:
             Stack(name=failure, bars=c.names, shares=shares, low=low, high=high, level=float(cases[0].reachable.mean()))
         )
     return stack_figure(
-        stacks,
-        OUTCOMES,
-        f"share of {len(c):,} motions, each law and failure",
-        level="targets still within reach",
+        stacks, OUTCOMES, f"fraction of {len(c):,} motions, each law and failure", level="targets still within reach"
     )
 
 
@@ -51,7 +48,7 @@ def gains_figure(c: LawComparison) -> Figure:
     return gain_figure(
         cases,
         [
-            (f"share that converges, minus that with {first}", more),
+            (f"fraction that converges, minus that with {first}", more),
             (f"mean end error minus that with {first}, {error_unit(c)}", nearer),
         ],
     )
@@ -69,7 +66,7 @@ def error_figure(c: LawComparison) -> Figure:
             finite = np.sort(values[np.isfinite(values)])
             curves.append(Curve(axis, np.searchsorted(finite, axis, side="right") / max(len(values), 1), name))
         panels.append((title, curves))
-    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", ylabel="share of runs with at most that", log=True)
+    return compare_cdf_figure(panels, [], f"error, {error_unit(c)}", ylabel="fraction of runs with at most that", log=True)
 
 
 def healthy_figure(c: LawComparison) -> Figure:

@@ -36,7 +36,7 @@ def to_dict(m: ConvergenceMap) -> dict[str, Any]:
     """Facts of a map as JSON types."""
     shares: dict[str, Any] = {}
     for word in _WORDS:
-        shares[word] = {name: {"share": s.value, "low": s.low, "high": s.high} for name, s in m.shares(word).items()}
+        shares[word] = {name: {"fraction": s.value, "low": s.low, "high": s.high} for name, s in m.shares(word).items()}
     return {
         **m.law.arm.entry(),
         "law": m.law.describe(),
@@ -48,8 +48,8 @@ def to_dict(m: ConvergenceMap) -> dict[str, Any]:
         "seed": m.seed,
         "undecided_runs": m.undecided(),
         "confidence": 0.95,
-        "limits_passed_share": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
-        "shares": shares,
+        "limits_passed_fraction": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
+        "fractions": shares,
     }
 
 

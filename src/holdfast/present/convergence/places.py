@@ -40,8 +40,8 @@ def panels(
     """A figure for each view of the places: ``""``, the plane of the task; or ``-top`` and ``-side``, seen along z and y.
 
     ``rows`` are by title, (P, C) percentages, NaN where there are none; ``columns`` (C,) titles; ``label`` is of the colour
-    bar; ``mark`` (3,) a target to show. Places in a plane that are no lattice are averaged in square cells if ``gathered``, as
-    those of spatial arms always are; else each is a dot.
+    bar; ``mark`` (3,) a target to show. Places in a plane that do not form a lattice are averaged in square
+    cells if ``gathered``, as those of spatial arms always are; else each is a dot.
     """
     from holdfast.report.places import Plane, binned, place_maps
     from holdfast.report.views import View
@@ -79,12 +79,7 @@ def with_interval(value: float, low: float, high: float) -> str:
 
 
 def measure_maps(
-    law: Law,
-    places: Places,
-    measures: Mapping[str, Array],
-    about: str,
-    failures: str,
-    mark: Array | None = None,
+    law: Law, places: Places, measures: Mapping[str, Array], about: str, failures: str, mark: Array | None = None
 ) -> dict[str, Figure]:
     """Maps of R100, Ravg, Rsens and, where failures were looked at, of F100, Favg, Fsens, by name: ``reach``, ``finish-top``.
 
@@ -92,10 +87,18 @@ def measure_maps(
     """
     columns = [*law.arm.joint_names, "any joint"]
     told = {
-        "reach": (REACH, "of the way, percent", "R: share of the way on which the joint may lock and the target stays in reach")
+        "reach": (
+            REACH,
+            "of the path, percent",
+            "R: fraction of the path on which the joint may lock and the target stays in reach",
+        )
     }
     if failures:
-        told["finish"] = (FINISH, "percent", f"F: share of that part from which the failed arm arrives; {failures}")
+        told["finish"] = (
+            FINISH,
+            "percent",
+            f"F: fraction of that part from which the failed arm reaches the target; {failures}",
+        )
     found = {}
     for word, (names, label, second) in told.items():
         rows = {name: measures[name] for name in names}

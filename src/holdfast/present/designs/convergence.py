@@ -23,10 +23,10 @@ from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Tabl
 from holdfast.words import fixed, percent
 
 _MEANINGS = {
-    "guaranteed": "share of the targets, by area, that the arm reaches whatever lock leaves them within reach",
-    "free": "share of the locks that leave the target within reach after which nothing holds the arm away from it",
-    "arrival": "share of all locks after which the arm reaches its target; a target out of reach counts as 0",
-    "reached": "share of the targets within reach of the healthy arm",
+    "guaranteed": "fraction of the targets, by area, that the arm reaches whatever lock leaves them within reach",
+    "free": "fraction of the locks that leave the target within reach after which nothing holds the arm away from it",
+    "converged": "fraction of all locks after which the arm reaches its target; a target out of reach counts as 0",
+    "reached": "fraction of the targets within reach of the healthy arm",
 }
 
 
@@ -50,9 +50,9 @@ def figures(d: ConvergenceDesigns) -> dict[str, Figure]:
     """What each design is worth, by one number at a time."""
     factors = np.array([p.shown[0] for p in d.space.parameters])
     names = [f"{p.name}, {p.shown[1]}" for p in d.space.parameters]
-    value = d.measures[d.objective if d.exact else "arrival"]
+    value = d.measures[d.objective if d.exact else "converged"]
     start = d.values[0] * factors, float(value[0])
-    return {"parameters": parameters_figure(names, d.values * factors, value, start, f"share, {d.objective}")}
+    return {"parameters": parameters_figure(names, d.values * factors, value, start, f"fraction, {d.objective}")}
 
 
 def build(d: ConvergenceDesigns) -> Page:
@@ -64,7 +64,7 @@ def build(d: ConvergenceDesigns) -> Page:
         [
             Section("What to build", [*(bounds_callout(d.space, best) if d.best else []), parameters_table(d.space, best)]),
             Section("What that gains", _gains(d)),
-            Section("Which number matters", [_numbers(d)]),
+            Section("Which parameter matters", [_numbers(d)]),
             Section("The best arm as a file", _file(d)),
             Section("How it was computed", _method(d)),
         ],
@@ -83,8 +83,8 @@ def headline(d: ConvergenceDesigns) -> str:
             "After a lock that the controller does not know of, the best design reaches its target in "
             f"{_share(best)} of fresh failures, the given arm in {_share(given)}: {_points(apart)} more."
         )
-        return text if apart.low > 0 else f"No gain that lasts was found. {text} Search with more targets."
-    name = d.objective if d.exact else "arrival"
+        return text if apart.low > 0 else f"No gain that holds on fresh failures was found. {text} Search with more targets."
+    name = d.objective if d.exact else "converged"
     given_, best_ = (percent(float(d.measures[name][k])) for k in (0, d.best))
     if d.best == 0:
         return f"Nothing better than the given arm was found; {name}: {given_}, the {_MEANINGS[name]}."
@@ -106,29 +106,29 @@ def _gains(d: ConvergenceDesigns) -> list[Block]:
     ]
     head = ["Measure", "given arm", "best design", "what it is"]
     blocks: list[Block] = [
-        Table(rows, head, frozenset({1, 2}), caption=f"As the search saw them, of {len(d.values):,} designs.")
+        Table(rows, head, frozenset({1, 2}), caption=f"As measured in the search, over {len(d.values):,} designs.")
     ]
     if d.checked is not None:
         given, best, apart = d.checked
-        fresh: list[list[Cell]] = [["arrival", _share(given), _share(best), _points(apart)]]
+        fresh: list[list[Cell]] = [["converged", _share(given), _share(best), _points(apart)]]
         told = "On targets and failures that had no part in the search, the same for both."
         blocks.append(Table(fresh, ["Fresh", "given arm", "best design", "difference"], frozenset({1, 2, 3}), caption=told))
     else:
-        blocks.append(Text("No sink and no singular trap is no proof of arrival: limit cycles exist.", quiet=True))
+        blocks.append(Text("Having no sink and no singular trap does not prove convergence: limit cycles exist.", quiet=True))
     return blocks
 
 
 def _numbers(d: ConvergenceDesigns) -> Picture:
     (figure,) = figures(d).values()
-    text = "Each design by one number at a time; the others differ too. Designs of the climbs crowd round the best."
-    return Picture(drawing.svg(figure, "parameters", "What designs are worth against each number"), text)
+    text = "Each design by one parameter at a time; the others differ too. Designs from the climbs crowd around the best."
+    return Picture(drawing.svg(figure, "parameters", "Measure of the designs against each parameter"), text)
 
 
 def _file(d: ConvergenceDesigns) -> list[Block]:
     label = Markup("<code>{}</code>, which every command takes as ARM:").format(ARM_FILE)
     return [
         Code(d.arm_file().rstrip(), label),
-        Text("Masses are not in it: a table of Denavit-Hartenberg rows holds none.", quiet=True),
+        Text("It has no masses: a table of Denavit-Hartenberg rows holds none.", quiet=True),
     ]
 
 
@@ -138,7 +138,7 @@ def _method(d: ConvergenceDesigns) -> list[Block]:
         "from the stationary sets of the planar arm, all targets at once"
         if d.exact
         else f"simulation: {s['targets']} targets, {s['failures']} failures of each joint at each, the same for all designs; a "
-        "joint locks where it stands in some configuration at the target, and the arm starts anywhere"
+        "joint locks where it is in some configuration at the target, and the arm starts anywhere"
     )
     facts: list[tuple[str, Cell]] = [
         ("Given arm", f"{d.law.arm.name}: {d.law.arm.source or 'no source given'}"),

@@ -174,7 +174,7 @@ def _value(x: float) -> str:
 def _arms(figure: Figure) -> list[Block]:
     text = (
         "Each arm with its tool at the middle of the region (dashed), or in the middle of its joint limits if it does not get "
-        "there. Circles are joints, squares sliding joints; the orange diamond is the tool point. Equal scales."
+        "there. Circles are joints, squares prismatic joints; the orange diamond is the tool point. Equal scales."
     )
     return [Picture(drawing.svg(figure, "arms", "The given arm and the best design"), text)]
 
@@ -239,7 +239,7 @@ def _distributions(d: Designs) -> list[Block]:
     ]
     unit = "" if d.index.unit == "1" else f", {d.index.unit}"
     label = drawing.plain(f"worst-case {d.index.name}{unit}")
-    figure = drawing.cdf_figure(curves, marks, label, ylabel="share of poses with a smaller value, F", width=8.0)
+    figure = drawing.cdf_figure(curves, marks, label, ylabel="fraction of poses with a smaller value, F", width=8.0)
     samples = d.checked.best.distribution.samples
     seen, fresh = float(d.guaranteed[d.best]), best.guaranteed
     text = (
@@ -253,7 +253,7 @@ def _distributions(d: Designs) -> list[Block]:
     head = ["", f"guaranteed for {chosen(d.level)} of the poses", "median", "poses reached"]
     honest = (
         f"On the {counted(d.poses, 'pose')} on which it was chosen the best design guarantees {number(seen)}; on fresh ones "
-        f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is what choosing flatters."
+        f"{number(fresh.value)}. The difference, {number(seen - fresh.value)}, is the optimism of choosing on them."
     )
     return [
         Picture(drawing.svg(figure, "cdf", "Cumulative distributions of the given arm and the best design"), text),
@@ -280,7 +280,7 @@ def _file(d: Designs) -> list[Block]:
     check = f"holdfast assess {ARM_FILE} --region region.yaml --task {_task(d)} --optimise --out check"
     return [
         Code(arm_file(d).rstrip(), label),
-        Text("Masses are not in it: those of links of other lengths are not known.", quiet=True),
+        Text("It has no masses: those of links of other lengths are not known.", quiet=True),
         Code(check, "Its own report over the same region:"),
     ]
 

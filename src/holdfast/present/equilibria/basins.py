@@ -17,8 +17,8 @@ def to_dict(found: Basins) -> dict[str, Any]:
     return {
         **points.to_dict(found.points),
         "starts": len(found.end),
-        "shares": [{"end": name, "share": i.value, "low": i.low, "high": i.high} for name, i in found.shares],
-        "converged": {"share": found.converged.value, "low": found.converged.low, "high": found.converged.high},
+        "fractions": [{"end": name, "fraction": i.value, "low": i.low, "high": i.high} for name, i in found.shares],
+        "converged": {"fraction": found.converged.value, "low": found.converged.low, "high": found.converged.high},
         "confidence": found.confidence,
     }
 

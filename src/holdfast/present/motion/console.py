@@ -28,7 +28,7 @@ def to_dict(t: Trajectory) -> dict[str, Any]:
         "seed": t.seed,
         "duration_s": t.time[-1],
         "samples": len(t.time),
-        "hand_on_path": t.on_path,
+        "tool_on_path": t.on_path,
         "position_error_m": np.nanmax(t.position_error),
         "rotation_error_rad": np.nanmax(t.rotation_error),
         "value": _facts(t.value),
@@ -86,11 +86,14 @@ def _show_slowness(t: Trajectory, bound: float, out: Console) -> None:
     worst = max(slowness, key=lambda s: s.time_scale)
     joint = escape(t.arm.joint_names[slowness.index(worst)])
     verdict = (
-        f"slow enough: it could take {number(worst.time_scale)} of its time"
+        f"slow enough: it could be done in {number(worst.time_scale)} of the time"
         if worst.satisfied
         else f"too fast: it must take {number(worst.time_scale)} times as long ({number(worst.time_scale * t.time[-1])} s)"
     )
-    out.print(f"For torques within {bound:g} N m of gravity's the motion is {verdict}; '{joint}' decides.", soft_wrap=True)
+    out.print(
+        f"For torques within {bound:g} N m of gravity's the motion is {verdict}; joint '{joint}' sets the limit.",
+        soft_wrap=True,
+    )
     table = Table("joint", "time scale", "decided at", box=None, pad_edge=False)
     for name, s in zip(t.arm.joint_names, slowness, strict=True):
         table.add_row(escape(name), number(s.time_scale), f"{t.time[s.worst_time_index]:.4g} s" if s.time_scale > 0 else "")

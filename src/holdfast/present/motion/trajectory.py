@@ -52,7 +52,7 @@ def build(t: Trajectory, command: str = "") -> Page:
         Section("Joint positions", f.joints()),
         Section("Torques, and how slow is slow enough", f.torques(slowness)),
         Section("Curvature along the self-motion", f.curvature()),
-        Section("Where the hand was", f.hand()),
+        Section("Error of the end effector", f.hand()),
         Section("How it was computed", f.method(command)),
     ]
     return Page(
@@ -75,7 +75,7 @@ class _Facts:
     def headline(self) -> str:
         t = self.t
         unit = f" ({t.objective.unit})" if self.unit else ""
-        hand = capitalised(t.headline) if t.on_path else "The hand does not stay on its path"
+        hand = capitalised(t.headline) if t.on_path else "The end effector does not stay on its path"
         return (
             f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
             f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
@@ -97,12 +97,12 @@ class _Facts:
         rows += [
             ("Largest norm of the joint rates", f"{t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s"),
             ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
-            ("Hand off its path by at most", t.hand_error),
+            ("End effector off its path by at most", t.hand_error),
         ]
         if t.rate_cap is not None:
             rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))
         if (t.task_share < 1 - 1e-9).any():
-            rows.append(("Hand slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
+            rows.append(("End effector slowed by joint limits", f"{np.mean(t.task_share < 1 - 1e-9):.1%} of the samples"))
         return [Table(rows)]
 
     # ---- the arm -----------------------------------------------------------------------------------------------
@@ -119,10 +119,10 @@ class _Facts:
         moving = Motion(t.time[few], t.arm.frames(t.q[few])[..., :3, 3], square, t.poses[few][:, :3, 3], readings)
         drawn = animation(moving, views_of(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
         speed = t.time[-1] / shown_seconds(t.time)
-        how = "at its own speed" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as it is"
+        how = "in real time" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as in reality"
         caption = (
             f"The arm with its joints (circles; squares slide), base (black square) and tool (orange). Dashed: the path asked "
-            f"for; blue: the way of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."
+            f"for; blue: path of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."
         )
         return [Picture(drawn, caption)]
 
@@ -268,18 +268,21 @@ class _Facts:
         ]
 
     def hand(self) -> list[Block]:
-        """How far the hand was off its path."""
+        """How far the end effector was off its path."""
         t = self.t
         panels = [
-            Timeline([Line(1000 * t.position_error, "off", "first")], "mm", "Position of the hand off its path", (), "log")
+            Timeline(
+                [Line(1000 * t.position_error, "off", "first")], "mm", "Position of the end effector off its path", (), "log"
+            )
         ]
         if t.task.angular:
             lines = [Line(1000 * t.rotation_error, "off", "first")]
-            panels.append(Timeline(lines, "mrad", "Orientation of the hand off its path", (), "log"))
+            panels.append(Timeline(lines, "mrad", "Orientation of the end effector off its path", (), "log"))
         caption = (
-            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the hand is off."
+            f"Errors in the rows of task '{t.task.name}', log scale; beyond {1000 * ON_PATH:g} mm or mrad the end "
+            f"effector is off."
         )
-        return [self._figure(panels, "Error of the hand over time", caption)]
+        return [self._figure(panels, "Error of the end effector over time", caption)]
 
     # ---- words -------------------------------------------------------------------------------------------------
 
@@ -287,7 +290,7 @@ class _Facts:
         """A table of events."""
         t = self.t
         if not t.events:
-            return [Text("Nothing: no algorithmic singularity, no joint at a limit, no rate that stands out.")]
+            return [Text("Nothing: no algorithmic singularity, no joint at a limit, no outlying rate.")]
         rows = [
             [
                 Markup('<span class="fatal">{}</span>').format(e.kind) if e.kind in _SERIOUS else e.kind,

@@ -28,7 +28,7 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "terminal_distance_m": run.terminal_distance,
         "terminal_turn_rad": run.terminal_turn,
         "tracking_error": dict(zip(names, run.tracking_error.tolist(), strict=True)),
-        "saturated_share": dict(zip(names, run.saturated.tolist(), strict=True)),
+        "saturated_fraction": dict(zip(names, run.saturated.tolist(), strict=True)),
         "stiffness": dict(zip(names, run.stiffness.tolist(), strict=True)),
         "damping": dict(zip(names, run.damping.tolist(), strict=True)),
         "control_rate_hz": run.servos.rate,
@@ -52,8 +52,8 @@ def show(run: PhysicalRun, out: Console) -> None:
     table.add_row("took", number(float(told.time)), number(run.time[-1]), "s")
     out.print(table)
     facts = Table.grid(padding=(0, 2))
-    facts.add_row("hand paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
-    facts.add_row("hands apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
+    facts.add_row("tool paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
+    facts.add_row("tools apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
     full = [f"{n} {s:.1%}" for n, s in zip(run.law.arm.joint_names, run.saturated, strict=True) if s > 0]
     facts.add_row("motors at their effort", f"{escape(', '.join(full))} of the time" if full else "none")
     out.print(facts)

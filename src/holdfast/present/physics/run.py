@@ -38,12 +38,12 @@ def figures(run: PhysicalRun) -> dict[str, Figure]:
         path.plot(run.x[:, a], run.x[:, b], color=style.BLUE, linewidth=1.4, label="in MuJoCo")
         path.plot(*run.x[0, [a, b]], "o", color=style.INK, markersize=4, label="start")
         path.plot(*told.x[-1, [a, b]], "s", color=style.ORANGE, markersize=7, markerfacecolor="none", label="kinematic end")
-        path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the hand")
+        path.set(xlabel=f"{'xyz'[a]} of the tool, m", ylabel=f"{'xyz'[b]} of the tool, m", title="Path of the end effector")
         path.set_aspect("equal", adjustable="datalim")
         size = "m and rad" if run.law.task.angular else "m"
         error.plot(told.time, told.error, color=style.SKY, linewidth=4.5)
         error.plot(run.time, run.error, color=style.BLUE, linewidth=1.4)
-        error.set(xlabel="time, s", ylabel=f"error of the hand, {size}", title="Error", ylim=(0, None))
+        error.set(xlabel="time, s", ylabel=f"error of the end effector, {size}", title="Error", ylim=(0, None))
         healthy = np.where(run.locked, 0.0, np.abs(run.q - run.reference)).max(axis=1)
         unit = "m or rad" if arm.prismatic.any() else "rad"
         lag.plot(run.time, np.maximum(healthy, 1e-9), color=style.BLUE, linewidth=1.2)

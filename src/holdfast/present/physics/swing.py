@@ -62,14 +62,14 @@ def show(swing: FreeSwing, out: Console) -> None:
         out.print(escape(line), soft_wrap=True)
     facts = Table.grid(padding=(0, 2))
     if swing.settled:
-        facts.add_row("at the end, from its start", f"[bold]{amount(swing.rest_angle)}[/]")
-    facts.add_row("farthest it got", amount(swing.peak))
-    facts.add_row("acceleration at first", f"{number(swing.initial_acceleration)} {unit}/s^2")
+        facts.add_row("displacement at the end", f"[bold]{amount(swing.rest_angle)}[/]")
+    facts.add_row("largest displacement", amount(swing.peak))
+    facts.add_row("initial acceleration", f"{number(swing.initial_acceleration)} {unit}/s^2")
     facts.add_row("friction", f"{number(swing.damping)} {'N s/m' if unit == 'm' else 'N m s/rad'}")
     facts.add_row("simulated", f"{number(swing.time[-1])} s")
     out.print(facts)
     if swing.drops:
-        table = Table("brakes act after", "joint has moved", "at", "tool has dropped", "and moved", box=None, pad_edge=False)
+        table = Table("brakes engage after", "joint has moved", "at", "tool has dropped", "and moved", box=None, pad_edge=False)
         for d in swing.drops:
             table.add_row(
                 f"{d.after_ms:g} ms",
@@ -101,7 +101,7 @@ def figures(swing: FreeSwing) -> dict[str, Figure]:
             (d.after_ms / 1000, -1000 * d.drop, f"{d.after_ms:g} ms: {0.0 - 1000 * d.drop:.3g} mm") for d in swing.drops
         )
         label = "tool height above its start, mm"
-        panels.append(Panel(swing.time[early], 1000 * height[early], label, "Tool, when brakes act", None, moments))
+        panels.append(Panel(swing.time[early], 1000 * height[early], label, "Tool, when brakes engage", None, moments))
     friction = f"{swing.damping:.3g} {'N s/m' if failed.prismatic else 'N m s/rad'}"
     caption = f"{swing.arm.name}: free swing of {failed.name}, all other joints held, friction {friction}, MuJoCo"
     return {"swing": motion_figure(panels, caption)}

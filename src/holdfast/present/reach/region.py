@@ -28,7 +28,7 @@ def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
         f"size_interval_{unit}": region.size_interval,
         "confidence": None if region.exact else region.confidence,
         f"healthy_size_{unit}": region.healthy_size,
-        "share": region.share,
+        "fraction": region.share,
         "points": None if region.exact else len(region.points),
         "locked_values_per_joint": None if region.exact else region.angles,
         "lost_to": dict(zip(names, region.lost_to, strict=True)),
@@ -41,7 +41,7 @@ def show(region: TolerantWorkspace, out: Console) -> None:
     from rich.table import Table
 
     out.print(escape(region.describe()[0]), soft_wrap=True)
-    table = Table("joint", "artificial limits", "points its locks lose", box=None, pad_edge=False)
+    table = Table("joint", "artificial limits", "points lost by its lock", box=None, pad_edge=False)
     for joint, limits, lost in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
         table.add_row(escape(joint.name), ranges([limits], joint), f"{lost:.1%}")
     out.print(table)
@@ -73,7 +73,7 @@ def figures(region: TolerantWorkspace) -> dict[str, Figure]:
     ]
     bars.append(("after any lock", region.size))
     error = np.abs(np.array(region.size_interval) - region.size)
-    chosen = "limits looked for" if region.optimised else "limits given"
+    chosen = "limits optimised" if region.optimised else "limits given"
     caption = f"{region.describe()[0].replace(region.arm.title, region.arm.name, 1)}; {chosen}"
     unit = "area, m$^2$" if region.unit == "m^2" else "volume, m$^3$"
     return {"region": region_figure(maps, bars, unit, error, caption)}

@@ -22,7 +22,7 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
         "locks_moved": check.locks_moved,
         "least_clearance_m": check.least_clearance,
         "margin_m": check.margin,
-        "hand_at_end": check.poses[-1],
+        "tool_at_end": check.poses[-1],
     }
 
 

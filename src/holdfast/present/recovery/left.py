@@ -13,7 +13,11 @@ if TYPE_CHECKING:
 
 def to_dict(left: WhatIsLeft) -> dict[str, Any]:
     """How many targets were reached before, and how many still are."""
-    fractions = {"share_left": left.left, "share_of_region": left.of_region, "healthy_share_of_region": left.healthy_of_region}
+    fractions = {
+        "fraction_left": left.left,
+        "fraction_of_region": left.of_region,
+        "healthy_fraction_of_region": left.healthy_of_region,
+    }
     return {
         "what": left.region,
         "rows": left.rows,

@@ -45,9 +45,7 @@ def write(recovery: Recovery, path: Path, command: str = "") -> Path:
     asked, verdict, *rest = recovery.describe()
     found = [page.Text(capitalised(line)) for line in rest]
     checked = (
-        [page.Section("What a replay by other code says", [page.Text(capitalised(x)) for x in checks(recovery)])]
-        if len(recovery.q)
-        else []
+        [page.Section("Independent replay", [page.Text(capitalised(x)) for x in checks(recovery)])] if len(recovery.q) else []
     )
     sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, command))]
     return page.write(page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked), path)

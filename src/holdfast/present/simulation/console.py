@@ -63,9 +63,9 @@ def show(runs: Runs, out: Console) -> None:
     size = "m and rad" if runs.law.task.angular else "m"
     facts = Table.grid(padding=(0, 2))
     facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
-    facts.add_row("least that the failed arm can have", f"{number(float(runs.least_error()))} {size}")
-    facts.add_row("closest on the way", f"{number(float(runs.closest))} {size}")
-    facts.add_row("path of the hand", f"{number(float(runs.path_length))} m")
+    facts.add_row("least error that the failed arm can have", f"{number(float(runs.least_error()))} {size}")
+    facts.add_row("least error on the way", f"{number(float(runs.closest))} {size}")
+    facts.add_row("path of the end effector", f"{number(float(runs.path_length))} m")
     facts.add_row("took", f"{number(float(runs.time))} {unit}")
     out.print(facts)
     table = Table("joint", "start", "end", "least", "greatest", "", box=None, pad_edge=False)

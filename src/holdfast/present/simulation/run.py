@@ -152,9 +152,9 @@ class _RunReport:
         for name, t in zip(self.arm.joint_names, self._lock_time, strict=True):
             if t <= seen.time[-1]:
                 moments.append((float(t), float(np.interp(t, seen.time, seen.error)), f"{name} locks"))
-        level = (self.least, "least the failed arm can have") if self.least > 1e-6 else None
+        level = (self.least, "least error of the failed arm") if self.least > 1e-6 else None
         title = f"Ends {self._of('outcome')}" + ", past a joint limit" * bool(self._of("limits_passed").any())
-        return Panel(seen.time, seen.error, f"error of the hand, {self.size}", title, level, tuple(moments), log=True)
+        return Panel(seen.time, seen.error, f"error of the end effector, {self.size}", title, level, tuple(moments), log=True)
 
     @property
     def caption(self) -> str:
@@ -175,7 +175,7 @@ class _RunReport:
         """The page."""
         sections = [
             Section("The motion", [self._animation()]),
-            Section("The error of the hand", [self._error()]),
+            Section("The error of the end effector", [self._error()]),
             Section("Joint positions", [self._joints()]),
             Section("In numbers", self._numbers(command)),
         ]
@@ -188,13 +188,14 @@ class _RunReport:
         motion = self.motion
         drawn = animation(motion, views_of(self.arm, motion.chain), "motion", f"{self.arm.name} moving")
         speed = (motion.time[-1] - motion.time[0]) / shown_seconds(motion.time)
-        unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as it is"
+        unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as in reality"
         caption = (
             "The arm with its joints (circles; squares slide; orange: locked), base (black square) and tool (orange diamond). "
-            f"Ring: the target; dashed: straight to it; blue: the way of the tool; grey: the middle and the end. Played {unit}."
+            f"Ring: the target; dashed: the straight line to it; blue: path of the tool; grey: the middle and the end. "
+            f"Played {unit}."
         )
         if self.seen.time[-1] < 0.99 * float(self._of("time")):
-            caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; nothing more is seen to move."
+            caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; no visible motion follows."
         return Picture(drawn, caption)
 
     def _error(self) -> Picture:
@@ -202,7 +203,7 @@ class _RunReport:
         travelled = np.linalg.norm(seen.x - seen.x[0], axis=1)
         panels = [self.panel(), Panel(seen.time, travelled, "distance of the tool from its start, m", "Tool")]
         figure = motion_figure(panels, self.caption, self._xlabel)
-        return Picture(svg(figure, "error", "Error of the hand over time"), "Over time; the error on a log scale.")
+        return Picture(svg(figure, "error", "Error of the end effector over time"), "Over time; the error on a log scale.")
 
     def _joints(self) -> Picture:
         panels = []
@@ -225,8 +226,8 @@ class _RunReport:
         found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
         rows = [
             ("Error at the end", f"{number(float(self._of('error')))} {size}"),
-            ("Least that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),
-            ("Closest on the way", f"{number(float(self._of('closest')))} {size}"),
+            ("Least error that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),
+            ("Least error on the way", f"{number(float(self._of('closest')))} {size}"),
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
             ("Took", f"{number(float(self._of('time')))} {self.unit}"),
             ("Law", self.runs.law.describe()),

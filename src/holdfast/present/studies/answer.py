@@ -20,7 +20,7 @@ def headline(stand: Sequence[Standing]) -> str:
     if driven:
         top = max(driven, key=lambda s: s.ranked[0][1].value)
         parts.append(
-            f"With a locked joint that nobody knows of, {first(top)} arrives most often, under {top.law}: "
+            f"With a locked joint that nobody has noticed, {first(top)} reaches its target most often, under {top.law}: "
             f"{interval(top.ranked[0][1])} of the motions."
         )
     return " ".join(parts)

@@ -80,7 +80,7 @@ def sound(folder: Path, study: Study) -> list[str]:
     rest = "" if done == total else f"; {total - done} of {total} are not computed"
     empty = [s.name for s in cells if not s.chunks_done]
     more = f" and {len(empty) - 3} more" if len(empty) > 3 else ""
-    nothing = f"nothing is there of {len(empty)} cell{'s' * (len(empty) > 1)}: {', '.join(empty[:3])}{more}"
+    nothing = f"nothing is computed of {len(empty)} cell{'s' * (len(empty) > 1)}: {', '.join(empty[:3])}{more}"
     return [f"{folder}: {done} chunks, all sound{rest}", *([nothing] if empty else [])]
 
 
@@ -92,14 +92,14 @@ def merged(found: Merged, makers: list[dict[str, Any]]) -> dict[str, Any]:
 
 def show_merged(study: Study, found: Merged, out: Console, err: Console) -> None:
     """The same for people, and how far the study is now."""
-    lines = [f"{study.path}: {found.added} chunks added, {found.both} were there with the same bits"]
+    lines = [f"{study.path}: {found.added} chunks added, {found.both} were there already, bit for bit the same"]
     if found.close:
         lines.append(f"{found.close} chunks were there already, alike to 1e-12")
     if found.apart:
         cell, k = found.apart[0]
         err.print(
             f"{len(found.apart)} chunks were there already with other values (first: chunk {k + 1} of '{cell}'); those of "
-            f"'{study.path}' stay",
+            f"'{study.path}' are kept",
             markup=False,
             soft_wrap=True,
         )

@@ -69,7 +69,8 @@ def sweep(s: Swept, place: int) -> list[Block]:
     top: list[Cell] = ["reach, m", "guaranteed", "poses reached", *names]
     told = f"Designs of the front ({len(few)} of {len(front)}): none of the sweep has more of both."
     flattered = (
-        "The best of many is flattered by the poses on which it was chosen: 'holdfast design' searches further and checks "
+        "The best of many looks better than it is on the poses on which it was chosen: 'holdfast design' searches further "
+        "and checks "
         "what it finds on fresh poses."
     )
     numbers = frozenset(range(2, 5))

@@ -53,7 +53,7 @@ def build(study: Study) -> Page:
     asked = _thresholds(study, found)
     alerts = []
     if done < total:
-        missing = f"{done:,} of {total:,} chunks are there; give the same command again to go on."
+        missing = f"{done:,} of {total:,} chunks are computed; run the same command again to resume."
         alerts.append(Callout(missing, "bad", "Not complete."))
     sweeps = [s for s in _of(study, "designs", results.swept) if s is not None]
     own = _structures(found)
@@ -65,7 +65,7 @@ def build(study: Study) -> Page:
         Section("Arms, indices and laws", _table(found, laws, asked)),
         Section("How the indices are distributed", _distributions(found, asked)),
         Section("Which joint is the worst to lose", _worst(found)),
-        Section("Reaching the target with a locked joint that nobody knows of", _laws(laws)),
+        Section("Reaching the target with a locked joint that nobody has noticed", _laws(laws)),
         Section("Starts that still reach the target", _others(study, "workspace", results.workspace, "starts", "percent")),
         Section("Tasks that the computer drives", _others(study, "bank", results.bank, "sets of tasks", "percent, or cycles")),
         Section("How it was computed", _provenance(study, found)),
@@ -117,7 +117,7 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         ends = [dict(s.entries).get(name) for s in stand]
         value, low, high = (np.array([np.nan if p is None else getattr(p, x) for p in ends]) for x in ("value", "low", "high"))
         shares.append(Gains(label=name, value=value, low=low, high=high))
-    figure = share_figure([s.question for s in stand], shares, "share of the poses, or of the motions; bars: 95 % interval")
+    figure = share_figure([s.question for s in stand], shares, "fraction of the poses, or of the motions; bars: 95 % interval")
     rows: list[list[Cell]] = []
     for s in stand:
         (name, p), *rest = s.ranked
@@ -128,14 +128,14 @@ def _standings(stand: Sequence[Standing]) -> list[Block]:
         question = _stacked([s.question, *[f"in {s.unit}"] * bool(s.unit)])
         rows.append([question, _whole(name), _share(p), after, sure, s.about])
     about = (
-        "Of each question the arm with the largest share. Clearly ahead: its 95 % interval lies above those of all others; "
+        "Of each question the arm with the largest fraction. Clearly ahead: its 95 % interval lies above those of all others; "
         "level: the intervals overlap, and more samples would be needed to tell them apart. Poses: those at which the "
-        "index meets the threshold whatever single failure happens. Arrives: with a locked joint that the controller does not "
-        "know of."
+        "index meets the threshold whatever single failure happens. Converges: the arm reaches its target with a locked "
+        "joint that its controller does not know of."
     )
-    head = ["Question", "first", "share, with 95 % interval", "next", "how sure", "of each arm"]
+    head = ["Question", "first", "fraction, with 95 % interval", "next", "how sure", "of each arm"]
     return [
-        Picture(figures.svg(figure, "standings", "Shares of all arms at every question"), "More is better in every row."),
+        Picture(figures.svg(figure, "standings", "Fractions of all arms for every question"), "More is better in every row."),
         Table(rows, head, frozenset({2}), caption=about, wide=True),
     ]
 
@@ -176,7 +176,7 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
         larger = measure.better == "larger"
         asks = f"{'≥' if larger else '≤'} {as_given(asked[index, task])}"
         head.append(_stacked([measure.name, f"{task}: {asks}" if tasks else asks]))
-    head += [_stacked([law, "arrives"]) for law, _ in names]
+    head += [_stacked([law, "converges"]) for law, _ in names]
     body: list[list[Cell]] = []
     for row in rows:
         cells: list[Cell] = [_stacked([row[0], f"{row[1]}, {row[2]}"]) if regions else _whole(row[0])]
@@ -190,15 +190,16 @@ def _table(found: Sequence[Assessed], laws: Sequence[Driven], asked: dict[Key, f
     caption = ""
     if keys:
         caption += (
-            "Share of the poses of the region whose index meets the threshold whatever single failure happens, with its 95 % "
+            "Fraction of the poses of the region whose index meets the threshold whatever single failure happens, with "
+            "its 95 % "
             "interval; opt.: at the best configuration of each pose. Thresholds are one for all arms. "
         )
         if any(a.labels["region"] == "default region" for a in found):
-            caption += "Regions by default are about the home of each arm, sized by its reach, or the paper's. "
+            caption += "Default regions are around the home of each arm, sized by its reach, or the paper's. "
     if names:
         caption += (
-            "Arrives: share of random motions that reach their target although one joint is locked from the start and the "
-            "controller does not know, mean over the joints; every law has the same motions of an arm."
+            "Converges: fraction of random motions that reach their target with one joint locked from the start and a "
+            "controller that does not know it, mean over the joints; every law has the same motions of an arm."
         )
     return [Table(body, head, frozenset(range(1, len(head))), caption=caption, wide=True)]
 
@@ -253,7 +254,7 @@ def _distributions(found: Sequence[Assessed], asked: dict[Key, float]) -> list[B
             panels,
             [Mark(h, f"threshold {as_given(h)}{said(index.unit)}")],
             f"worst-case {index.name}{unit}",
-            ylabel="share with a smaller value, F",
+            ylabel="fraction with a smaller value, F",
             log=log,
         )
         poses = counted_range([d.samples for _, some in samples for _, d in some if d is not None])
@@ -306,7 +307,7 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         low, high = (np.array([getattr(d.any, end) for d in mine]) for end in ("low", "high"))
         stacks.append(Stack(name=arm, bars=[d.labels["law"] for d in mine], shares=shares, low=low, high=high))
     told = counted_range([d.motions for d in laws])
-    figure = stack_figure(stacks, _ENDS, "share of the runs, mean over the joint that is locked")
+    figure = stack_figure(stacks, _ENDS, "fraction of the runs, mean over the joint that is locked")
     blocks: list[Block] = [
         Picture(
             figures.svg(figure, "laws", "How motions with a locked joint end, for each arm and law"),
@@ -325,7 +326,7 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.arrives[k].value:.3f}"
         cells: list[Cell] = [_share(d.any), more, worst, _share(d.arrives[-1]), percent(d.in_reach)]
         rows.append([_whole(d.labels["arm"]), _whole(d.labels["law"]), d.labels["task"], *cells])
-    head = ["Arm", "law", "task", "arrives", "gain over the first law", "worst joint", "arrives, none locked", "in reach"]
+    head = ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
     caption = (
         "95 % intervals. The gain is paired: both laws have the same motions. In reach: runs with a locked joint in which a "
         "configuration at the target exists."
@@ -376,10 +377,7 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     for region in dict.fromkeys((a.labels["arm"], a.plan.region.describe()) for a in found):
         facts.append((f"Region of {region[0]}", region[1]))
     facts.append(
-        (
-            "Intervals",
-            "95 %: exact (Clopper-Pearson) for shares of poses; betting for means over motions; DKW for curves",
-        )
+        ("Intervals", "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves")
     )
     blocks: list[Block] = [Table([[k, v] for k, v in facts])]
     if study.source:

@@ -38,9 +38,9 @@ def allocation_page(protocol: Protocol, subjects: int | None = None) -> Page:
     )
     scenarios = Table([[str(s.number), s.label] for s in protocol.scenarios], ["scenario", ""])
     about = (
-        f"Each task stands equally often in each place, and each ordered pair of neighbours occurs equally often, over "
-        f"{len(order)} rows. A new subject gets the row that the fewest have completed, so rows of those who drop out come up "
-        "again; the sheets below hold as long as nobody does."
+        f"Each task occurs equally often in each position, and each ordered pair of neighbours equally often, over "
+        f"{len(order)} rows. A new subject gets the row that the fewest have completed, so the rows of those who drop out "
+        f"are used again; the sheets below are valid as long as nobody drops out."
     )
     return Page(
         f"Allocation: {protocol.name}",

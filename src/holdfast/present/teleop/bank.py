@@ -74,7 +74,7 @@ def bank_figure(bank: TaskBank, cells: Binning, chosen: Indices | None = None, *
         bank: The tasks as the computer did them.
         cells: The grid.
         chosen: (k,) indices into the bank: numbered from 1, in this order.
-        special: Indices into the bank of tasks that stand apart: numbered on from there, and marked otherwise. Those that were
+        special: Indices into the bank of special tasks: numbered on from there, and marked otherwise. Those that were
             not completed in every scenario have no place in the plane and are named below it.
 
     Source: Goel et al. 2003, Fig. 2.

@@ -38,7 +38,7 @@ def _summary(bank: TaskBank) -> list[dict[str, Any]]:
             {
                 "scenario": s.number,
                 "label": s.label,
-                "not_arrived": int((~arrived).sum()),
+                "not_reached": int((~arrived).sum()),
                 "time_cycles": middle[0],
                 "path_m": middle[1],
                 "velocity_error": middle[6],
@@ -61,7 +61,7 @@ def show(choice: TaskChoice, out: Console) -> None:
     for r in _summary(choice.bank):
         cells = [number(r[k], 3) for k in ("time_cycles", "path_m", "velocity_error")]
         turn = f"{np.degrees(r['peak_direction_error_rad']):.1f}"
-        table.add_row(str(r["scenario"]), r["label"], str(r["not_arrived"]), *cells, turn, number(r["cpm"], 3))
+        table.add_row(str(r["scenario"]), r["label"], str(r["not_reached"]), *cells, turn, number(r["cpm"], 3))
     out.print(table)
     caption = "medians over the tasks that are completed; the level of CPM is set by the most extreme trial, compare ratios"
     for line in (caption, *rest):

@@ -45,8 +45,8 @@ def example_blocks(a: Analysis, task: int, protocol: Protocol | None, paths: Pat
         its = [machine[:, k] for k in range(len(NAMES))]
     note = "" if protocol is None or task > len(protocol.notes) else protocol.notes[task - 1]
     caption = (
-        f"{who}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of {a.who} in each scenario, those who "
-        "arrived. Circles: the computer."
+        f"{who}Task {task} ({group}{f'; {note}' if note else ''}): CPM and all measures of {a.who} in each scenario, of "
+        f"the trials that reached the target. Circles: the computer."
     )
     figure = figures.measures_figure(values, its, [c.scenario for c in o.conditions])
     return [*blocks, Picture(svg(figure, f"task-{task}-measures", caption), caption)]

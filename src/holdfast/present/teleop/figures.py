@@ -170,7 +170,7 @@ def _distributions(axes: Axes, values: Sequence[Array], computer: Array | None, 
     its = np.full(len(there), np.nan) if computer is None else np.where(np.abs(computer) < _ROUNDING, 0.0, computer)
     everything = np.concatenate([*there, its[np.isfinite(its)]])
     if not everything.size:
-        axes.annotate("none arrived", (0.5, 0.5), xycoords="axes fraction", ha="center", color=SOFT)
+        axes.annotate("none reached the target", (0.5, 0.5), xycoords="axes fraction", ha="center", color=SOFT)
         return
     low, high = float(everything.min()), float(everything.max())
     log = low > 0 and high > _WIDE_RANGE * low
@@ -229,8 +229,10 @@ def power_figure(a: Analysis) -> Figure:
             axes.plot(x, mine["power"], color=BLUE, linewidth=1.8, label="an effect as large as observed")
             low = f"an effect at the lower end of its {100 * a.confidence:g} % interval"
             axes.plot(x, mine["power_for_least"], color=ORANGE, linewidth=1.6, linestyle=(0, (4.5, 2)), label=low)
-            share = mine["share_of_subsets"].to_numpy(dtype=np.float64)
-            axes.plot(x, share, "o", color=INK, markersize=4, fillstyle="none", label="share of random subsets of the subjects")
+            share = mine["fraction_of_subsets"].to_numpy(dtype=np.float64)
+            axes.plot(
+                x, share, "o", color=INK, markersize=4, fillstyle="none", label="fraction of random subsets of the subjects"
+            )
             axes.axhline(a.power, color=SOFT, linewidth=0.9, linestyle=(0, (1.2, 1.6)), label=f"power {a.power:g}")
             axes.set_xscale("log")
             axes.set_xticks([2, 4, 8, 16, 32], ["2", "4", "8", "16", "32"])

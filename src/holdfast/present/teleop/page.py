@@ -75,10 +75,7 @@ def figures(a: Analysis) -> dict[str, Figure]:
 
 
 def build(
-    analysis: Analysis,
-    protocol: Protocol | None = None,
-    paths: Paths | None = None,
-    show: Sequence[int] | None = None,
+    analysis: Analysis, protocol: Protocol | None = None, paths: Paths | None = None, show: Sequence[int] | None = None
 ) -> Page:
     """The report as blocks, before it becomes HTML."""
     a = analysis
@@ -88,7 +85,7 @@ def build(
             raise InputError(f"there is no task {t} to show; there are {a.observed.tasks[0]} to {a.observed.tasks[-1]}")
     alerts = []
     if a.simulated:
-        alerts.append(Callout("Every operator is a program. Nothing here is about people.", "bad", "Simulated."))
+        alerts.append(Callout("Every operator is a program; nothing here is measured on people.", "bad", "Simulated."))
     if a.left_out:
         alerts.append(Callout(f"Left out because of empty cells: {', '.join(a.left_out)}.", "bad", "Not all subjects."))
     if a.mixed is not None and not a.mixed.converged:
@@ -100,7 +97,7 @@ def build(
         Section("Distributions of all measures", _distributions(a)),
         *(Section(f"Task {t}", example_blocks(a, t, protocol, paths)) for t in shown),
         Section("The healthy arm: what tolerance costs before a failure", healthy(a)),
-        Section("How many subjects would have sufficed", _power(a)),
+        Section("How many subjects would have been enough", _power(a)),
         Section("What is missing", _missing(a)),
         Section("How it was computed", _method(a)),
     ]
@@ -234,8 +231,8 @@ def _distributions(a: Analysis) -> list[Block]:
     o = a.observed
     key = "; ".join(c.label for c in o.conditions)
     caption = (
-        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, less those that did not "
-        f"arrive. Scenarios: {key}. "
+        f"CPM and all measures over {o.cpm.size:,} trials in {len(o.tasks)} tasks, without those that did not reach the "
+        f"target. Scenarios: {key}. "
         "Circles: the computer's median over tasks. CPM of operators and computer have different normalisers unless the notes "
         "say otherwise."
     )
@@ -261,7 +258,7 @@ def _power(a: Analysis) -> list[Block]:
     blocks: list[Block] = [Table(rows, head, frozenset({2, 3, 4, 5, 6}), caption=labelled(a, caption), wide=True)]
     if "power_curve" in a.tables:
         about = (
-            f"Lines: noncentral F. Circles: of 2000 random subsets of the {a.who}, drawn without replacement, the share in "
+            f"Lines: noncentral F. Circles: of 2000 random subsets of the {a.who}, drawn without replacement, the fraction in "
             f"which the effect has p < {a.limit:g}; near all of them the subsets hardly differ."
         )
         blocks.append(picture(a, drawing.power_figure(a), "power", about))
@@ -296,7 +293,9 @@ def _missing(a: Analysis) -> list[Block]:
 
 def _method(a: Analysis) -> list[Block]:
     o = a.observed
-    blocks: list[Block] = [Callout(Markup("<br>").join(f"• {n}" for n in a.notes), title="To know before using these numbers")]
+    blocks: list[Block] = [
+        Callout(Markup("<br>").join(f"• {n}" for n in a.notes), title="Read this before using these numbers")
+    ]
     count = len(o.normalisers)
     blocks.append(
         Text(

@@ -36,13 +36,13 @@ ABOUT = {
     "missing": "every trial without a CPM",
     "normalisers": "largest measures, by which CPM divides",
     "gains": "tasks in which another law than the reference did better: operators against computer",
-    "power": "how many subjects would have sufficed",
+    "power": "how many subjects would have been enough",
     "power_curve": "power of each effect of the ANOVA over the number of subjects",
     "data_dictionary": "this list",
 }
 
 _COLUMNS = (
-    ("data", "simulated: the operators are no people; person: they are", ""),
+    ("data", "simulated: operators are programs; person: operators are people", ""),
     ("subject", "code", ""),
     ("task", "number, from 1", ""),
     ("scenario", "number, from 1", ""),
@@ -88,7 +88,7 @@ _COLUMNS = (
         "CPM in that scenario: the operators' median, of the median operator, of the computer",
         "1",
     ),
-    (r"arrived_\d+", "operators who arrived in that scenario", ""),
+    (r"reached_\d+", "operators who reached the target in that scenario", ""),
     (r"(computer_)?ratio_\d+_\d+", "CPM of the first scenario divided by that of the second; below 1 the first is better", "1"),
     ("computer_median", "median of the computer's trials", "as measured"),
     ("with_cpm|computer_with_cpm", "trials with a CPM, of operators and computer", ""),
@@ -107,7 +107,7 @@ _COLUMNS = (
         "power with so many subjects, for the effect observed and for the lower end of its interval",
         "1",
     ),
-    ("share_of_subsets", "share of random subsets of so many subjects with a significant effect", "1"),
+    ("fraction_of_subsets", "fraction of random subsets of so many subjects with a significant effect", "1"),
     *((m.name, m.about, m.unit) for m in MEASURES),
     ("table|column|meaning", "of this list", ""),
     (r"[a-z0-9_]+", "cell mean of the law and group of tasks in its name", "1"),

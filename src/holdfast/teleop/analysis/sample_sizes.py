@@ -71,7 +71,7 @@ def tables(
                     "subjects": count,
                     "power": of.f_power(each, e.df, count, limit, e.gg),
                     "power_for_least": of.f_power(least, e.df, count, limit, e.gg),
-                    "share_of_subsets": float(shares[count][k]) if count <= n else float("nan"),
+                    "fraction_of_subsets": float(shares[count][k]) if count <= n else float("nan"),
                 }
             )
     return {"power": _whole(DataFrame(out)), "power_curve": DataFrame(curve)}

@@ -152,7 +152,7 @@ def tasks(observed: Observed, machine: Observed | None, conditions: Sequence[int
             row[f"cpm_{number[k]}"] = middle[t, k]
             row[f"median_operator_cpm_{number[k]}"] = float("nan") if of is None else observed.cpm[of, t, k]
             row[f"computer_cpm_{number[k]}"] = float("nan") if machine is None else machine.cpm[0, t, k]
-            row[f"arrived_{number[k]}"] = int(np.isfinite(observed.measures[:, t, k, 0]).sum())
+            row[f"reached_{number[k]}"] = int(np.isfinite(observed.measures[:, t, k, 0]).sum())
         for k in conditions[1:]:
             ratio = f"{number[k]}_{number[reference]}"
             row[f"ratio_{ratio}"] = _ratio(middle[t, k], middle[t, reference])

@@ -21,7 +21,7 @@ def blocks(f: Facts) -> list[Block]:
     if found is None or clearance is None:
         if f.a.optimised is None:
             return []
-        return [Text("Not looked at: nothing kept the best configurations from running the arm through itself.")]
+        return [Text("Not checked: nothing kept the best configurations from running the arm through itself.")]
     if not found.reached:
         return []
     arm, capsules = f.a.arm, clearance.capsules
@@ -37,7 +37,7 @@ def blocks(f: Facts) -> list[Block]:
         close = too_close(found.margin)
         facts += [
             (f"Poses at whose best configuration the arm {close}", share(found.blocked, found.reached)),
-            ("… and a clear one was chosen instead", share(found.blocked - found.hopeless, found.reached)),
+            ("… and one that is clear was chosen instead", share(found.blocked - found.hopeless, found.reached)),
             (
                 "… and no clear one was found; they count as not reached after optimisation",
                 share(found.hopeless, found.reached),

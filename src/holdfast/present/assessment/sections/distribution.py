@@ -20,7 +20,7 @@ def blocks(f: Facts) -> list[Block]:
         f"Cumulative (CDF), {d.samples:,} {f.noun}s",
     )
     figure = figures.distribution_figure(
-        f.histogram, f.curves, f.marks, xlabel=f.axis_label, ylabel="share with a smaller value, F", titles=titles, log=f.log
+        f.histogram, f.curves, f.marks, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", titles=titles, log=f.log
     )
     meets = "1 − F" if f.larger else "F"
     text = f"The probability of meeting a threshold is {meets} there"

@@ -85,7 +85,7 @@ def gain_figure(f: Facts, best: Distribution) -> Figure:
         figure = Figure(figsize=(figures.WIDTH, 3.9))
         left, right = figure.subplots(1, 2)
         shown = [mark for mark in f.marks if mark.x <= axis[-1]]
-        figures.draw_cdf(left, curves, shown, xlabel=f.axis_label, ylabel="share with a smaller value, F", log=f.log)
+        figures.draw_cdf(left, curves, shown, xlabel=f.axis_label, ylabel="fraction with a smaller value, F", log=f.log)
         left.set_title(f"Cumulative (CDF), {f.d.samples:,} poses")
         rows = f.rows
         if rows is None:

@@ -39,10 +39,7 @@ def blocks(f: Facts) -> list[Block]:
     if box:
         solved = f"damped least squares from up to {a.restarts:,} random starts within the joint limits"
         facts += [
-            (
-                "Method",
-                f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is",
-            ),
+            ("Method", f"{f.drawn}; inverse kinematics of each ({solved}); what it finds is evaluated as it is"),
             (
                 "Not optimised",
                 "configurations are what inverse kinematics happened to find, not the most tolerant ones for their pose (the "
@@ -72,7 +69,7 @@ def blocks(f: Facts) -> list[Block]:
             "smallest singular value of J at most 1e-12 times the largest; the index is then "
             f"{'0' if f.larger else 'infinite'} by convention",
         ),
-        ("Failures", "a locked joint stands still where it failed"),
+        ("Failures", "a locked joint stays where it failed"),
         ("Intervals", "95 %: Clopper-Pearson (exact) for a probability, Dvoretzky-Kiefer-Wolfowitz for a whole CDF"),
         ("Region", f"{a.region.name}: {a.region.describe()}{_ranges(a)}"),
         ("Arm", a.arm.provenance),

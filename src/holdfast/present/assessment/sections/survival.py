@@ -20,7 +20,7 @@ _LEAST_FOR_MAP = 200
 
 
 def blocks(f: Facts) -> list[Block]:
-    """Share of the region that each lock leaves, if the run asked for it."""
+    """Fraction of the region that each lock leaves, if the run asked for it."""
     survivors = f.a.survivors
     if survivors is None or not f.d.samples:
         return []
@@ -33,7 +33,7 @@ def blocks(f: Facts) -> list[Block]:
     what = f"{'weight of ' if f.d.weighted else ''}poses still reached once the joint has locked"
     figure = figures.bar_figure(names, survivors[list(locks)].tolist(), what, total=_whole(f), stress="least")
     given = [angle is not None for angle in locks.values()]
-    where = "where it stood at another pose of the region, drawn at random"
+    where = "where it was at another pose of the region, drawn at random"
     if all(given):
         where = "at the angle that was given"
     elif any(given):
@@ -47,14 +47,14 @@ def blocks(f: Facts) -> list[Block]:
         Picture(
             figures.svg(figure, "survival", "Poses still reached once each joint has locked"),
             f"Each joint is locked {where}. A pose counts as left if one "
-            f"of {LOCK_RESTARTS} starts reaches it with that joint standing still; so the shares are lower bounds.",
+            f"of {LOCK_RESTARTS} starts reaches it with that joint held there; so the fractions are lower bounds.",
         ),
     ]
     blocks += _before_and_after(f, f.a.arm.joint_index(worst), rules[worst])
     blocks.append(
         Table(
             [[name, rules[name], interval(share)] for name, share in shares.items()],
-            ["Once it has locked", "where", "share of the poses still reached"],
+            ["Once it has locked", "where", "fraction of the poses still reached"],
             frozenset({2}),
         )
     )
@@ -71,9 +71,9 @@ def _angle(f: Facts, joint: int, angle: float) -> str:
 
 
 def _rule(f: Facts, joint: int, angle: float | None) -> str:
-    """Where the joint stands."""
+    """Where the joint is locked."""
     if angle is None:
-        return "where it stood at another pose"
+        return "where it was at another pose"
     return _angle(f, joint, angle) + ("" if f.a.arm.prismatic[joint] else f" ({as_given(angle)} rad)")
 
 
@@ -91,23 +91,18 @@ def _before_and_after(f: Facts, joint: int, rule: str) -> list[Block]:
     figure = before_and_after_figure(rows.position, rows.reached, left, view, name, rows.weight)
     total = len(left)
     text = (
-        f"Share of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
+        f"Fraction of the poses in each cell that are reached, over the whole depth of the region {view.title}, and below it "
         f"how many poses the cell holds. Left: the healthy arm reaches {int(rows.reached.sum()):,} of {total:,} poses. Right: "
         f"with {name} locked {rule}, {int(left.sum()):,} of {total:,}."
     )
     if f.d.weighted:
-        text += " Shares count by weight, these numbers do not."
+        text += " Fractions count by weight, these numbers do not."
     return [Picture(figures.svg(figure, "survival-map", f"Where poses are reached before and after {name} locks"), text)]
 
 
 def before_and_after_figure(
-    position: Array,
-    healthy: NDArray[np.bool_],
-    locked: NDArray[np.bool_],
-    view: View,
-    joint: str,
-    weights: Array | None = None,
+    position: Array, healthy: NDArray[np.bool_], locked: NDArray[np.bool_], view: View, joint: str, weights: Array | None = None
 ) -> Figure:
-    """Maps of the share of poses (N, 3), m, that are reached (N,) before and after a lock, by weight (N,) if there is one."""
+    """Maps of the fraction of poses (N, 3), m, reached (N,) before and after a lock, by weight (N,) if there is one."""
     panels = [("Healthy", healthy), (f"{figures.plain(joint, 30)} locked", locked)]
-    return maps.share_figure(position, panels, view, label="share of the poses reached", weights=weights)
+    return maps.share_figure(position, panels, view, label="fraction of the poses reached", weights=weights)

@@ -6,12 +6,12 @@ from holdfast.assessment.upgrade import Upgrade
 from holdfast.present.assessment.facts import Facts
 from holdfast.report.page import Block, Table, Text
 
-TITLE = "Which joint deserves the redundant motor or brake"
+TITLE = "Which joint deserves a redundant motor or brake"
 _MOST_ROWS = 40
 
 
 def blocks(f: Facts) -> list[Block]:
-    """Which joint deserves the redundant motor or brake."""
+    """Which joint deserves a redundant motor or brake."""
     if not f.d.reached or not f.decided:
         return []
     if f.rows is None:
@@ -37,9 +37,9 @@ def blocks(f: Facts) -> list[Block]:
     head = ["If this never fails", f"P({f.condition})", "gain, 95 % interval"]
     caption = f"Now: {first.before:.3f}"
     note = (
-        "Suppose that one joint cannot fail, thanks to a redundant motor or brake: the worst case is then over the failures in "
+        "Suppose that a redundant motor or brake keeps one joint from failing: the worst case is then over the failures in "
         f"which it has no part, at the same {f.noun}s and configurations. The intervals of the gains are paired: a gain is the "
-        f"share of all {f.d.samples:,} {f.noun}s that fail now and would not then."
+        f"fraction of all {f.d.samples:,} {f.noun}s that fail now and would not then."
     )
     if best:
         head += ["after optimisation", "gain, 95 % interval"]

@@ -17,7 +17,7 @@ def blocks(f: Facts) -> list[Block]:
     dots = f"{f.noun} drawn" if f.a.region.kind != "joints" else "tool position of a configuration drawn"
     legend = [("base", "base"), ("joint", "joints, numbered from the base"), ("tool", "tool")]
     if f.a.arm.prismatic.any():
-        legend.insert(2, ("slide", "sliding joint"))
+        legend.insert(2, ("slide", "prismatic joint"))
     if len(scene.points):
         legend.append(("dot", dots))
     if len(scene.missing):
