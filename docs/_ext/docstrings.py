@@ -1,8 +1,10 @@
-"""Small repairs to docstrings on their way to Sphinx, so that they can be written for people."""
+"""Small repairs to docstrings and references on their way to Sphinx, so that they can be written for people."""
 
 from __future__ import annotations
 
 import re
+from functools import cache
+from importlib import import_module
 from typing import Any
 
 from sphinx.application import Sphinx
@@ -62,9 +64,39 @@ def plain_names(
     return shown[0], shown[1]
 
 
+@cache
+def thing(name: str) -> Any:
+    """What has this name, from whatever module it is in; None if nothing has."""
+    parts = name.split(".")
+    for k in range(len(parts), 0, -1):
+        try:
+            found: Any = import_module(".".join(parts[:k]))
+            for part in parts[k:]:
+                found = getattr(found, part)
+        except (ImportError, AttributeError):
+            continue
+        return found
+    return None
+
+
+def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
+    """What is described under another of its names, or in the base class that it comes from."""
+    if node.get("refdomain") != "py":
+        return None
+    before = [x for x in (node.get("py:module"), node.get("py:class")) if x]
+    names = [".".join([*before[:k], node["reftarget"]]) for k in range(len(before) + 1)]
+    wanted = [found for found in map(thing, names) if found is not None]
+    domain = env.get_domain("py")
+    for name in domain.objects if wanted else ():
+        if any(thing(name) is each for each in wanted):
+            return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", name, node, shown)
+    return None
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-docstring", repair, priority=400)
     app.connect("autodoc-process-signature", plain_names)
+    app.connect("missing-reference", same_thing)
     plain = GoogleDocstring.__init__
 
     # Napoleon takes the words before a colon in the docstring of a property or constant for its type; ours are sentences.

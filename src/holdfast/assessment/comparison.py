@@ -188,7 +188,9 @@ class Comparison(Result):
         return [*said, *self.notes]
 
     def save(self, folder: str | Path) -> list[Path]:
-        """Write a folder that :func:`load_comparison` and ``holdfast report`` read: one in it for each candidate, a report.
+        """Write a folder with one in it for each candidate, and a report; ``holdfast report`` reads it again.
+
+        :func:`holdfast.assessment.load_comparison` does, too.
 
         Returns:
             ``comparison.json``, which names the candidates, and ``report.html``.

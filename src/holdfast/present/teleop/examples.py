@@ -28,7 +28,7 @@ def example_blocks(a: Analysis, task: int, protocol: Protocol | None, paths: Pat
         a: The analysis.
         task: Its number.
         protocol: Of the experiment; task k there is number k + 1 here.
-        paths: See :meth:`holdfast.teleop.analysis.Analysis.write`.
+        paths: See :meth:`holdfast.teleop.analysis.Analysis.report`.
     """
     t = a.observed.tasks.index(task)
     blocks: list[Block] = []

@@ -170,7 +170,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
 
 
 def tool_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
-    """Where the end effector was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
+    """Where the end effector was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.report` takes.
 
     Returns:
         From a subject's code (None means the computer), a task's and a scenario's number (from 1) it makes (K, m) tool points,
