@@ -33,6 +33,7 @@ nitpick_ignore_regex = [
         r"py:.*",
         r"(Array|ArrayLike|Flags|Vary|NDArray|SX|Path|Progress|Sampling|FailureSpec|TaskSpec|Formula|JointType|FailureSets|Joints|Aim)",
     ),
+    (r"py:.*", r"Locked(At|Anywhere)?"),
     (r"py:.*", r"(Axes|Callable|DataFrame|Figure|Iterable|Iterator|Sequence|Mapping|Any|Literal|ABC|IntEnum|StrEnum|Store)"),
     (r"py:.*", r"(optional|default.*)"),
     (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
