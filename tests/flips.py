@@ -46,7 +46,7 @@ def trial(records: Records, code: str, rng: np.random.Generator, cycles: int = 6
     return number
 
 
-def study(folder: Path) -> None:
+def experiment(folder: Path) -> None:
     """Records with some of everything: six trials that are over, and one that is not."""
     whole = read_protocol()
     tasks = whole.with_tasks(whole.tasks.take(np.array([0, 9])), ["a", "b"])

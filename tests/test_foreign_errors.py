@@ -66,14 +66,14 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         ),
         "basins": (
             hf.basins,
-            {"law": law, "target": target, "locked": 1, "at": 0.5, "starts": 5, "grid": None, "seed": 0}
+            {"law": law, "target": target, "locked": {1: 0.5}, "starts": 5, "grid": None, "seed": 0}
             | {"time_limit": 5.0, "confidence": 0.95},
         ),
         "best_law": (hf.best_law, {"laws": [law, hf.control.damped(arm, 0.1, "planar")], "targets": 2, "starts": 3}),
         "compare_assessments": (hf.compare_assessments, {"assessments": [run, run], "names": ["a", "b"], "threshold": 0.1}),
         "compare_laws": (
             hf.compare_laws,
-            {"laws": [law], "q0": q, "target": target, "locked": [1], "cycles": False, "time_limit": 5.0}
+            {"laws": [law], "q0": q, "target": target, "failures": [1], "cycles": False, "time_limit": 5.0}
             | {"tolerance": 1e-8, "radius": 0.1, "restarts": 2, "seed": 0},
         ),
         "convergence_map": (
@@ -104,11 +104,11 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         ),
         "point_to_point": (
             hf.point_to_point,
-            {**at_planar, "count": 2, "seed": 0, "distance": (0.2, 2.0), "reachable_after": None} | {"restarts": 2},
+            {**at_planar, "count": 2, "seed": 0, "distance": (0.2, 2.0), "failures": None} | {"restarts": 2},
         ),
         "reachable_when_locked": (
             hf.reachable_when_locked,
-            {**at_planar, "target": target, "joint": 1, "at": 0.3, "seed": 0} | {"restarts": 2, "tolerance": 1e-6},
+            {**at_planar, "target": target, "locked": {1: 0.3}, "seed": 0} | {"restarts": 2, "tolerance": 1e-6},
         ),
         "recover": (
             hf.recover,
@@ -122,7 +122,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
             | {"time_limit": 5.0, "tolerance": 1e-8, "step": None, "radius": 0.1},
         ),
         "solve_ik": (hf.solve_ik, {**at_planar, "poses": pose, "seed": 0, "restarts": 2, "tolerance": 1e-6, "start": q}),
-        "stationary_points": (hf.stationary_points, {"law": law, "target": target, "locked": [1], "at": [0.5], "seed": 0}),
+        "stationary_points": (hf.stationary_points, {"law": law, "target": target, "locked": {1: 0.5}, "seed": 0}),
         "target_measures": (hf.target_measures, {"law": law, "targets": [target], "starts": 3, "configurations": 1, "seed": 0}),
         "tolerant_workspace": (
             hf.tolerant_workspace,

@@ -237,7 +237,7 @@ def test_an_argument_named_progress_is_told():
 
 QUICK = {
     "load": "reads a file",
-    "compare": "compares what is computed",
+    "compare_assessments": "compares what is computed",
     "set_threads": "sets a number",
     "susceptibility": "is a module, and a function of one configuration",
     "self_motion": "is one of fibres, which says so",
@@ -288,16 +288,16 @@ CALLS = {
     "simulating motions": lambda arm, law, x: hf.simulate(law, x, [1.5, 1.5]),
     "comparing control laws": lambda arm, law, x: hf.compare_laws([law], x, [1.5, 1.5], restarts=2),
     "computing the trade-off": lambda arm, law, x: hf.control.trade_off(arm, "planar", samples=10, allowed=[0, 0.5]),
-    "looking for stationary points": lambda arm, law, x: hf.stationary_points(law, [1.5, 1.5], 1, at=1.0),
-    "simulating the basins": lambda arm, law, x: hf.basins(law, [1.5, 1.5], 1, at=1.0, starts=4),
+    "looking for stationary points": lambda arm, law, x: hf.stationary_points(law, [1.5, 1.5], {1: 1.0}),
+    "simulating the basins": lambda arm, law, x: hf.basins(law, [1.5, 1.5], {1: 1.0}, starts=4),
     "simulating failures": lambda arm, law, x: hf.convergence_map(law, 1, 2, configurations=1),
     "looking for the ranges of the joints": lambda arm, law, x: hf.joint_bounds(arm, [1.5, 1.5], "planar", starts=4),
-    "planning the way back": lambda arm, law, x: hf.recover(arm, "joint2", x, goal="home", samples=20),
+    "planning the route": lambda arm, law, x: hf.recover(arm, "joint2", x, goal="home", samples=20),
     "optimising configurations": lambda arm, law, x: hf.optimise(arm, arm.forward_kinematics(x), wish(arm), starts=3),
     "following the path": lambda arm, law, x: hf.follow(arm, along(arm, x), maximise=wish(arm), q=x, samples=5),
     "looking for the best path": lambda arm, law, x: best_path(arm, x),
     "looking for configurations with a locked joint": lambda arm, law, x: hf.reachable_when_locked(
-        arm, [1.5, 1.5], "joint1", at=[0.5], task="planar"
+        arm, [1.5, 1.5], {"joint1": [0.5]}, task="planar"
     ),
     "measuring the failure-tolerant workspace": lambda arm, law, x: tolerant(arm),
     "simulating the physics": lambda arm, law, x: hf.simulate_physics(law, x, [1.5, 1.5], time_limit=1.0),

@@ -57,7 +57,7 @@ def test_rest_points_are_those_of_the_specification(monkeypatch):
 def test_rest_points_are_on_the_closed_form_families(rng):
     x = np.array([1.1, 0.2])
     angle = float(rng.uniform(130, 170))
-    found = hf.stationary_points(three_links.law(), x, locked=1, at=np.deg2rad(angle))
+    found = hf.stationary_points(three_links.law(), x, {1: np.deg2rad(angle)})
     erroneous = found.q[found.kind != Kind.SOLUTION]
     expected = [family(angle, folded, sign, x) for folded in (False, True) for sign in (1, -1)]
     expected = [q for q in expected if q is not None]
@@ -81,7 +81,7 @@ def test_sinks_folds_and_lines_of_the_three_joints():
 
 
 def test_starts_on_either_side_of_the_boundary_end_at_different_solutions():
-    found = hf.basins(three_links.law(), three_links.TARGET, 1, at=np.deg2rad(45), grid=12)
+    found = hf.basins(three_links.law(), three_links.TARGET, {1: np.deg2rad(45)}, grid=12)
     assert found.converged.value == 1
     assert rest_points.split_by(found) > 0.9
     assert len(rest_points.basin_table(found)) == 4

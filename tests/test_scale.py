@@ -123,11 +123,11 @@ def test_cycles_and_the_least_error(links, rng, size):
 def test_points_of_rest_are_the_published_ones(links, size):
     """The table of the planar arm with unit links, target (1.5, 1.5), joint 2 locked at 100 and at 140 degrees."""
     law = Pseudoinverse(scaled(links, size), "planar")
-    points = hf.stationary_points(law, [1.5 * size, 1.5 * size], locked=1, at=np.deg2rad(100.0))
+    points = hf.stationary_points(law, [1.5 * size, 1.5 * size], {1: np.deg2rad(100.0)})
     assert sorted(points.kinds) == ["saddle", "saddle", "saddle", "solution", "solution", "source"]
     source = points.q[[k == "source" for k in points.kinds]]
     np.testing.assert_allclose(np.rad2deg(source), [[-42.4502, 100, -50]], atol=1e-3)
-    points = hf.stationary_points(law, [1.5 * size, 1.5 * size], locked=1, at=np.deg2rad(140.0))
+    points = hf.stationary_points(law, [1.5 * size, 1.5 * size], {1: np.deg2rad(140.0)})
     sink = [k == "sink" for k in points.kinds]
     np.testing.assert_allclose(np.rad2deg(points.q[sink]), [[-10.5639, 140, -70]], atol=1e-3)
     np.testing.assert_allclose(points.eigenvalues[sink], [[-0.12823, -1.63856]], atol=1e-4)
@@ -145,7 +145,7 @@ def test_copies_have_the_same_points_of_rest(links, size, damping):
     def points(s):
         task = planar(links, s)
         law = Damped(scaled(links, s), damping, task) if damping else Pseudoinverse(scaled(links, s), task)
-        return hf.stationary_points(law, [0.9 * s, 0.0], locked=2, at=2.0)
+        return hf.stationary_points(law, [0.9 * s, 0.0], {2: 2.0})
 
     own, other = points(1.0), points(size)
     assert len(own)

@@ -18,7 +18,7 @@ export interface Listener {
   unstored(yes: boolean): void;
   /** Something more is on the server's disk. */
   acknowledged(): void;
-  /** The session cannot go on here; null: somebody else went on with it. */
+  /** The session cannot continue here; null: somebody else resumed it. */
   over(reason: string | null): void;
 }
 
@@ -164,7 +164,7 @@ export class Connection {
     this.joining = null;
   }
 
-  /** Ask again where the session stands. */
+  /** Ask again how far the session is. */
   private ask(): void {
     this.leave();
     this.connect();

@@ -4,7 +4,7 @@ import { loadArm } from "./arm";
 import { Robot } from "./input/robot";
 import { Station } from "./station";
 import { Storage } from "./storage";
-import { loadStudy } from "./study";
+import { loadExperiment } from "./experiment";
 import { runSession } from "./timeline";
 import "./station.css";
 
@@ -22,15 +22,15 @@ async function main(): Promise<void> {
     if (token !== null) url.searchParams.set("token", token);
     return url.href;
   };
-  const [study, arm] = await Promise.all([loadStudy(address("study.json")), loadArm(address("arm.js"))]);
+  const [experiment, arm] = await Promise.all([loadExperiment(address("experiment.json")), loadArm(address("arm.js"))]);
   const begin = `${location.pathname}${passed.size ? `?${passed}` : ""}`;
   const session = address("session").replace(/^http/, "ws");
   const seed = robot === null ? null : Number(robot) || 0;
   const storage = new Storage(robot === null ? "" : `.robot${seed}`);
-  const station = new Station(study, arm, storage, { session, begin }, seed, asked.get("session"));
+  const station = new Station(experiment, arm, storage, { session, begin }, seed, asked.get("session"));
   // A key in the address would stay in the browser's history.
   if (asked.has("session")) history.replaceState(null, "", begin);
-  if (seed !== null) station.device = new Robot(seed, study.axes, study.stick.limit, study.rate, study.radius);
+  if (seed !== null) station.device = new Robot(seed, experiment.axes, experiment.stick.limit, experiment.rate, experiment.radius);
   await runSession(station);
 }
 

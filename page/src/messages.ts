@@ -4,7 +4,7 @@ export const FORMAT = 1;
 export const MOST_CYCLES = 256; // in one message
 export const MOST_BYTES = 131072; // of one message
 
-/** The first message of a connection: a new session, or one that goes on. A new session may bring its key, ``fresh``: said again where the answer was lost, it goes on with what was begun then. */
+/** The first message of a connection: a new session, or one that is resumed. A new session may bring its key, ``fresh``: said again where the answer was lost, it resumes what was begun then. */
 export interface Hello {
   type: "hello";
   format: number;
@@ -40,7 +40,7 @@ export interface Cycles {
   q: number[][];
 }
 
-/** The trial under way is over; ``q`` is where the arm stands. */
+/** The trial under way is over; ``q`` is where the arm is. */
 export interface EndMessage {
   type: "end";
   seq: number;
@@ -80,7 +80,7 @@ export interface PlannedTrial {
   joint: number;
 }
 
-/** The whole session, so that the page can go on without the network. */
+/** The whole session, so that the page can continue without the network. */
 export interface Plan {
   training: TrainingTask[];
   trials: PlannedTrial[];
@@ -120,7 +120,7 @@ export interface Refused {
   last: number;
 }
 
-/** The experimenter stops the session after the trial under way, or lets it go on. */
+/** The experimenter stops the session after the trial under way, or resumes it. */
 export interface Pause {
   type: "pause";
   paused: boolean;

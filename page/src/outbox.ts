@@ -68,7 +68,7 @@ export class Outbox {
     return last === (this.queue.length ? this.queue[0].seq : this.next) - 1;
   }
 
-  /** Throw away what waits; the session goes on after `last`. */
+  /** Throw away what waits; the session continues after `last`. */
   clear(last: number): void {
     this.queue = [];
     this.next = last + 1;

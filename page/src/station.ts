@@ -11,10 +11,10 @@ import type { Rules } from "./run";
 import { Frame } from "./screens/frame";
 import { Stick } from "./stick";
 import type { Storage } from "./storage";
-import type { Study } from "./study";
+import type { Experiment } from "./experiment";
 import { sentence, Texts } from "./texts";
 
-/** Where the session stands. */
+/** How far the session is. */
 export interface Progress {
   /** Cycles of each training task; null where it was not completed. */
   training: (number | null)[];
@@ -54,21 +54,21 @@ export class Station {
   private lostAt: number | null = null;
   /** Called when nothing waits any more, once the session is over. */
   private finished: (() => void) | null = null;
-  /** The session cannot go on in this page. */
+  /** The session cannot continue in this page. */
   private stopped = false;
 
   constructor(
-    readonly study: Study,
+    readonly experiment: Experiment,
     readonly arm: Arm,
     readonly storage: Storage,
     readonly addresses: Addresses,
     readonly robotSeed: number | null,
-    /** A session that this page was told to go on with. */
+    /** A session that this page was told to resume. */
     handed: string | null,
   ) {
-    this.texts = new Texts(study.texts);
-    this.stick = new Stick(study.stick.limit, study.stick.dead_zone);
-    this.rules = { radius: study.radius, cycleLimit: study.cycle_limit };
+    this.texts = new Texts(experiment.texts);
+    this.stick = new Stick(experiment.stick.limit, experiment.stick.dead_zone);
+    this.rules = { radius: experiment.radius, cycleLimit: experiment.cycle_limit };
     this.robot = robotSeed === null ? null : new Random(robotSeed);
     this.frame = new Frame(this.texts);
     const kept = storage.kept;
@@ -90,7 +90,7 @@ export class Station {
     window.addEventListener("pageshow", (event) => event.persisted && location.reload());
   }
 
-  /** Whether there is a session to go on with. */
+  /** Whether there is a session to resume. */
   get resumable(): boolean {
     return this.session !== null;
   }

@@ -42,7 +42,7 @@ export class Storage {
       if (value === null) localStorage.removeItem(this.name(name));
       else localStorage.setItem(this.name(name), JSON.stringify(value));
     } catch {
-      // Storage is forbidden or full: the session goes on, only a closed tab cannot be resumed on its own.
+      // Storage is forbidden or full: the session continues, only a closed tab cannot be resumed on its own.
     }
   }
 

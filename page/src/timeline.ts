@@ -66,7 +66,7 @@ class Session {
 
   private form(name: string, onDecline: "declined" | null = null): Node {
     const { station } = this;
-    const form = station.study.forms.find((f) => f.name === name);
+    const form = station.experiment.forms.find((f) => f.name === name);
     const show = async (e: HTMLElement): Promise<void> => {
       if (form === undefined) return;
       station.frame.progress(form.title);
@@ -141,7 +141,7 @@ class Session {
   }
 
   private tlx(): Node {
-    return this.when(() => this.station.study.tlx && this.early === null, [this.form("tlx")]);
+    return this.when(() => this.station.experiment.tlx && this.early === null, [this.form("tlx")]);
   }
 
   private async debriefing(element: HTMLElement): Promise<void> {
@@ -156,9 +156,9 @@ class Session {
   // ---- tasks -------------------------------------------------------------------------------------------------------
 
   private practiceTask(): TrialSpec {
-    const { plan, texts, study } = this.station;
+    const { plan, texts, experiment } = this.station;
     const { q0, target, joint } = plan.training[plan.training.length - 1 - (this.practised % plan.training.length)];
-    const law = study.training_law;
+    const law = experiment.training_law;
     return {
       title: texts.get("practice_progress"),
       task: { law, q0, target, joint },
@@ -169,16 +169,16 @@ class Session {
   }
 
   private trainingTask(): TrialSpec {
-    const { plan, progress, texts, study } = this.station;
+    const { plan, progress, texts, experiment } = this.station;
     const position = progress.training.length;
     const { q0, target, joint } = plan.training[position];
     const title = texts.get("training_progress", {
       number: position + 1,
-      in_a_row: inARow(study.training, progress.training),
-      wanted: study.training.in_a_row,
-      at_least: study.training.at_least,
+      in_a_row: inARow(experiment.training, progress.training),
+      wanted: experiment.training.in_a_row,
+      at_least: experiment.training.at_least,
     });
-    const law = study.training_law;
+    const law = experiment.training_law;
     return {
       title,
       task: { law, q0, target, joint },
@@ -189,13 +189,13 @@ class Session {
   }
 
   private trainingDone({ end, cycles }: Outcome): void {
-    const { progress, study, texts } = this.station;
+    const { progress, experiment, texts } = this.station;
     progress.training.push(end === "arrived" ? cycles : null);
-    const seconds = (c: number): string => (c / study.rate).toFixed(1);
+    const seconds = (c: number): string => (c / experiment.rate).toFixed(1);
     const key =
-      end !== "arrived" ? "training_missed" : cycles <= study.training.limit ? "training_good" : "training_slow";
-    this.note = texts.get(key, { seconds: seconds(cycles), limit: seconds(study.training.limit) });
-    if (!this.isTrained && progress.training.length >= study.training.most) this.early = "untrained";
+      end !== "arrived" ? "training_missed" : cycles <= experiment.training.limit ? "training_good" : "training_slow";
+    this.note = texts.get(key, { seconds: seconds(cycles), limit: seconds(experiment.training.limit) });
+    if (!this.isTrained && progress.training.length >= experiment.training.most) this.early = "untrained";
   }
 
   private trialTask(): TrialSpec {
@@ -231,17 +231,17 @@ class Session {
 
   /** What a dry run says about a trial: the longer, the worse. */
   private felt(): number {
-    const steps = this.station.study.rating.length;
+    const steps = this.station.experiment.rating.length;
     if (this.outcome.end !== "arrived") return steps - 1;
-    const seconds = this.outcome.cycles / this.station.study.rate;
+    const seconds = this.outcome.cycles / this.station.experiment.rate;
     return Math.min(steps - 1, Math.floor(seconds / 10));
   }
 
   // ---- small things ------------------------------------------------------------------------------------------------
 
   private get isTrained(): boolean {
-    const { progress, study } = this.station;
-    return progress.trials > 0 || trained(study.training, progress.training);
+    const { progress, experiment } = this.station;
+    return progress.trials > 0 || trained(experiment.training, progress.training);
   }
 
   /** Nothing of training or trials was done yet. */
@@ -259,12 +259,12 @@ class Session {
   }
 
   private page(element: HTMLElement, key: string, choices: Page["choices"], last = false): Promise<string> {
-    const { texts, study } = this.station;
-    const { at_least, in_a_row, limit } = study.training;
+    const { texts, experiment } = this.station;
+    const { at_least, in_a_row, limit } = experiment.training;
     const values = {
       at_least,
       in_a_row,
-      seconds: (limit / study.rate).toFixed(1),
+      seconds: (limit / experiment.rate).toFixed(1),
       done: this.station.progress.trials,
       count: this.station.plan.trials.length,
     };

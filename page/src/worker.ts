@@ -7,7 +7,7 @@ function run(rate: number): void {
   let k = 0;
   const tick = (): void => {
     self.postMessage(k);
-    // Behind by more than one cycle: go on with the next that is due, the page counts what was missed.
+    // Behind by more than one cycle: continue with the next that is due, the page counts what was missed.
     k = Math.max(k + 1, Math.floor(((performance.now() - start) / 1000) * rate));
     timer = setTimeout(tick, start + (k * 1000) / rate - performance.now());
   };

@@ -48,7 +48,7 @@ test("cycles do not join over a gap or over another message", () => {
   expect(box.waiting.length).toBe(4);
 });
 
-test("a restored outbox goes on with its numbers and changes none of its messages", () => {
+test("a restored outbox continues with its numbers and changes none of its messages", () => {
   const old = new Outbox();
   old.push(cycle(0));
   const box = new Outbox(JSON.parse(JSON.stringify(old.waiting)));

@@ -24,10 +24,10 @@ function cycles(seed: number, rate: number): number {
       return run.cycles;
     }
   }
-  throw new Error("the robot did not arrive");
+  throw new Error("the robot did not reach the target");
 }
 
-test("the robot arrives, slower than straight at full speed, and the same way for a seed", () => {
+test("the robot reaches the target, slower than straight at full speed, and the same way for a seed", () => {
   for (const rate of [6, 60]) {
     for (let seed = 0; seed < 20; seed++) {
       const ideal = ((1.5 - 0.1) / 0.3) * rate;

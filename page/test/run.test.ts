@@ -8,7 +8,7 @@ const task: Task = { law: 0, q0: [0, 0], target: [0.2, 0], joint: -1 };
 const run = (cycleLimit: number | null = null, over: Partial<Task> = {}): Run =>
   new Run(slides, { ...task, ...over }, stick, { radius: 0.1, cycleLimit });
 
-test("a trial ends by coming to rest inside the circle, not by passing through it", () => {
+test("a trial ends by stopping inside the circle, not by passing through it", () => {
   const r = run();
   for (let k = 0; k < 3; k++) expect(r.step([1, 0], false)).toBeNull();
   expect(r.inside).toBe(true);
@@ -27,7 +27,7 @@ test("a start inside the circle and at rest is over before the first cycle", () 
   expect(run(null, { q0: [0.15, 0] }).step([0, 0], false)).toBe("arrived");
 });
 
-test("giving up goes before arriving, and arriving before the limit of cycles", () => {
+test("giving up goes before reaching the target, and that before the limit of cycles", () => {
   const r = run(3);
   for (let k = 0; k < 3; k++) r.step([1, 0], false);
   expect(r.step([1, 0], false)).toBe("time");
@@ -45,7 +45,7 @@ test("what is recorded is the command after the stick and the configuration when
   expect(Array.from(r.q)).toEqual([0.05, 0.05]);
 });
 
-test("a locked joint stands, and each scenario has its law", () => {
+test("a locked joint is still, and each scenario has its law", () => {
   const locked = run(null, { joint: 0 });
   locked.step([1, 1], false);
   expect(locked.q[0]).toBe(0);

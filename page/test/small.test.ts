@@ -18,7 +18,7 @@ test("texts: values take the place of braces, other braces stay", () => {
 });
 
 test("the server's reasons become sentences", () => {
-  expect(sentence("the session goes on in another page")).toBe("The session goes on in another page.");
+  expect(sentence("the session has moved to another page")).toBe("The session has moved to another page.");
   expect(sentence("Done.")).toBe("Done.");
 });
 

@@ -1,6 +1,6 @@
 import type { Arm } from "../src/arm";
 
-/** Two sliding joints, along x and y: the hand is where the joints are. Law 1 answers with half of the command. */
+/** Two prismatic joints, along x and y: the end effector is where the joints are. Law 1 answers with half of the command. */
 export const slides: Arm = {
   joints: 2,
   axes: 2,

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from holdfast.teleop import simulate_experiment
 from holdfast.teleop.analysis import Analysis, analyse
 from holdfast.teleop.protocol import Protocol, read_protocol
-from holdfast.teleop.records import Kind, Records, computer_table, hand_paths, replay, trial_table
+from holdfast.teleop.records import Kind, Records, computer_table, replay, tool_paths, trial_table
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -93,7 +93,7 @@ def _kept(records: Records, a: Analysis) -> Paths:
     """The paths of the tasks that are drawn, without the records."""
     from holdfast.teleop.analysis import median_operator
 
-    path = hand_paths(records)
+    path = tool_paths(records)
     kept: dict[tuple[str | None, int, int], Array | None] = {}
     for task in shown(a).values():
         k = median_operator(a.observed, a.observed.tasks.index(task), a.observed.index(a.conditions[0].scenario))

@@ -89,7 +89,7 @@ def boxes() -> Claim:
     columns = [rng.uniform(float(a), float(b), BETWEEN) for a, b in ((-np.pi, np.pi), (low, high), (lower, upper))]
     q = np.stack(columns, axis=1)
     found = [
-        hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), k, at=q[:, k], task="planar").success for k in range(3)
+        hf.reachable_when_locked(law().arm, np.tile(x, (BETWEEN, 1)), {k: q[:, k]}, task="planar").success for k in range(3)
     ]
     return Claim(
         "5, pseudocode: B_xd, the union of the bounding boxes of all self-motion manifolds of x_d",

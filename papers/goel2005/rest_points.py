@@ -82,7 +82,7 @@ def point_table() -> tuple[list[str], float, float, int]:
     worst = [0.0, 0.0]
     other = 0
     for (joint, angle), rows in TABLE.items():
-        points = hf.stationary_points(law(), TARGET, locked=joint, at=np.deg2rad(angle))
+        points = hf.stationary_points(law(), TARGET, {joint: np.deg2rad(angle)})
         other += len(points) - len(rows)
         for q, kind, eigenvalues in rows:
             k = int(np.argmin([away(p, q) for p in points.q]))
@@ -105,7 +105,7 @@ def point_table() -> tuple[list[str], float, float, int]:
 @cache
 def curves() -> tuple[Curves, ...]:
     """The rest curves of the three joints, for the paper's target."""
-    return tuple(hf.stationary_points(law(), TARGET, locked=joint) for joint in range(3))
+    return tuple(hf.stationary_points(law(), TARGET, {joint: None}) for joint in range(3))
 
 
 def range_table(found: Sequence[Curves]) -> list[str]:
@@ -189,7 +189,7 @@ SHARES = (0.51, 0.49)  # of 4000 samples, the specification's
 
 def figure_8(path: Path) -> tuple[Basins, float]:
     """Basins, and for how much of the boundary starts on either side end at different solutions."""
-    found = hf.basins(law(), TARGET, 1, at=np.deg2rad(LOCKED_8), grid=GRID)
+    found = hf.basins(law(), TARGET, {1: np.deg2rad(LOCKED_8)}, grid=GRID)
     save_png(found.figures()["basins"], path, dpi=110)
     return found, split_by(found)
 
@@ -207,7 +207,7 @@ def split_by(found: Basins, beside_it: float = 0.02) -> float:
     side[:, [0, 2]] = beside_it * np.concatenate(across)
     ends = []
     for sign in (1, -1):
-        ends.append(hf.basins(law(), TARGET, 1, at=np.deg2rad(LOCKED_8), starts=centre + sign * side).end)
+        ends.append(hf.basins(law(), TARGET, {1: np.deg2rad(LOCKED_8)}, starts=centre + sign * side).end)
     return float(np.mean(ends[0] != ends[1]))
 
 

@@ -134,7 +134,7 @@ class Window:
 @cache
 def window() -> Window:
     """From the curves that :func:`holdfast.stationary_points` traces."""
-    curve = next(c for c in hf.stationary_points(law(), NEAR, locked=JOINT).curves if len(c.hopf_points))
+    curve = next(c for c in hf.stationary_points(law(), NEAR, {JOINT: None}).curves if len(c.hopf_points))
     angle = np.degrees(curve.locked) % 360
     fold = next(float(angle[k]) for k in curve.folds if 160 < angle[k] < 180)
     k = next(k for k in curve.hopf_points if angle[k] < 180)
@@ -147,7 +147,7 @@ def window() -> Window:
 
 def at(degrees: float) -> StationaryPoints:
     """All stationary points of the near target with joint 2 at an angle."""
-    return hf.stationary_points(law(), NEAR, locked=JOINT, at=np.deg2rad(degrees))
+    return hf.stationary_points(law(), NEAR, {JOINT: np.deg2rad(degrees)})
 
 
 def kinds(points: StationaryPoints) -> tuple[int, list[str]]:

@@ -133,7 +133,7 @@ class Elbow:
 def elbow(task: str, name: str, angle: float, starts: int = STARTS) -> Elbow:
     """With the elbow at an angle, deg, under a law."""
     law = laws(task)[name]
-    points = hf.stationary_points(law, target(), ELBOW, at=np.deg2rad(angle), seed=SEED)
+    points = hf.stationary_points(law, target(), {ELBOW: np.deg2rad(angle)}, seed=SEED)
     rng = np.random.default_rng(SEED)
     q0 = rng.uniform(arm().lower, arm().upper, (starts, arm().n))
     q0[:, ELBOW] = np.deg2rad(angle)

@@ -84,10 +84,10 @@ def checked_class(made: type[T]) -> type[T]:
 
 # Names that the packages give to unions.
 _ALIASES = {
-    "Joints": "str | int | Sequence[str | int]",
     "Vary": "DesignSpace | Iterable[str | Parameter] | Mapping[str, Any]",
     "FailureSpec": "str | int | Iterable[Any]",
-    "Locked": "Mapping | str | int | Sequence[Any] | ndarray",
+    **dict.fromkeys(("Locked", "LockedAt"), "Mapping | str | int | Sequence[Any] | ndarray"),
+    "LockedValues": "Mapping",
     "Limits": "ArrayLike | Mapping[str | int, ArrayLike]",
     "TaskSpec": "str | Task | Sequence[str]",
     "Array": "ArrayLike",

@@ -1,4 +1,4 @@
-"""The one family of exceptions of holdfast.
+"""The exceptions of holdfast.
 
 Every message is one sentence that names the thing, says what was wrong and what would be right.
 The command line prints it and exits with code 2.

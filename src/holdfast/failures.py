@@ -11,7 +11,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import real_numbers
 from holdfast.errors import InputError, TaskError
@@ -23,8 +23,11 @@ if TYPE_CHECKING:
 FailureSets = tuple[tuple[int, ...], ...]
 FailureSpec = str | int | Iterable[str | int | Iterable[str | int]]
 
-_Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str | int, float | None]
 # {joint: value}, rad or m; {joint: None}, or the joints alone, for where they are. Joints by name or index from 0.
+LockedAt = Mapping[str, float] | Mapping[int, float] | Mapping[str | int, float]
+LockedValues = Mapping[str, ArrayLike] | Mapping[int, ArrayLike] | Mapping[str | int, ArrayLike]  # (N,) of each joint
+LockedAnywhere = str | int | Sequence[str | int] | Mapping[str, None] | Mapping[int, None] | Mapping[str | int, None]
+_Mapping = Mapping[str, float | None] | Mapping[int, float | None] | Mapping[str | int, float | None]
 Locked = str | int | Sequence[str | int] | _Mapping
 
 _MOST = 5000
@@ -105,16 +108,47 @@ def read_locks(arm: Arm, locked: Locked) -> dict[int, float | None]:
         name, unit = arm.joint_names[k], arm.joints[k].unit
         if k in found:
             raise InputError(f"joint '{name}' is locked twice; give each joint once")
-        number = None if value is None else float(real_numbers(value, f"the lock of '{name}'", f"a number, {unit}"))
-        if number is not None and not np.isfinite(number):
-            raise InputError(f"joint '{name}' is locked at {number}; give a finite number, {unit}")
-        found[k] = number
+        found[k] = None
+        if value is not None:
+            number = real_numbers(value, f"the lock of '{name}'", f"a number, {unit}")
+            if number.ndim or not np.isfinite(number):
+                raise InputError(f"joint '{name}' is locked at {value}; give a finite number, {unit}")
+            found[k] = float(number)
     return found
 
 
 def locks_at(arm: Arm, locked: Locked, at: NDArray[np.float64]) -> dict[int, float]:
     """What :func:`read_locks` reads, in the arm's order, with the values of ``at`` (n,) for joints locked where they are."""
     return {k: float(at[k]) if value is None else value for k, value in sorted(read_locks(arm, locked).items())}
+
+
+def locks_given(arm: Arm, locked: Locked) -> tuple[tuple[int, ...], NDArray[np.float64]]:
+    """The locked joints (k,) in the order given and their values (k,), for what needs a value of each and a joint left.
+
+    Raises:
+        InputError: As for :func:`read_locks`; a joint without a value; no joint, or all.
+    """
+    found = read_locks(arm, locked)
+    if not 1 <= len(found) < arm.n:
+        raise InputError(f"locked names {len(found)} joints of '{arm.name}'; give 1 to {arm.n - 1}")
+    unknown = [repr(arm.joint_names[k]) for k, value in found.items() if value is None]
+    if unknown:
+        raise InputError(f"locked gives no value for {' and '.join(unknown)}; give {{joint: value}}, rad or m")
+    return tuple(found), np.array(list(found.values()), dtype=np.float64)
+
+
+def single_joints(arm: Arm, failures: FailureSpec | None) -> list[int]:
+    """The joints of :func:`failure_sets`, for what locks one at a time; none for None.
+
+    Raises:
+        TaskError: As for :func:`failure_sets`; a set of several joints.
+        InputError: There is no such joint.
+    """
+    sets = () if failures is None else failure_sets(arm, failures)
+    for s, name in zip(sets, failure_names(arm, sets), strict=True):
+        if len(s) > 1:
+            raise TaskError(f"failure '{name}' is of several joints at once; give joints that lock one at a time")
+    return [s[0] for s in sets]
 
 
 def read_joint(arm: Arm, text: str) -> int:

@@ -1,4 +1,4 @@
-"""Word on stderr of silent work that takes a while: what it is, and how long it will take or else how far it has come."""
+"""Notices on stderr of work that takes a while: what it is, and how long it will take or how far it has come."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ def each(of: str, items: Collection[T], most: bool = False, whole: bool = False,
 
 
 def another(of: str) -> None:
-    """One more is done of something of which nobody knows how many there will be, for example a "figure"."""
+    """One more is done, of an unknown number, for example a "figure"."""
     if _outer is not None and threading.current_thread() is threading.main_thread():
         if of not in _outer.others:
             _outer.others[of] = Count(of, 0).__enter__()
@@ -235,7 +235,7 @@ def unheard(count: int) -> None:
 
 
 def told(done: int, total: int, left: float | None = None) -> None:
-    """Somebody tells of this work already."""
+    """This work is being told of already."""
 
 
 def _shown(seconds: float) -> str:

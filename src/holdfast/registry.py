@@ -88,7 +88,7 @@ def constructor(
 
 @dataclass(frozen=True)
 class Entry:
-    """One thing that has a name.
+    """A named constructor with its parameters.
 
     Attributes:
         kind: ``"index"``, ``"control law"`` or ``"susceptibility"``.
@@ -167,7 +167,7 @@ class Labelled:
 
 
 class Registry(Mapping[str, Entry]):
-    """Everything of one kind that has a name.
+    """All entries of one kind.
 
     Args:
         kind: What one is called.
@@ -214,7 +214,7 @@ class Registry(Mapping[str, Entry]):
         return self[name], self[name].read(value, by_key, what)
 
     def make(self, label: str, arm: Any, *, option: str = "", **options: Any) -> Any:
-        """The thing of an arm that a label stands for.
+        """What a label names, for an arm.
 
         Args:
             label: Name and settings.

@@ -1,4 +1,4 @@
-"""What an analysis returns: it computes, and what draws and writes it lies above and is looked up by name."""
+"""The base of results; what draws and writes them lies above and is looked up by name."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Result:
         return files
 
     def figures(self, *args: Any, **options: Any) -> dict[str, Figure]:
-        """What there is to see, by name."""
+        """Its figures by name."""
         drawn: dict[str, Figure] = self._presented("figures", *args, **options)
         return drawn
 

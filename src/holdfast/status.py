@@ -1,4 +1,4 @@
-"""What became of one row of a batch: one table for the whole library.
+"""The status of one row of a batch, the same for the whole library.
 
 A batch cannot raise for row 17, so solvers and indices return one byte per row; ``require_ok`` of a result
 turns the first bad row into an error at the edge.

@@ -58,7 +58,7 @@ def fixed(x: float, digits: int) -> str:
 
 
 def as_given(x: float) -> str:
-    """A number somebody chose, as it was chosen."""
+    """A number as it was given."""
     return f"{x:.6g}".replace("-", "−")
 
 

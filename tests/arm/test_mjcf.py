@@ -265,5 +265,5 @@ def test_the_outermost_element_of_an_xml_file_tells_what_it_is(tmp_path):
     urdf.write_text(f"<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")
     assert arms.resolve(str(urdf)).joint_names == ("u",)
     urdf.write_text("this is not XML")
-    with pytest.raises(hf.ArmError, match="not sound XML"):
+    with pytest.raises(hf.ArmError, match="not valid XML"):
         arms.resolve(str(urdf))

@@ -79,7 +79,7 @@ BAD: list[tuple[Any, str]] = [
     (lambda: Joint("j", "revolute", np.eye(4), axis=np.array([np.nan, 0, 1])), "axis of joint 'j' is"),
     (
         lambda: Joint("j", "revolute", np.eye(4), axis=AXIS, lower=1, upper=-1),
-        "limits of joint 'j' are upside down: lower 1 is above upper -1; swap them",
+        "limits of joint 'j' are reversed: lower 1 is above upper -1; swap them",
     ),
     (lambda: Link(1.0, np.zeros(2), np.eye(3), name="l"), "link 'l': com has shape (2,) and inertia (3, 3); they must be"),
     (lambda: Link(1.0, np.zeros(3), np.eye(2)), "link: com has shape (3,) and inertia (2, 2); they must be (3,) and (3, 3)"),

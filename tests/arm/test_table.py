@@ -155,7 +155,7 @@ def test_numbers_without_a_point_in_scientific_notation_are_numbers(tmp_path: Pa
 ROW = "{a: 1, alpha: 0}"
 BODY = "mass: 1, com: [0, 0, 0], inertia: [1, 1, 1, 0, 0, 0]"
 REFUSED = [
-    ("rows: [", "this is not sound YAML"),
+    ("rows: [", "this is not valid YAML"),
     ("- 1", "the file must hold keys and values, at least rows"),
     ("", "the file must hold keys and values, at least rows"),
     ("name: x", "rows: it is missing; it must be given"),
@@ -210,7 +210,7 @@ REFUSED = [
         f"rows: [{ROW}]\npayload: {{mass: 1, com: [0, 0, 0], inertia: [[1, 1, 0], [0, 1, 0], [0, 0, 1]]}}",
         "link 'payload': the inertia matrix is not symmetric",
     ),
-    ("rows: [{a: 1, alpha: 0, lower: 2, upper: 1}]", "limits of joint 'joint1' are upside down"),
+    ("rows: [{a: 1, alpha: 0, lower: 2, upper: 1}]", "limits of joint 'joint1' are reversed"),
     ("rows: [{a: 1, alpha: 0, name: x}, {a: 1, alpha: 0, name: x}]", "the joint name 'x' is used more than once"),
 ]
 
@@ -228,5 +228,5 @@ def test_unreadable_files(tmp_path: Path) -> None:
     with pytest.raises(ArmError, match=r"none.yaml: the file cannot be read \(No such file or directory\)"):
         table.load(tmp_path / "none.yaml")
     (tmp_path / "arm.yaml").write_bytes(b"\xff\xfe\xfa")
-    with pytest.raises(ArmError, match="this is not sound YAML"):
+    with pytest.raises(ArmError, match="this is not valid YAML"):
         table.load(tmp_path / "arm.yaml")

@@ -373,7 +373,7 @@ REFUSED = [
     (
         AB + joint("j", "a", "b", inside="<limit lower='1' upper='-1'/>"),
         {},
-        "joint 'j': its limits are upside down, lower 1 is above upper -1; swap them",
+        "joint 'j': its limits are reversed, lower 1 is above upper -1; swap them",
     ),
     (
         AB + joint("j", "a", "b", inside=""),
@@ -518,9 +518,9 @@ def test_refusals(tmp_path: Path, parts: str, options: dict, sentence: str) -> N
 
 
 RAW = [
-    (b"<robot", "this is not sound XML"),
-    (b"", "this is not sound XML"),
-    (b"<?xml version='1.0' encoding='klingon'?><robot/>", "this is not sound XML"),
+    (b"<robot", "this is not valid XML"),
+    (b"", "this is not valid XML"),
+    (b"<?xml version='1.0' encoding='klingon'?><robot/>", "this is not valid XML"),
     (b"<sdf/>", "the outermost element is <sdf>; a URDF file has <robot>"),
     (
         b"<robot xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:include filename='x'/></robot>",

@@ -215,7 +215,7 @@ def test_report_and_command_say_where_joints_lock(arm, region, tmp_path, after_l
     assert "−71.6 deg (−1.25 rad)" in html
     assert ("where it stood at another pose" in html) == after_lock
     assert "Right: with joint" in html
-    assert "--lock-at joint3=-1.25" in html
+    assert "--lock joint3=-1.25" in html
     command, _ = rerun.command_line(run)
     assert ("--after-lock" in command) == after_lock
 

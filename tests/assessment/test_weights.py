@@ -232,7 +232,7 @@ BAD_TABLES = {
     "no poses": (HEAD, "no poses below the header"),
     "no header": ("0,0,0,0,0,0,1\n", "column '0'"),
     "unknown column": ("x,y,z,qx,qy,qz,qw,speed\n0,0,0,0,0,0,1,1\n", "'speed' is not known"),
-    "twice": ("x,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "'x' is there twice"),
+    "twice": ("x,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "'x' is given twice"),
     "missing": ("x,y,z,qx,qy,qz\n0,0,0,0,0,0\n", "'qw' is missing"),
     "short": (HEAD + "0,0,0,0,0,0,1\n0,0,0\n", "line 3 has 3 cells"),
     "word": (HEAD + "0,0,here,0,0,0,1\n", "line 2.*'here'"),

@@ -82,7 +82,7 @@ def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator:
     def served(protocol: Protocol, *options: str, folder: Path | None = None) -> Served:
         if folder is None:
             new = tmp_path_factory.mktemp("served")
-            folder, options = new / "study", (*options, "--protocol", str(protocol.write(new / "protocol.yaml")))
+            folder, options = new / "experiment", (*options, "--protocol", str(protocol.write(new / "protocol.yaml")))
         process = subprocess.Popen(command_line(folder, *options), stdout=subprocess.PIPE, text=True)
         running.append(process)
         return Served.of(folder, process)
@@ -95,7 +95,7 @@ def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator:
 
 
 @pytest.fixture(scope="package")
-def study(serve, protocol) -> Served:
+def experiment(serve, protocol) -> Served:
     """One that the tests share, each with subjects of its own."""
     return serve(protocol, "--tlx")
 
@@ -134,8 +134,8 @@ def contexts(browser) -> Iterator:
 
 
 @pytest.fixture
-def line(study) -> Iterator[Line]:
+def line(experiment) -> Iterator[Line]:
     """To the shared server; a test can cut it."""
-    with_end = Line(study.port)
+    with_end = Line(experiment.port)
     yield with_end
     with_end.close()

@@ -73,7 +73,7 @@ class Station:
         for text, push in (("to the right", "push(1, 0)"), ("forward", "push(0, 1)")):
             said.filter(has_text=text).wait_for()
             self.operator(push)
-            said.filter(has_text="let go").wait_for()
+            said.filter(has_text="release").wait_for()
             self.operator("push(0, 0)")
         said.filter(has_text="Press the button").wait_for()
         self.operator("pad.buttons[6].pressed = true")

@@ -17,7 +17,7 @@ from holdfast.teleop.trials.scenarios import Scenario
 @pytest.fixture(scope="module")
 def led(serve, tmp_path_factory):
     """Served: three who are done, for a report, and a training so long that the next one is still at it."""
-    folder = tmp_path_factory.mktemp("led") / "study"
+    folder = tmp_path_factory.mktemp("led") / "experiment"
     whole = read_protocol()
     few = whole.with_tasks(whole.tasks.take(np.array([0, 2, 3])), ["a", "b", "c"])
     laws = [("pseudoinverse", False, {}), ("pseudoinverse", True, {}), ("damped", True, {"damping": 0.1})]
@@ -99,7 +99,7 @@ def test_an_experiment_is_watched_and_led(contexts, parts):
     robot.get_by_test_id("paused").wait_for()
     assert at("note").input_value() == "A chair fell over, tw"
 
-    # The session goes on in another page, which still has to be let go on.
+    # The session has moved to another page, which is still paused.
     at("resume").click()
     at("confirm-no").click()
     assert at("resume-url").count() == 0

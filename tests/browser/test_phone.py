@@ -3,8 +3,8 @@
 from browser.station import Station
 
 
-def test_a_phone_shows_all_of_a_trial(contexts, study):
-    station = Station(contexts(), study.station)
+def test_a_phone_shows_all_of_a_trial(contexts, experiment):
+    station = Station(contexts(), experiment.station)
     station.page.set_viewport_size({"width": 390, "height": 844})
 
     def fits(scrolls: bool = True) -> None:

@@ -16,8 +16,8 @@ from holdfast.teleop.records.records import Records
 OUTAGE = float(os.environ.get("HOLDFAST_OUTAGE", "2"))  # s; make soak has 30
 
 
-def test_a_whole_session_with_a_gamepad(contexts, study):
-    station = Station(contexts(), study.station)
+def test_a_whole_session_with_a_gamepad(contexts, experiment):
+    station = Station(contexts(), experiment.station)
     station.calibrate()
     station.join("pad")
     for part in (1, 2):
@@ -53,7 +53,7 @@ def test_a_whole_session_with_a_gamepad(contexts, study):
     station.at("next-subject").click()
     station.at("setup").wait_for()
 
-    done, entries = compare(study.folder, "pad", station.said)
+    done, entries = compare(experiment.folder, "pad", station.said)
     assert [(d.kind, d.position, d.end) for d in done] == [
         ("training", 0, "aborted"),
         ("training", 1, "arrived"),
@@ -63,7 +63,7 @@ def test_a_whole_session_with_a_gamepad(contexts, study):
         ("trial", 3, "arrived"),
     ]
     assert [d.rating for d in done] == [None, None, *(r - 1 for r in ratings)]
-    with Records.open(study.folder) as records:
+    with Records.open(experiment.folder) as records:
         subject, protocol = records.subject("pad"), records.protocol
         order = protocol.session(subject.row, subject.number)
         assert [(e.task, e.scenario) for e in entries[2:]] == [tuple(row) for row in order]
@@ -83,15 +83,15 @@ def test_a_whole_session_with_a_gamepad(contexts, study):
         **{f"tlx.{name}": 50 + 5 * (k + 1) * (1 if k % 2 else -1) for k, name in enumerate(tlx)},
     }
     replayed = subprocess.run(
-        [sys.executable, "-m", "holdfast", "teleop", "replay", str(study.folder)], capture_output=True, text=True
+        [sys.executable, "-m", "holdfast", "teleop", "replay", str(experiment.folder)], capture_output=True, text=True
     )
     assert replayed.returncode == 0, replayed.stdout + replayed.stderr
     assert " 0 differ" in replayed.stdout
 
 
 @pytest.mark.parametrize("device", ["pointer", "keys"])
-def test_other_sticks(contexts, study, device):
-    station = Station(contexts(), study.station)
+def test_other_sticks(contexts, experiment, device):
+    station = Station(contexts(), experiment.station)
     steer = station.steer_keys if device == "keys" else station.steer_pointer
     station.enter(device, device)
     steer()
@@ -99,15 +99,15 @@ def test_other_sticks(contexts, study, device):
     steer()
     station.rate(2)
     station.settled()
-    done, _ = compare(study.folder, device, station.said)
+    done, _ = compare(experiment.folder, device, station.said)
     assert [(d.kind, d.end, d.rating) for d in done] == [("training", "arrived", None), ("trial", "arrived", 1)]
     if device == "keys":  # along an axis, or half-way between two
         for right, up in (v for d in done for v in d.velocity):
             assert right == 0 or up == 0 or abs(right) == abs(up)
 
 
-def test_the_network_is_lost_and_comes_back(contexts, study, line):
-    station = Station(contexts("WebSocket connection"), study.station.replace(str(study.port), str(line.port)))
+def test_the_network_is_lost_and_comes_back(contexts, experiment, line):
+    station = Station(contexts("WebSocket connection"), experiment.station.replace(str(experiment.port), str(line.port)))
     station.enter("cut")
     station.steer()
     station.at("trials-begin").click()
@@ -117,7 +117,7 @@ def test_the_network_is_lost_and_comes_back(contexts, study, line):
     station.page.locator("[data-testid=connection][data-online=false]").wait_for()
     station.until(lambda: time.monotonic() > begun + OUTAGE, "the end of the outage")
     # All that was before is on the disk, and the rest is not.
-    with Records.open(study.folder) as records:
+    with Records.open(experiment.folder) as records:
         before = records.count(records.latest("cut"))
     station.operator("goal = 'target'")
     station.rate(3)
@@ -126,20 +126,20 @@ def test_the_network_is_lost_and_comes_back(contexts, study, line):
     assert int(station.at("connection").get_attribute("data-waiting")) > 3
     line.mend()
     station.settled()
-    done, _ = compare(study.folder, "cut", station.said)
+    done, _ = compare(experiment.folder, "cut", station.said)
     assert [(d.kind, d.position, d.end, d.rating) for d in done[1:]] == [("trial", 0, "arrived", 2), ("trial", 1, "arrived", 0)]
     assert before < len(done[1].time)
     # The arm went on through it, at its rate.
     assert np.diff(done[1].time).max() < max(1.0, OUTAGE / 2)
     assert done[1].time[-1] > OUTAGE
-    with Records.open(study.folder) as records:
+    with Records.open(experiment.folder) as records:
         [lost] = [e for e in records.events("offline") if e["subject"] == "cut"]
     assert lost["data"]["seconds"] > OUTAGE
 
 
-def test_a_closed_tab_goes_on_where_it_stopped(contexts, study, line):
+def test_a_closed_tab_goes_on_where_it_stopped(contexts, experiment, line):
     context = contexts("WebSocket connection")
-    url = study.station.replace(str(study.port), str(line.port))
+    url = experiment.station.replace(str(experiment.port), str(line.port))
     first = Station(context, url)
     first.enter("tab")
     first.steer()
@@ -170,7 +170,7 @@ def test_a_closed_tab_goes_on_where_it_stopped(contexts, study, line):
     third.steer()
     third.rate(4)
     third.settled()
-    done, _ = compare(study.folder, "tab", third.said)
+    done, _ = compare(experiment.folder, "tab", third.said)
     assert [(d.position, d.end == "arrived", d.rating) for d in done[1:]] == [
         (0, True, 1),
         (1, False, None),
@@ -182,8 +182,8 @@ def test_a_closed_tab_goes_on_where_it_stopped(contexts, study, line):
     assert all(len(d.time) for d in done)
 
 
-def test_two_stations_at_once(contexts, study):
-    left, right = Station(contexts(), study.station), Station(contexts(), study.station)
+def test_two_stations_at_once(contexts, experiment):
+    left, right = Station(contexts(), experiment.station), Station(contexts(), experiment.station)
     for station, code in ((left, "left"), (right, "right")):
         station.enter(code)
     for part in ("training", "trial"):
@@ -197,14 +197,14 @@ def test_two_stations_at_once(contexts, study):
                 station.settled()
     rows = set()
     for station, code in ((left, "left"), (right, "right")):
-        done, _ = compare(study.folder, code, station.said)
+        done, _ = compare(experiment.folder, code, station.said)
         assert [(d.kind, d.end) for d in done] == [("training", "arrived"), ("trial", "arrived")]
-        with Records.open(study.folder) as records:
+        with Records.open(experiment.folder) as records:
             rows.add(records.subject(code).row)
     assert len(rows) == 2
 
     # The same session in another tab: the older one is told so, and the newer one goes on.
-    newer = Station(left.context, study.station)
+    newer = Station(left.context, experiment.station)
     newer.set_up("gamepad")
     newer.at("continue").click()
     newer.at("trial").wait_for()
@@ -212,18 +212,18 @@ def test_two_stations_at_once(contexts, study):
     newer.steer()
     newer.rate(2)
     newer.settled()
-    done, _ = compare(study.folder, "left", newer.said)
+    done, _ = compare(experiment.folder, "left", newer.said)
     assert [(d.position, d.end) for d in done[1:]] == [(0, "arrived"), (1, "arrived")]
 
 
-def test_a_dry_run_plays_a_whole_session(contexts, study):
-    station = Station(contexts(), f"{study.station}?robot=5")
+def test_a_dry_run_plays_a_whole_session(contexts, experiment):
+    station = Station(contexts(), f"{experiment.station}?robot=5")
     station.at("debriefing").wait_for(timeout=300_000)
     station.settled()
     code = station.at("subject").inner_text().removeprefix("Code ")
-    done, _ = compare(study.folder, code, station.said)
+    done, _ = compare(experiment.folder, code, station.said)
     assert [d.kind for d in done if d.end != "broken-off"][-4:] == ["trial"] * 4
-    with Records.open(study.folder) as records:
+    with Records.open(experiment.folder) as records:
         subject = records.subject(code)
     assert (subject.kind, subject.state) == (Who.SIMULATED, State.COMPLETED)
     assert {"consent", "demographics", "tlx"} <= subject.answers.keys()

@@ -104,7 +104,7 @@ def test_there_and_back_through_json(mixed7, rng):
 
 PART = "from: [0, 0, 0], to: [0, 0, 1]"
 REFUSED = [
-    ("links: [", "this is not sound YAML"),
+    ("links: [", "this is not valid YAML"),
     ("- 1", "the file must hold keys and values, at least radius or links; see holdfast.clearance.capsules"),
     ("ignore: []", "it gives neither radius nor links"),
     ("radius: 0", "radius: 0 is wrong; input should be greater than 0"),

@@ -266,7 +266,7 @@ def test_assess_locks_at_given_angles_and_failure_rates(cli, ask, tmp_path):
     folder = tmp_path / "run"
     common = ("assess", "planar-3r", "--poses", 100, "--seed", 2)
     rates = ("--failure-rate", "joint2=1", "--failure-rate", "3=3")
-    data = ask(*common, "--lock-at", "2=0.5", "--lock-at", "joint3=-1", *rates, "--out", folder)
+    data = ask(*common, "--lock", "2=0.5", "--lock", "joint3=-1", *rates, "--out", folder)
     arm = arms.load("planar-3r")
     run = hf.assess(arm, hf.Region.from_dict(data["region"]), task="planar", poses=100, seed=2, locked={1: 0.5, 2: -1.0})
     shares = run.survival()
@@ -279,7 +279,7 @@ def test_assess_locks_at_given_angles_and_failure_rates(cli, ask, tmp_path):
     assert data["expected_survival"] == run.expected_survival({"joint2": 1, "joint3": 3})
     assert ask("report", folder, *rates)["expected_survival"] == data["expected_survival"]
     assert ask("report", folder)["expected_survival"] is None
-    code, out, _ = cli(*common, "--after-lock", "--lock-at", "2=0.5", *rates)
+    code, out, _ = cli(*common, "--after-lock", "--lock", "2=0.5", *rates)
     assert code == 0
     for part in ("28.65 deg", "as at another pose", "after a failure, by how often each joint fails"):
         assert part in " ".join(out.split()), part
@@ -477,10 +477,10 @@ BAD = {
     "the same set twice": (["assess", "pa10-9dof", "--failures", "1; joint1"], ["twice"]),
     "too many together": (["assess", "panda", "--failures", "pairs"], ["locking 2 of the 7 joints"]),
     "0 together": (["assess", "panda", "--failures", "0"], ["cannot fail together", "1 to 6"]),
-    "lock beyond the limits": (["assess", "planar-3r", "--lock-at", "joint2=9"], ["'joint2' cannot lock at 9 rad", "limits"]),
-    "lock nowhere": (["assess", "planar-3r", "--lock-at", "joint2"], ["--lock-at 'joint2' is not joint=number"]),
-    "lock of nobody": (["assess", "planar-3r", "--lock-at", "4=0"], ["joint 4 is out of range"]),
-    "lock twice": (["assess", "planar-3r", "--lock-at", "2=0", "--lock-at", "joint2=1"], ["'joint2' twice"]),
+    "lock beyond the limits": (["assess", "planar-3r", "--lock", "joint2=9"], ["'joint2' cannot lock at 9 rad", "limits"]),
+    "lock nowhere": (["assess", "planar-3r", "--lock", "joint2"], ["--lock 'joint2' is not joint=number"]),
+    "lock of nobody": (["assess", "planar-3r", "--lock", "4=0"], ["joint 4 is out of range"]),
+    "lock twice": (["assess", "planar-3r", "--lock", "2=0", "--lock", "joint2=1"], ["'joint2' twice"]),
     "rate without a lock": (["assess", "planar-3r", "--failure-rate", "2=1"], ["needs its lock", "--after-lock"]),
     "negative rate": (["assess", "planar-3r", "--after-lock", "--failure-rate", "2=-1"], ["failure rates must be"]),
     "negative poses": (["assess", "pa10-9dof", "--poses", "-3"], ["poses is -3; it must be 1 or more"]),
@@ -525,7 +525,7 @@ def test_bad_input_is_one_sentence(case, refused):
     [
         ("box: {center: [0, 0, 0], size: 1, edge: 2}", ["'box.edge' is not known", "rpy_size"]),
         ("box: {center: [0, 0, .nan], size: 1}", ["center", "finite"]),
-        ("box: [", ["not sound YAML"]),
+        ("box: [", ["not valid YAML"]),
         ("joints: {lower: [0], upper: [1]}", ["1 joints", "9"]),
     ],
 )
@@ -680,7 +680,7 @@ BAD_URDF = {
             links=["base", "l1", "l2"],
         ),
         [],
-        ["'b'", "upside down", "lower 1", "upper -1"],
+        ["'b'", "reversed", "lower 1", "upper -1"],
     ),
     "loop": (robot(*CHAIN, joint("c", "revolute", "l2", "l1"), links=["base", "l1", "l2"]), [], ["l1"]),
     "not XML": ("<robot", [], ["XML"]),

@@ -30,7 +30,7 @@ def test_random_motions_are_those_of_the_library(ask):
 
 def test_a_table_for_people_and_a_folder(cli, tmp_path):
     out = tmp_path / "laws"
-    code, said, err = cli(*CALL, "--motions", "8", "--lock", "2", "--lock", "joint3", "--out", out)
+    code, said, err = cli(*CALL, "--motions", "8", "--failures", "joint2; 3", "--out", out)
     assert (code, err) == (0, "")
     assert "With one joint locked and nobody aware of it" in said
     assert "joint2" in said
@@ -45,7 +45,7 @@ def test_a_table_for_people_and_a_folder(cli, tmp_path):
 
 
 def test_one_motion_of_ones_own(ask):
-    data = ask(*CALL, "--start", "20 40 60", "--degrees", "--target", "1.5,1.5", "--lock", "none")
+    data = ask(*CALL, "--start", "20 40 60", "--degrees", "--target", "1.5,1.5", "--failures", "none")
     assert data["motions"] == 1
     assert [r["failure"] for r in data["outcomes"]] == ["healthy", "healthy"]
     assert "gains" not in data
@@ -73,9 +73,10 @@ def test_laws_with_their_settings():
         (["--law", "damped"], "needs damping"),
         (["--start", "0,0,0"], "--start and --target go together"),
         (["--start", "0,0,0", "--target", "1,1", "--motions", "3"], "leave out --start and --target"),
-        (["--lock", "2@0.5"], "joints lock at the start"),
-        (["--lock", "each", "--lock", "2"], "stands alone"),
-        (["--lock", "7"], "joints 1 to 3"),
+        (["--failures", "2"], "failure 'joint1+joint2' is of several joints at once"),
+        (["--failures", "elbow"], "elbow"),
+        (["--failures", "joint1; 7"], "joints 1 to 3"),
+        (["--reachable-after", "joint1+joint2"], "failure 'joint1+joint2' is of several joints at once"),
         (["--distance", "1"], "--distance has 1 numbers"),
         (["--motions", "0"], "count is 0"),
     ],

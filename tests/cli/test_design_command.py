@@ -81,8 +81,8 @@ def test_a_search_and_its_files(cli, ask, region, tmp_path):
     ("options", "words"),
     [
         ((), "--vary"),
-        (("--vary", "b3=0..1"), "'b3' is no parameter of an arm"),
-        (("--vary", "a3=1.4..0.6"), "bounds of a3 are upside down: 1.4 m is above 0.6 m"),
+        (("--vary", "b3=0..1"), "'b3' is not a parameter of an arm"),
+        (("--vary", "a3=1.4..0.6"), "bounds of a3 are reversed: 1.4 m is above 0.6 m"),
         (("--vary", "theta3=-90..90"), "bounds of an angle need their unit; write theta3=-90..90deg"),
         (("--vary", "a3=0.1..0.5"), "a3 of 'planar-3r' is 1 m, outside the bounds 0.1 m to 0.5 m"),
         (("--vary", "a4=0..1"), "'planar-3r' has no row 4"),

@@ -6,9 +6,9 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-POINTS = ["stationary-points", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
+POINTS = ["stationary-points", "planar-3r", "--target", "1.5,1.5", "--lock", "2=140", "--degrees"]
 CURVES = ["stationary-points", "planar-3r", "--target", "1.5,1.5", "--lock", "2"]
-BASINS = ["basins", "planar-3r", "--target", "1.5,1.5", "--lock", "2", "--at", "140", "--degrees"]
+BASINS = ["basins", "planar-3r", "--target", "1.5,1.5", "--lock", "2=140", "--degrees"]
 
 
 def test_rest_points(cli, ask):
@@ -49,8 +49,10 @@ def test_basins_are_printed_and_drawn(cli, ask, tmp_path):
     ("arguments", "words"),
     [
         ([*POINTS, "--plot", "x.png"], "--plot draws curves"),
-        ([*POINTS, "--lock", "1"], "--at has 1 numbers; give one for each of the 2"),
-        ([*CURVES, "--lock", "1"], "curves over the locked value are those of one"),
+        ([*POINTS, "--lock", "1"], "locked gives no value for 'joint1'; give {joint: value}"),
+        ([*POINTS, "--lock", "2=1"], "--lock gives joint 'joint2' twice"),
+        ([*CURVES, "--lock", "1"], "locked gives no value for 'joint2' and 'joint1'"),
+        ([*BASINS, "--lock", "1"], "--lock '1' is not joint=number; write for example --lock joint1=0.3"),
         ([*BASINS, "--grid", "1"], "2 or more cells"),
         (["stationary-points", "planar-3r", "--target", "1", "--lock", "2"], "--target has 1 numbers"),
     ],

@@ -42,7 +42,7 @@ LEAN = [
     (["susceptibility", "planar-3r", *Q], FILES),
     (["optimise", "planar-3r", "--at", "0.3 0.5 0.7", "--minimise", "torque"], FILES),
     (["simulate", *PLANAR, "--start", "0.3 0.5 0.7", "--lock", "2"], FILES),
-    (["stationary-points", *PLANAR, "--lock", "2", "--at", "1"], FILES),
+    (["stationary-points", *PLANAR, "--lock", "2=1"], FILES),
     (["self-motion", *PLANAR, "--bounds"], FILES),
     (["teleop", "protocol"], FILES),
     (["teleop", "allocation"], FILES),

@@ -19,7 +19,7 @@ from holdfast.teleop.bank.tasks import task_bank
 from holdfast.teleop.protocol.protocol import Training, read_protocol
 from holdfast.teleop.records.file import alone
 from holdfast.teleop.records.records import Records
-from holdfast.teleop.records.tables import bank_table, computer_table, hand_paths
+from holdfast.teleop.records.tables import bank_table, computer_table, tool_paths
 
 
 @pytest.fixture(scope="module")
@@ -31,18 +31,18 @@ def tiny(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def study(tiny, tmp_path_factory):
+def experiment(tiny, tmp_path_factory):
     """An experiment, made once; tests that change it take a copy."""
     from holdfast.teleop.rehearsal import simulate_experiment
 
-    folder = tmp_path_factory.mktemp("made") / "study"
+    folder = tmp_path_factory.mktemp("made") / "experiment"
     simulate_experiment(folder, read_protocol(tiny), 3, seed=2).close()
     return folder
 
 
 @pytest.fixture
-def copy(study, tmp_path):
-    return shutil.copytree(study, tmp_path / "copy")
+def copy(experiment, tmp_path):
+    return shutil.copytree(experiment, tmp_path / "copy")
 
 
 def table(file):
@@ -125,7 +125,7 @@ def test_figure_names_what_has_no_place(rng):
 
 
 def test_from_run_to_report(cli, tiny, tmp_path):
-    out = tmp_path / "study"
+    out = tmp_path / "experiment"
     code, text, err = cli("teleop", "run", "--simulated", "--operators", "6", "--seed", "1", "--protocol", tiny, "--out", out)
     assert (code, err) == (0, "")
     assert "6 simulated operators" in text
@@ -176,9 +176,9 @@ def test_subjects_are_listed_dropped_and_deleted(cli, refused, copy, monkeypatch
     assert "not both" in refused("teleop", "subjects", copy, "--delete", "S02", "--drop", "S02")
 
 
-def test_paths_are_those_of_the_records(study):
-    with Records.open(study) as records:
-        path = hand_paths(records)
+def test_paths_are_those_of_the_records(experiment):
+    with Records.open(experiment) as records:
+        path = tool_paths(records)
         entry = next(e for e in records.entries("S02") if e.task == 2 and e.scenario == 3)
         np.testing.assert_array_equal(path("S02", 3, 4), records.trials([entry]).path(0))
         machine = path(None, 3, 4)
@@ -248,14 +248,14 @@ def test_bad_calls_get_one_sentence(refused, tmp_path, monkeypatch, call, senten
     assert not list(tmp_path.iterdir())
 
 
-def test_bad_options_of_an_analysis(refused, study):
-    assert "missing is 'drop'" in refused("teleop", "analyse", study, "--missing", "drop")
-    assert "difficulty is 'me'" in refused("teleop", "analyse", study, "--difficulty", "me")
-    assert "groups" in refused("teleop", "analyse", study, "--groups", "9")
-    assert not (study / "report.html").exists()
+def test_bad_options_of_an_analysis(refused, experiment):
+    assert "missing is 'drop'" in refused("teleop", "analyse", experiment, "--missing", "drop")
+    assert "difficulty is 'me'" in refused("teleop", "analyse", experiment, "--difficulty", "me")
+    assert "groups" in refused("teleop", "analyse", experiment, "--groups", "9")
+    assert not (experiment / "report.html").exists()
 
 
-def test_a_used_folder_is_refused(refused, tiny, study):
-    before = (study / "records.sqlite").read_bytes()
-    assert "not an empty folder" in refused("teleop", "run", "--simulated", "--protocol", tiny, "--out", study)
-    assert (study / "records.sqlite").read_bytes() == before
+def test_a_used_folder_is_refused(refused, tiny, experiment):
+    before = (experiment / "records.sqlite").read_bytes()
+    assert "not an empty folder" in refused("teleop", "run", "--simulated", "--protocol", tiny, "--out", experiment)
+    assert (experiment / "records.sqlite").read_bytes() == before

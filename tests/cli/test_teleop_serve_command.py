@@ -24,21 +24,21 @@ def served(monkeypatch):
 
 
 def test_a_new_folder_begins_an_experiment(cli, served, tmp_path):
-    code, text, err = cli("teleop", "serve", "--data", tmp_path / "study", "--port", "0", "--tlx")
+    code, text, err = cli("teleop", "serve", "--data", tmp_path / "experiment", "--port", "0", "--tlx")
     assert (code, err) == (0, "")
     ((options, host, port),) = served
     assert (host, port, options.tlx, options.guard.token, options.guard.loopback) == ("127.0.0.1", 0, True, None, True)
     assert "station:      http://127.0.0.1:4711/\n" in text
     assert f"experimenter: http://127.0.0.1:4711/experimenter?key={options.guard.key}\n" in text
-    with Records.open(tmp_path / "study") as records:
+    with Records.open(tmp_path / "experiment") as records:
         assert records.protocol.text() == read_protocol().text()
-    again = cli("teleop", "serve", "--data", tmp_path / "study", "--protocol", "goel2003")
+    again = cli("teleop", "serve", "--data", tmp_path / "experiment", "--protocol", "goel2003")
     assert again[0] == 0
     assert served[1][0].guard.key != options.guard.key
 
 
 def test_other_computers_need_the_token(cli, served, tmp_path):
-    call = ["teleop", "serve", "--data", tmp_path / "study", "--host", "0.0.0.0", "--token", "k3vR-9fQzT1m"]
+    call = ["teleop", "serve", "--data", tmp_path / "experiment", "--host", "0.0.0.0", "--token", "k3vR-9fQzT1m"]
     code, text, _ = cli(*call)
     assert code == 0
     assert "/?token=k3vR-9fQzT1m\n" in text
@@ -48,9 +48,9 @@ def test_other_computers_need_the_token(cli, served, tmp_path):
 
 def test_the_token_need_not_stand_in_the_list_of_processes(cli, served, tmp_path, monkeypatch):
     (tmp_path / "token").write_text("k3vR-9fQzT1m\n# of the laboratory\n")
-    assert cli("teleop", "serve", "--data", tmp_path / "study", "--token-file", tmp_path / "token")[0] == 0
+    assert cli("teleop", "serve", "--data", tmp_path / "experiment", "--token-file", tmp_path / "token")[0] == 0
     monkeypatch.setenv("HOLDFAST_TOKEN", "x7Pq-2LmWb8c")
-    assert cli("teleop", "serve", "--data", tmp_path / "study")[0] == 0
+    assert cli("teleop", "serve", "--data", tmp_path / "experiment")[0] == 0
     assert [options.guard.token for options, _, _ in served] == ["k3vR-9fQzT1m", "x7Pq-2LmWb8c"]
 
 
@@ -70,15 +70,15 @@ def test_the_token_need_not_stand_in_the_list_of_processes(cli, served, tmp_path
 )
 def test_bad_calls_get_one_sentence(refused, served, tmp_path, monkeypatch, call, sentence):
     monkeypatch.chdir(tmp_path)
-    data = ["--data", "study"] if call else []
+    data = ["--data", "experiment"] if call else []
     assert sentence in refused("teleop", "serve", *data, *call)
     assert not list(tmp_path.iterdir())
     assert not served
 
 
 def test_another_protocol_is_refused(refused, served, tmp_path):
-    Records.create(tmp_path / "study", read_protocol()).close()
-    call = ["teleop", "serve", "--data", tmp_path / "study", "--protocol", "goel2003-smooth"]
+    Records.create(tmp_path / "experiment", read_protocol()).close()
+    call = ["teleop", "serve", "--data", tmp_path / "experiment", "--protocol", "goel2003-smooth"]
     assert "another protocol" in refused(*call)
     (tmp_path / "used").mkdir()
     (tmp_path / "used" / "x").touch()
@@ -90,7 +90,7 @@ def test_a_port_in_use_is_one_sentence(refused, tmp_path):
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = taken.getsockname()[1]
-        assert "choose another port" in refused("teleop", "serve", "--data", tmp_path / "study", "--port", port)
+        assert "choose another port" in refused("teleop", "serve", "--data", tmp_path / "experiment", "--port", port)
 
 
 def test_without_the_extra_it_says_what_to_install(refused, tmp_path, monkeypatch):
@@ -106,7 +106,7 @@ def test_without_the_extra_it_says_what_to_install(refused, tmp_path, monkeypatc
     for name in [n for n in sys.modules if n.startswith("holdfast.teleop.serve")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setattr(builtins, "__import__", missing)
-    assert "pip install 'holdfast[teleop]'" in refused("teleop", "serve", "--data", tmp_path / "study")
+    assert "pip install 'holdfast[teleop]'" in refused("teleop", "serve", "--data", tmp_path / "experiment")
     assert not list(tmp_path.iterdir())
 
 

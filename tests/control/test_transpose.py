@@ -36,7 +36,7 @@ def test_the_closed_loop_converges_and_its_stationary_points_have_no_slope():
     law, target = hf.control.jacobian_transpose(arm, "planar"), np.array([1.5, 1.5])
     runs = hf.simulate(law, np.array([0.3, 0.5, 0.7]), target)
     assert str(runs.outcome) == "converged"
-    points = hf.stationary_points(law, target, [1], at=[1.0], seed=0)
+    points = hf.stationary_points(law, target, {1: 1.0}, seed=0)
     missed = points.error > 1e-6
     assert missed.any()
     lengths = [1.0, 1.0, 1.0]

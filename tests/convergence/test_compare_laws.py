@@ -192,7 +192,7 @@ def test_the_report_is_well_formed_and_its_tables_can_be_read(compared, tmp_path
 
 def test_nothing_failed_and_control_cycles(laws, motions):
     limited = hf.control.pseudoinverse(laws[0].arm, "planar", speed_limit=0.05)
-    found = hf.compare_laws([limited], motions.q0[:4], motions.target[:4], locked=None, cycles=True)
+    found = hf.compare_laws([limited], motions.q0[:4], motions.target[:4], failures=None, cycles=True)
     case = found.case("pseudoinverse")
     assert found.joints == ()
     assert case.ended("converged").all()
@@ -212,7 +212,7 @@ def compare_html(found):
 def test_bad_rows_stay_theirs(laws, motions):
     q0 = motions.q0[:3].copy()
     q0[1, 0] = np.nan
-    found = hf.compare_laws({"a": laws[0]}, q0, motions.target[0], locked=["joint2"], time_limit=LIMIT)
+    found = hf.compare_laws({"a": laws[0]}, q0, motions.target[0], failures=["joint2"], time_limit=LIMIT)
     case = found.case("a", "joint2")
     assert case.ended("undecided")[1]
     assert np.isfinite(case.error[[0, 2]]).all()
@@ -221,7 +221,7 @@ def test_bad_rows_stay_theirs(laws, motions):
 
 
 def test_targets_as_the_rows_of_the_task(laws, motions, compared):
-    found = hf.compare_laws(laws[:1], motions.q0[:5], motions.target[:5, :2, 3], locked=[1], time_limit=LIMIT)
+    found = hf.compare_laws(laws[:1], motions.q0[:5], motions.target[:5, :2, 3], failures=[1], time_limit=LIMIT)
     np.testing.assert_allclose(found.way, compared.way[:5], atol=1e-12)
     np.testing.assert_array_equal(found.case("pseudoinverse", 1).code, compared.case("pseudoinverse", 1).code[:5])
     np.testing.assert_allclose(found.healthy[0].time, compared.healthy[0].time[:5], rtol=1e-6)
@@ -235,11 +235,16 @@ def test_wrong_input_is_one_sentence(laws, motions, compared, pa10_7):
         (([laws[0], laws[0]], q0, target), "two laws are called 'pseudoinverse'"),
         (([laws[0], other], q0, target), "of another arm or task"),
         ((laws, q0[:3], target[:2]), "q0 has 3 rows and target 2"),
-        ((laws, q0, target, "all"), "locked is 'all'"),
-        ((laws, q0, target, [1, "joint2"]), "names a joint twice"),
     ]:
         with pytest.raises(hf.InputError, match=words):
             hf.compare_laws(*arguments)
+    for failures, words in [
+        ("all", "failures 'all' is not known"),
+        ([1, "joint2"], "listed twice among the failures"),
+        ([["joint1", "joint2"]], "failure 'joint1.joint2' is of several joints at once; give joints that lock one at a time"),
+    ]:
+        with pytest.raises(hf.TaskError, match=words):
+            hf.compare_laws(laws, q0, target, failures=failures)
     for call, words in [
         (lambda: compared.case("magic"), "there is no law 'magic'"),
         (lambda: compared.case("pseudoinverse", "elbow"), "'elbow' was not locked"),

@@ -47,7 +47,7 @@ def test_targets_that_stay_within_reach_are_kept_and_only_those(arm, rng, joint)
     """Closed form: two links reach a ring about where they begin, whatever stands."""
     seed = seeds(rng)
     every = hf.point_to_point(arm, 200, seed=seed)
-    kept = hf.point_to_point(arm, 60, seed=seed, reachable_after=[joint], task="planar")
+    kept = hf.point_to_point(arm, 60, seed=seed, failures=[joint], task="planar")
     reached = in_ring(every, joint)
     clear = np.abs(margin(every, joint)) > 1e-6
     told = (every.q0[:, None] == kept.q0[None]).all(axis=2).any(axis=1)
@@ -78,11 +78,12 @@ def in_ring(motions, joint):
         ({"count": 0}, "count is 0"),
         ({"count": 3, "distance": (2, 1)}, "distance is 2 to 1 m"),
         ({"count": 3, "distance": (50, 60)}, "only 0 of"),
-        ({"count": 3, "reachable_after": "all"}, "reachable_after is 'all'"),
-        ({"count": 3, "reachable_after": ["elbow"]}, "elbow"),
-        ({"count": 3, "reachable_after": [1], "restarts": 0}, "restarts is 0"),
+        ({"count": 3, "failures": "all"}, "failures 'all' is not known"),
+        ({"count": 3, "failures": ["elbow"]}, "elbow"),
+        ({"count": 3, "failures": "pairs"}, "failure 'joint1.joint2' is of several joints at once"),
+        ({"count": 3, "failures": [1], "restarts": 0}, "restarts is 0"),
     ],
 )
 def test_wrong_wishes_are_one_sentence(arm, options, words):
-    with pytest.raises(hf.InputError, match=words):
+    with pytest.raises((hf.InputError, hf.TaskError), match=words):
         hf.point_to_point(arm, **options)

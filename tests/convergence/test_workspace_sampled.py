@@ -60,7 +60,7 @@ def test_a_spatial_arm_beside_plain_simulations(sampled, spatial, goal):
     for j in range(arm.n):
         values = q[..., j].ravel()
         held = np.clip(values, arm.lower[j], arm.upper[j])
-        found = hf.reachable_when_locked(arm, goal, j, at=held, task=law.task, restarts=60).success
+        found = hf.reachable_when_locked(arm, goal, {j: held}, task=law.task, restarts=60).success
         inside[..., j] = (found & (held == values)).reshape(q.shape[:2])
         runs = hf.simulate(law, q.reshape(-1, arm.n), goal, locked=[j], time_limit=2000.0, tolerance=1e-8)
         slow = np.where(runs.error < 0.05, 1.0, np.nan)  # those beside a solution count, others are left out

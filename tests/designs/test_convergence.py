@@ -71,7 +71,7 @@ def test_sinks_are_those_that_tracing_finds_for_one_target():
     law = hf.control.pseudoinverse(arm, "planar")
     r = 1.3
     at, in_reach, held = PlanarRest(law).locked(np.array(lengths), r, angles=180)[0]
-    arcs = hf.stationary_points(law, [r, 0.0], locked=0).sink_arcs
+    arcs = hf.stationary_points(law, [r, 0.0], {0: None}).sink_arcs
     bounds = hf.joint_bounds(arm, [r, 0.0], "planar")[0]
 
     def inside(where):

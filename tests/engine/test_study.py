@@ -430,7 +430,7 @@ sys.path.insert(0, sys.argv[2])
 from toy import cells
 from holdfast.engine import Study, Threads
 some = cells(slow=0.05)
-Study.create(sys.argv[1], "toy", 1, some).run(some, Threads(2), lambda done, *_: print(done, flush=True))
+Study.create(sys.argv[1], "toy", 1, cells=some).run(some, Threads(2), lambda done, *_: print(done, flush=True))
 """
 
 

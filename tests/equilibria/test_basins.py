@@ -1,4 +1,4 @@
-"""Basins and orbits against the published shares, the limit cycle and the arm that turns for ever."""
+"""Basins and orbits against the published shares, the limit cycle and the arm that turns forever."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RAD = np.deg2rad
 
 
 def test_figure_8(three):
-    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(45), starts=200)
+    found = hf.basins(three, [1.5, 1.5], {1: RAD(45)}, starts=200)
     assert found.converged.value == 1
     shares = dict(found.shares)
     assert sorted(shares) == ["solution 1", "solution 2"]
@@ -25,7 +25,7 @@ def test_figure_8(three):
     line = found.boundaries[0][60:200:20]
     across = np.gradient(found.boundaries[0], axis=0)[60:200:20][:, [2, 1, 0]] * [1, 0, -1]
     beside = np.concatenate([line + 0.5 * across, line - 0.5 * across])
-    one, other = np.split(hf.basins(three, [1.5, 1.5], 1, at=RAD(45), starts=beside).end, 2)
+    one, other = np.split(hf.basins(three, [1.5, 1.5], {1: RAD(45)}, starts=beside).end, 2)
     assert (one != other).all()
 
 
@@ -33,12 +33,12 @@ def test_a_joint_that_the_task_does_not_notice():
     """Three links and a wrist at the tool point: wherever the wrist stands, the stuck runs are at the one sink."""
     arm = hf.Arm.from_dh([hf.DH(a=a, alpha=0.0) for a in (1.0, 1.0, 1.0, 0.0)])
     law = hf.control.pseudoinverse(arm, task="planar")
-    found = hf.basins(law, [1.5, 1.5], locked=1, at=RAD(140), starts=40)
+    found = hf.basins(law, [1.5, 1.5], {1: RAD(140)}, starts=40)
     assert dict(found.shares)["sink 1"].value == 1.0
 
 
 def test_a_grid_where_no_start_arrives(three):
-    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(140), grid=8)
+    found = hf.basins(three, [1.5, 1.5], {1: RAD(140)}, grid=8)
     assert found.shape == (8, 8)
     assert found.healthy == (0, 2)
     assert found.converged.value == 0
@@ -67,7 +67,7 @@ def test_limit_cycle(three, angle, width, period):
 @pytest.mark.parametrize(("angle", "rate"), [(10, -3.31), (30, -0.816)])
 def test_an_arm_that_turns_for_ever(three, angle, rate):
     """Fig. 7: no rest point at all, joint 1 turns."""
-    assert len(hf.stationary_points(three, [-0.8, 0.0], locked=2, at=RAD(angle))) == 0
+    assert len(hf.stationary_points(three, [-0.8, 0.0], {2: RAD(angle)})) == 0
     runs = hf.simulate(three, RAD([10.8852, 72.5087, angle]), [-0.8, 0.0], locked=[2], time_limit=500)
     found = orbit(runs)
     assert found.label == "turning"
@@ -78,9 +78,12 @@ def test_an_arm_that_turns_for_ever(three, angle, rate):
 
 def test_wrong_input_is_one_sentence(three):
     with pytest.raises(InputError, match="it takes two healthy joints"):
-        hf.basins(three, [1.5, 1.5], locked=[0, 1], at=[0, 1], grid=5)
+        hf.basins(three, [1.5, 1.5], {0: 0, 1: 1}, grid=5)
     with pytest.raises(InputError, match="starts is 0"):
-        hf.basins(three, [1.5, 1.5], locked=0, at=0.0, starts=0)
+        hf.basins(three, [1.5, 1.5], {0: 0.0}, starts=0)
+    for locked in ({1: None}, 1, "joint2"):
+        with pytest.raises(InputError, match="locked gives no value for 'joint2'"):
+            hf.basins(three, [1.5, 1.5], locked)
     runs = hf.simulate(three, [0.1, 0.2, 0.3], [1.5, 1.5])
     with pytest.raises(InputError, match="did not end moving"):
         orbit(runs)
@@ -89,7 +92,7 @@ def test_wrong_input_is_one_sentence(three):
 
 
 def test_starts_and_ends_as_a_data_set(three):
-    found = hf.basins(three, [1.5, 1.5], locked=1, at=RAD(140), starts=5)
+    found = hf.basins(three, [1.5, 1.5], {1: RAD(140)}, starts=5)
     data = found.to_xarray()
     assert data.start.sel(joint="joint2").values == pytest.approx(RAD(140))
     assert np.array_equal(data.end, found.end)

@@ -67,7 +67,7 @@ def turned(a, b):
 
 @pytest.mark.parametrize(("joint", "angle"), list(TABLE))
 def test_published_table(three, joint, angle):
-    points = hf.stationary_points(three, TARGET, locked=joint, at=RAD(angle))
+    points = hf.stationary_points(three, TARGET, {joint: RAD(angle)})
     expected = TABLE[joint, angle]
     assert len(points) == len(expected)
     for q, kind, eigenvalues in expected:
@@ -82,7 +82,7 @@ def test_published_table(three, joint, angle):
 
 def test_solutions_have_the_eigenvalues_of_the_null_vector(three, rng):
     x = rng.uniform(0.3, 1.5, 2)
-    points = hf.stationary_points(three, x, locked="joint2", at=rng.uniform(1.0, 1.5)).of_kind(Kind.SOLUTION)
+    points = hf.stationary_points(three, x, {"joint2": rng.uniform(1.0, 1.5)}).of_kind(Kind.SOLUTION)
     assert len(points) == 2
     for q, values in zip(points.q, points.eigenvalues, strict=True):
         n = np.linalg.svd(three.arm.jacobian(q)[:2])[2][-1]
@@ -93,7 +93,7 @@ def test_solutions_have_the_eigenvalues_of_the_null_vector(three, rng):
 def test_two_link_arm_rests_where_the_closed_form_says(rho, phi, angle):
     law = Pseudoinverse(arms.load("planar-2r"), "planar")
     x = np.array([1 + rho * np.cos(RAD(phi)), rho * np.sin(RAD(phi))])
-    points = hf.stationary_points(law, x, locked=0, at=0.0)
+    points = hf.stationary_points(law, x, {0: 0.0})
     assert points.kinds == ["sink"]
     assert np.rad2deg(points.q[0, 1]) == pytest.approx(angle, abs=1e-3)
     np.testing.assert_allclose(points.eigenvalues[0], -(2 - x[0]) / (2 * np.sin(points.q[0, 1] / 2) ** 2), atol=1e-8)
@@ -102,7 +102,7 @@ def test_two_link_arm_rests_where_the_closed_form_says(rho, phi, angle):
 def test_folded_line_is_a_continuum(three):
     """Joint 1 at exactly the angle of the folded arm: a line of rest points besides the two solutions."""
     angle = np.pi / 4 + np.arccos(1 / np.hypot(*TARGET))
-    points = hf.stationary_points(three, TARGET, locked=0, at=angle)
+    points = hf.stationary_points(three, TARGET, {0: angle})
     line = points.continuum
     assert line.sum() > 50
     assert turned(np.rad2deg(points.q[line, 2]), 180).max() < 1e-3
@@ -119,7 +119,7 @@ def test_several_locked_joints(planar4, rng):
     law = Weighted(planar4, [1.0, 2, 0.5, 1], "planar")
     target = planar4.forward_kinematics(rng.uniform(-2, 2, 4))
     at = rng.uniform(-2, 2, 2)
-    points = hf.stationary_points(law, target, locked=[0, 2], at=at)
+    points = hf.stationary_points(law, target, dict(zip([0, 2], at, strict=True)))
     np.testing.assert_allclose(points.q[:, [0, 2]], np.tile((at + np.pi) % (2 * np.pi) - np.pi, (len(points), 1)), atol=1e-12)
     assert points.residual.max() < 1e-7
     q0 = rng.uniform(-np.pi, np.pi, (80, 4))
@@ -132,9 +132,7 @@ def test_several_locked_joints(planar4, rng):
 
 
 def test_redundancy_left_after_the_lock_is_a_continuum_of_solutions(planar4):
-    points = hf.stationary_points(
-        Pseudoinverse(planar4, "planar"), planar4.forward_kinematics([0.3, 0.4, 0.5, 0.6]), locked=1, at=0.4
-    )
+    points = hf.stationary_points(Pseudoinverse(planar4, "planar"), planar4.forward_kinematics([0.3, 0.4, 0.5, 0.6]), {1: 0.4})
     reached = points.kind == Kind.SOLUTION
     assert reached.sum() > 20
     assert points.continuum[reached].all()
@@ -144,12 +142,11 @@ def test_redundancy_left_after_the_lock_is_a_continuum_of_solutions(planar4):
 def test_joints_that_the_task_does_not_notice_are_left_out(rng):
     arm = hf.Arm.from_dh([*[hf.DH(a=a, alpha=0.0) for a in (1.0, 0.8, 0.6)], hf.DH(a=0.0, alpha=0.0)], name="spin")
     law = Damped(arm, 0.1, ["vx", "vy"])
-    points = hf.stationary_points(law, [1.0, 1.0, 0.0][:2], locked=1, at=2.5)
+    points = hf.stationary_points(law, [1.0, 1.0, 0.0][:2], {1: 2.5})
     plain = hf.stationary_points(
         Damped(hf.Arm.from_dh([hf.DH(a=a, alpha=0.0) for a in (1.0, 0.8, 0.6)]), 0.1, ["vx", "vy"]),
         [1.0, 1.0],
-        locked=1,
-        at=2.5,
+        {1: 2.5},
     )
     assert points.eigenvalues.shape[1] == 2
     assert (points.q[:, 3] == 0).all()
@@ -158,21 +155,25 @@ def test_joints_that_the_task_does_not_notice_are_left_out(rng):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("locked", "words"),
     [
-        ({"locked": 0, "at": [1.0, 2.0]}, "one finite value for each of the 1 locked joints"),
-        ({"locked": 0, "at": np.nan}, "finite"),
-        ({"locked": [0, 0], "at": [1, 1]}, "each once"),
-        ({"locked": [0, 1, 2], "at": [1, 1, 1]}, "give 1 to 2"),
-        ({"locked": [0, 1]}, "curves over the locked value are those of one"),
-        ({"locked": "elbow", "at": 1.0}, "elbow"),
+        ({0: [1.0, 2.0]}, r"'joint1' is locked at \[1.0, 2.0\]; give a finite number, rad"),
+        ({0: np.nan}, "finite"),
+        ({0: "far"}, "the lock of 'joint1' is not numbers"),
+        ({0: 1.0, "joint1": 1.0}, "each joint once"),
+        ({0: 1, 1: 1, 2: 1}, "locked names 3 joints of 'planar-3r'; give 1 to 2"),
+        ({}, "locked names 0 joints"),
+        ([0, 1], "locked gives no value for 'joint1' and 'joint2'; give {joint: value}, rad or m"),
+        ({0: 1.0, 1: None}, "no value for 'joint2'"),
+        ({"elbow": 1.0}, "elbow"),
+        (1.0, "locked is 1.0; it must be a mapping"),
     ],
 )
-def test_wrong_input_is_one_sentence(three, arguments, words):
+def test_wrong_input_is_one_sentence(three, locked, words):
     with pytest.raises(InputError, match=words):
-        hf.stationary_points(three, TARGET, **arguments)
+        hf.stationary_points(three, TARGET, locked)
     with pytest.raises(InputError, match="give one target"):
-        hf.stationary_points(three, [TARGET, TARGET], locked=0, at=1.0)
+        hf.stationary_points(three, [TARGET, TARGET], {0: 1.0})
 
 
 @pytest.mark.parametrize(("joint", "angle"), [(0, 0.3), (1, 0.8)])
@@ -180,7 +181,7 @@ def test_none_of_the_failure_tolerant_law_is_lost(joint, angle):
     """What Newton's method finds on the law's own rates, with their differences for slopes, from a grid of starts."""
     law = FailureTolerant(arms.load("planar-3r"), "planar")
     target = law.arm.forward_kinematics([0.7, 1.2, 1.0])
-    points = hf.stationary_points(law, target, locked=joint, at=angle)
+    points = hf.stationary_points(law, target, {joint: angle})
     rest = rest_by_newton(law, target, joint, angle)
     assert len(rest) >= 3
     nearest = np.abs(np.exp(1j * rest)[:, None] - np.exp(1j * points.q)[None]).max(axis=2)

@@ -16,7 +16,7 @@ R = np.hypot(1.5, 1.5)
 
 @pytest.fixture(scope="module")
 def curves(three):
-    return [hf.stationary_points(three, [1.5, 1.5], locked=k) for k in range(3)]
+    return [hf.stationary_points(three, [1.5, 1.5], {k: None}) for k in range(3)]
 
 
 def arcs(found):
@@ -71,7 +71,7 @@ def test_joints_2_and_3_families(curves, k):
     [(0.9, (167.909, 168.226)), (1.03, (160.124, 160.133))],
 )
 def test_window_of_sinks_between_a_fold_and_a_hopf_point(three, radius, window):
-    found = hf.stationary_points(three, [radius, 0.0], locked=1)
+    found = hf.stationary_points(three, [radius, 0.0], {1: None})
     ends = arcs(found.sink_arcs)
     k = int(np.argmin(np.abs(ends[:, 0] - window[0])))
     np.testing.assert_allclose(ends[k], window, atol=1.1e-3)
@@ -98,8 +98,8 @@ def test_every_point_of_the_search_is_on_a_curve_and_the_other_way_round(three, 
         angle = rng.uniform(-np.pi, np.pi)
         x = rng.uniform(0.3, 3.5) * np.array([np.cos(angle), np.sin(angle)])
         joint, at = int(rng.integers(3)), rng.uniform(-np.pi, np.pi)
-        points = hf.stationary_points(law, x, locked=joint, at=at)
-        found = hf.stationary_points(law, x, locked=joint)
+        points = hf.stationary_points(law, x, {joint: at})
+        found = hf.stationary_points(law, x, {joint: None})
         searched, traced = points.q[points.kind != Kind.SOLUTION], found.at(at)
         assert len(searched) == len(traced)
         for q in searched:

@@ -254,7 +254,7 @@ k = Kernel("k", [x], [x @ x.T])
 values = np.arange(2.0 * 300000).reshape(-1, 2)
 assert len(values) > 2 * k._chunk
 y, p = ca.SX.sym("y"), ca.SX.sym("p")
-loop = Loop("l", y, [p], (y + p / y) / 2, ca.fabs(y * y - p))
+loop = Loop("l", y, [p], next_state=(y + p / y) / 2, residual=ca.fabs(y * y - p))
 start = np.ones((9000, 1))
 for count in (1, 2):
     set_threads(count)

@@ -290,7 +290,7 @@ def test_threads_make_and_use_the_same_kernel_at_once(fresh, threads, monkeypatc
             worker.start()
         for worker in workers:
             worker.join(timeout=120)
-        assert len(found) == 4, "a thread waits for ever, or failed"
+        assert len(found) == 4, "a thread waits forever, or failed"
         settle()
         assert len(set(found)) == 1
         assert found[0][0].endswith(found[0][1])

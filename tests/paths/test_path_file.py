@@ -72,7 +72,7 @@ P = "{xyz: [0, 0, 0]}"
 REFUSED = [
     ("", "the file must hold keys and values, at least line, arc or poses"),
     ("- 1", "the file must hold keys and values"),
-    ("line: [", "this is not sound YAML"),
+    ("line: [", "this is not valid YAML"),
     ("name: x", "it must hold one of 'line:', 'arc:' and 'poses:'"),
     (f"line: {{from: {P}, to: {P}}}\nposes: [{P}]", "it must hold one of"),
     (f"line: {{from: {P}, to: {P}}}", "are the same; leave one of them out"),

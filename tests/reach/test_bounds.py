@@ -163,7 +163,7 @@ def test_more_redundancy_against_locked_inverse_kinematics(request, rng, fixture
         ends = np.array(found[joint]).ravel()
         if ends.size:
             values = values[np.abs(values[:, None] - ends).min(axis=1) > 1e-3]
-        reached = hf.reachable_when_locked(arm, target, joint, at=values, task=task, restarts=200).success
+        reached = hf.reachable_when_locked(arm, target, {joint: values}, task=task, restarts=200).success
         np.testing.assert_array_equal(holds(found[joint], values, circle=np.isinf(arm.upper[joint])), reached)
 
 

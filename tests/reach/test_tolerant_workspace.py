@@ -132,7 +132,7 @@ def test_limits_of_any_arm_are_looked_for(flat4):
     assert hf.solve_ik(inner, [oracles.pose(None, p) for p in inside], task="planar").success.all()
     for joint, (low, high) in enumerate(region.limits):
         for angle in np.linspace(low, high, 5):
-            lost = ~hf.reachable_when_locked(flat4, inside[:, :2], joint, at=angle, task="planar").success
+            lost = ~hf.reachable_when_locked(flat4, inside[:, :2], {joint: angle}, task="planar").success
             assert lost.mean() <= 0.1
 
 

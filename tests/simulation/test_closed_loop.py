@@ -197,7 +197,7 @@ def test_a_limit_cycle_is_moving(three):
     ],
 )
 def test_a_fast_limit_cycle_is_moving(three, start, x, rate):
-    """Joint 3 stands nearly straight: joint 1 turns for ever, too fast for 100,000 steps to last until the limit."""
+    """Joint 3 stands nearly straight: joint 1 turns forever, too fast for 100,000 steps to last until the limit."""
     runs = simulate(three, start, x, locked=[2])
     assert (runs.outcome, runs.reason) == ("moving", Reason.NONE)
     assert runs.time < 3000
@@ -236,7 +236,7 @@ def test_only_what_goes_on_is_said_to_circle(three, random_runs, monkeypatch):
 
 
 def test_a_creeping_arm_is_undecided_until_it_has_the_time(three):
-    """Just off the folded line of joint 1 the transit takes very long, slower than anything that turns for ever."""
+    """Just off the folded line of joint 1 the transit takes very long, slower than anything that turns forever."""
     fold = 45 + np.rad2deg(np.arccos(1 / np.hypot(1.5, 1.5)))
     starts = RAD([[fold + d, -34.4697, 131.81] for d in (0.0, 0.01)])
     runs = simulate(three, starts, [1.5, 1.5], locked=[0], time_limit=500.0)

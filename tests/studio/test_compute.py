@@ -10,7 +10,7 @@ import pytest
 import holdfast as hf
 from holdfast.arm.poses import pose_numbers
 from holdfast.arm.task import as_task
-from holdfast.solvers import optimum
+from holdfast.solvers import optima
 from holdfast.studio import State
 from holdfast.studio.compute import best_worst
 from holdfast.studio.motions import law_motions
@@ -38,7 +38,7 @@ def test_where_the_arm_is_counts_as_best_and_worst(machine, monkeypatch, objecti
     def found(arm, pose, wanted, **_):
         return SimpleNamespace(q=middle, value=float(index(middle)), success=True)
 
-    monkeypatch.setattr(optimum, "optimise", found)
+    monkeypatch.setattr(optima, "optimise", found)
     for q, place in ((low, 1), (high, 0)):
         extremes = best_worst(machine, state(machine, q, objective=objective), lambda *_: None)
         best, worst, here = extremes.values

@@ -369,7 +369,7 @@ def test_report_and_tables(rng, tmp_path):
         start, target = protocol.arm.forward_kinematics(protocol.tasks.q0[task - 1])[:2, 3], protocol.tasks.target[task - 1]
         return None if subject is None and task == 2 else np.linspace(start, target, 30)
 
-    page = a.save(tmp_path / "new" / "study", protocol, paths, show=[2])[0].read_text(encoding="utf-8")
+    page = a.save(tmp_path / "new" / "experiment", protocol, paths, show=[2])[0].read_text(encoding="utf-8")
     assert "Teleoperation with a failed joint: 6 simulated subjects" in page
     assert page.count("<svg") == 7
     assert len(re.findall(r"<figcaption>Simulated operators", page)) == 7
@@ -379,7 +379,7 @@ def test_report_and_tables(rng, tmp_path):
     assert not re.search(r"https?://(?!www\.w3\.org)", page)
     for text in re.findall(r"<svg.*?</svg>", page, flags=re.DOTALL):
         ElementTree.fromstring(text)
-    folder = tmp_path / "new" / "study"
+    folder = tmp_path / "new" / "experiment"
     known = pd.read_csv(folder / "data_dictionary.csv", keep_default_na=False)
     assert {f.stem for f in folder.glob("*.csv")} == {*a.tables, "data_dictionary"}
     for name, mine in a.tables.items():

@@ -297,7 +297,7 @@ def test_lower_end_of_the_noncentrality():
     assert power.least_noncentrality(0.5, 2, 46) == 0.0
 
 
-def test_subsets_of_all_subjects_are_the_study(rng):
+def test_subsets_of_all_subjects_are_the_experiment(rng):
     y = correlated(rng, 9, 2, 3)
     significant = [e.p < 0.05 for e in anova(y).effects]
     assert power.resampled(y, 9, draws=50).tolist() == [float(s) for s in significant]

@@ -61,9 +61,9 @@ def every_law(arm, rows, substeps, rng):
     )
 
 
-def draws(rng, study, count):
+def draws(rng, experiment, count):
     """Configurations, commands up to the stick's limit, and which joints are healthy."""
-    n, m = study.arm.n, study.rows.m
+    n, m = experiment.arm.n, experiment.rows.m
     v = rng.normal(size=(count, m))
     v *= rng.uniform(0, 0.05, (count, 1)) / np.linalg.norm(v, axis=1, keepdims=True)
     v[::50] = 0
@@ -77,8 +77,8 @@ def in_page(module, law, q, v, healthy):
     return browser.run(CYCLES, rows, len(q) * width, arm=module).reshape(len(q), width)
 
 
-def task_jacobian(study, q):
-    return np.einsum("ij,njk->nik", study.rows.rows, study.arm.jacobian(q))
+def task_jacobian(experiment, q):
+    return np.einsum("ij,njk->nik", experiment.rows.rows, experiment.arm.jacobian(q))
 
 
 def peak_error(j, v, rates):
@@ -94,14 +94,14 @@ def peak_error(j, v, rates):
 def test_control_steps_agree_with_python(which, rows, count, rng, flat4):
     """Every registered law; to rounding, or, where two dampings are as good as each other, in the peak velocity error."""
     arm = flat4 if which == "flat4" else hf.arms.load(which)
-    study = every_law(arm, rows, 1, rng)
-    q, v, healthy = draws(rng, study, count)
-    cond = np.linalg.cond(task_jacobian(study, q))
-    module = arm_module(study)
-    for law, scenario in zip(law_of(study), study.scenarios, strict=True):
+    experiment = every_law(arm, rows, 1, rng)
+    q, v, healthy = draws(rng, experiment, count)
+    cond = np.linalg.cond(task_jacobian(experiment, q))
+    module = arm_module(experiment)
+    for law, scenario in zip(law_of(experiment), experiment.scenarios, strict=True):
         mask = np.ones_like(healthy) if scenario.law == "failure-tolerant" else healthy
         found = in_page(module, law, q, v, mask)
-        moved, actual = Plant(scenario.make_law(study.arm, study.rows), 1).cycles(q, v, mask)
+        moved, actual = Plant(scenario.make_law(experiment.arm, experiment.rows), 1).cycles(q, v, mask)
         off = np.abs(found - np.hstack([moved, actual])).max(axis=1)
         apart = ~(off <= 1e-12 * cond)
         if scenario.law != "failure-tolerant":
@@ -109,40 +109,40 @@ def test_control_steps_agree_with_python(which, rows, count, rng, flat4):
             continue
         assert off.max() < 1e-6
         assert apart.mean() < 0.01
-        j, command = task_jacobian(study, q[apart]), v[apart]
+        j, command = task_jacobian(experiment, q[apart]), v[apart]
         here, there = (peak_error(j, command, x[apart] - q[apart]) for x in (found[:, : arm.n], moved))
         np.testing.assert_allclose(here, there, rtol=1e-9)
 
 
 def test_whole_cycles_agree_with_python(rng):
     """Ten sub-steps: beside a singular configuration, what one rounds by the next makes larger, by the condition at most."""
-    study = every_law(hf.arms.load("planar-3r"), "planar", 10, rng)
-    q, v, healthy = draws(rng, study, 2000)
-    module = arm_module(study)
-    for law, scenario in zip(law_of(study), study.scenarios, strict=True):
-        made = scenario.make_law(study.arm, study.rows)
+    experiment = every_law(hf.arms.load("planar-3r"), "planar", 10, rng)
+    q, v, healthy = draws(rng, experiment, 2000)
+    module = arm_module(experiment)
+    for law, scenario in zip(law_of(experiment), experiment.scenarios, strict=True):
+        made = scenario.make_law(experiment.arm, experiment.rows)
         found = in_page(module, law, q, v, healthy)
         off = np.abs(found - np.hstack(Plant(made, 10).cycles(q, v, healthy))).max(axis=1)
         single, at, cond = Plant(made, 1), q, np.zeros(len(q))
         for _ in range(10):
-            cond = np.maximum(cond, np.linalg.cond(task_jacobian(study, at)))
+            cond = np.maximum(cond, np.linalg.cond(task_jacobian(experiment, at)))
             at, _ = single.cycles(at, v / 10, healthy)
         assert (off <= (1e-7 if scenario.law == "failure-tolerant" else 1e-12 * cond**2)).all(), scenario.law
 
 
 def test_trials_of_the_computer_take_the_same_way():
     """The paper's 24 tasks in its four scenarios: the recorded commands again, from the start to the end."""
-    study = protocol.read_protocol()
-    trials, numbers = computer_trials(study), law_of(study)
-    scenarios, tasks, m = len(study.scenarios), len(study.tasks), study.rows.m
-    every = study.tasks.take(np.tile(np.arange(tasks), scenarios))
-    healthy = every.healthy(np.repeat([s.failed for s in study.scenarios], tasks))
+    experiment = protocol.read_protocol()
+    trials, numbers = computer_trials(experiment), law_of(experiment)
+    scenarios, tasks, m = len(experiment.scenarios), len(experiment.tasks), experiment.rows.m
+    every = experiment.tasks.take(np.tile(np.arange(tasks), scenarios))
+    healthy = every.healthy(np.repeat([s.failed for s in experiment.scenarios], tasks))
     parts = []
     for i in range(len(trials)):
         commands = trials.velocity[trials.first[i] : trials.first[i + 1]]
         parts += [[numbers[i // tasks]], every.q0[i], healthy[i], commands.ravel()]
     script = TRIALS.replace("COUNTS", ",".join(map(str, trials.cycles)))
-    found = browser.run(script, np.concatenate(parts), len(trials.velocity) * m, arm=arm_module(study)).reshape(-1, m)
+    found = browser.run(script, np.concatenate(parts), len(trials.velocity) * m, arm=arm_module(experiment)).reshape(-1, m)
     worst = np.zeros(len(trials))
     for i in range(len(trials)):
         cycles = slice(trials.first[i], trials.first[i + 1])
@@ -158,13 +158,13 @@ def test_position_and_wire_frame(which, rng, generator, mixed7):
         arm = hf.arms.load(which)
     else:
         arm = mixed7 if which == "mixed7" else oracles.planar_arm(generator("tilted"), 4)
-    study = every_law(arm, "planar" if which in ("planar-3r", "tilted") else "position", 1, rng)
-    study = dataclasses.replace(study, scenarios=study.scenarios[:1])
-    n, m = arm.n, study.rows.m
+    experiment = every_law(arm, "planar" if which in ("planar-3r", "tilted") else "position", 1, rng)
+    experiment = dataclasses.replace(experiment, scenarios=experiment.scenarios[:1])
+    n, m = arm.n, experiment.rows.m
     markers = n + 1 + bool(np.any(arm.joints[0].origin[:3, 3]))
     q = rng.uniform(-3, 3, (50, n))
-    found = browser.run(PLACES, q, 50 * (m + 3 * markers), arm=arm_module(study)).reshape(50, m + 3 * markers)
-    np.testing.assert_allclose(found[:, :m], study.plants[0].position(q), rtol=0, atol=1e-13)
+    found = browser.run(PLACES, q, 50 * (m + 3 * markers), arm=arm_module(experiment)).reshape(50, m + 3 * markers)
+    np.testing.assert_allclose(found[:, :m], experiment.plants[0].position(q), rtol=0, atol=1e-13)
     for row, wire in zip(q, found[:, m:].reshape(50, markers, 3), strict=True):
         at = arm.base
         expected = [at[:3, 3]]
@@ -183,14 +183,14 @@ def test_position_and_wire_frame(which, rng, generator, mixed7):
 
 
 def test_singular_arm_stands_and_nan_stays_nan(rng):
-    study = every_law(hf.arms.load("planar-3r"), "planar", 10, rng)
+    experiment = every_law(hf.arms.load("planar-3r"), "planar", 10, rng)
     q = np.array([[0, 0, 0], [0, 0, 0], [0.3, np.nan, 0.2], [0.3, 1, 2], [0.3, 1, 2], [np.inf, 1, 2]])
     v = np.array([[0.01, 0.02], [0, 0], [0.01, 0], [np.nan, 0], [0, 0], [0, 0]])
     healthy = np.ones((6, 3))
     healthy[4, 1] = np.nan
-    module = arm_module(study)
-    for law, scenario in zip(law_of(study), study.scenarios, strict=True):
-        plant = Plant(scenario.make_law(study.arm, study.rows), 10)
+    module = arm_module(experiment)
+    for law, scenario in zip(law_of(experiment), experiment.scenarios, strict=True):
+        plant = Plant(scenario.make_law(experiment.arm, experiment.rows), 10)
         found, expected = in_page(module, law, q, v, healthy), np.hstack(plant.cycles(q, v, healthy))
         np.testing.assert_array_equal(np.isnan(found), np.isnan(expected))
         assert np.isnan(found[2:]).all()
@@ -214,35 +214,35 @@ output.set([joints,axes,laws,markers,before===[q,v,healthy].join()?1:0,refused])
 
 def test_laws_are_printed_once_and_the_module_stays_small(monkeypatch):
     monkeypatch.setenv("HOLDFAST_CACHE", "off")
-    study = protocol.read_protocol()
-    codes = law_of(study)
+    experiment = protocol.read_protocol()
+    codes = law_of(experiment)
     assert sorted(codes) == [0, 0, 1, 1]
     assert codes[:2] == codes[2:]
-    seeds = [law_of(dataclasses.replace(study, seed=k))[0] for k in range(20)]
+    seeds = [law_of(dataclasses.replace(experiment, seed=k))[0] for k in range(20)]
     assert set(seeds) == {0, 1}  # a code says nothing about the law
-    other = dataclasses.replace(study.scenarios[1], options={"pre_failure_error": 0.3}, number=5)
-    assert sorted(set(law_of(dataclasses.replace(study, scenarios=(*study.scenarios, other))))) == [0, 1, 2]
-    text = arm_module(study)
+    other = dataclasses.replace(experiment.scenarios[1], options={"pre_failure_error": 0.3}, number=5)
+    assert sorted(set(law_of(dataclasses.replace(experiment, scenarios=(*experiment.scenarios, other))))) == [0, 1, 2]
+    text = arm_module(experiment)
     assert text == arm_module(protocol.read_protocol())
     assert len(text) < 40_000
     assert "import" not in text
 
 
 def test_rows_that_no_stick_commands_are_refused(rng):
-    study = every_law(hf.arms.load("panda"), "position", 1, rng)
+    experiment = every_law(hf.arms.load("panda"), "position", 1, rng)
     with pytest.raises(TaskError, match="planar or position"):
-        arm_module(dataclasses.replace(study, rows=as_task(study.arm, "pose")))
+        arm_module(dataclasses.replace(experiment, rows=as_task(experiment.arm, "pose")))
 
 
 def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
     monkeypatch.setenv("HOLDFAST_CACHE", str(tmp_path))
-    study = protocol.read_protocol()
+    experiment = protocol.read_protocol()
     q, velocity = rng.uniform(-2, 2, (5, 3)), rng.uniform(-0.05, 0.05, (5, 2))
     healthy = np.array([[1.0, 1, 0]] * 5)
 
     def all_of_it():
-        plants = dataclasses.replace(study).plants
-        return arm_module(study), [np.concatenate(p.cycles(q, velocity, healthy), axis=1).tobytes() for p in plants]
+        plants = dataclasses.replace(experiment).plants
+        return arm_module(experiment), [np.concatenate(p.cycles(q, velocity, healthy), axis=1).tobytes() for p in plants]
 
     first = all_of_it()
 
@@ -252,4 +252,4 @@ def test_a_second_server_builds_no_graph(rng, tmp_path, monkeypatch):
     monkeypatch.setattr(hf.control.Law, "rates", never)
     assert all_of_it() == first
     with pytest.raises(AssertionError, match="built again"):
-        arm_module(dataclasses.replace(study, substeps=7))
+        arm_module(dataclasses.replace(experiment, substeps=7))

@@ -40,13 +40,13 @@ def protocol():
 
 @pytest.fixture(scope="module")
 def made(protocol, tmp_path_factory):
-    with simulate_experiment(tmp_path_factory.mktemp("made") / "study", protocol, 6, seed=3) as records:
+    with simulate_experiment(tmp_path_factory.mktemp("made") / "experiment", protocol, 6, seed=3) as records:
         yield records
 
 
 @pytest.fixture
 def records(protocol, tmp_path):
-    with Records.create(tmp_path / "study", protocol) as opened:
+    with Records.create(tmp_path / "experiment", protocol) as opened:
         yield opened
 
 
@@ -257,8 +257,8 @@ def test_what_is_not_right_is_refused_and_changes_nothing(records):
     v = np.zeros((1, 2))
     before = records.trials(records.entries()).q.copy()
     for trial, first, velocity, configuration, message in [
-        (number, 9, v, q[None], "goes on with cycle 7, not 9"),
-        (number, 6, v, q[None], "goes on with cycle 7, not 6"),
+        (number, 9, v, q[None], "continues with cycle 7, not 9"),
+        (number, 6, v, q[None], "continues with cycle 7, not 6"),
         (99, 0, v, q[None], "does not exist"),
         (number, 7, np.zeros((1, 3)), q[None], "need commands"),
         (number, 7, v, np.full((1, 3), np.nan), "NaN"),
@@ -309,7 +309,7 @@ def test_arm_files_travel_with_the_experiment(tmp_path):
     for k in (1, 2, 3):
         text = text.replace(f"joint: joint{k}", f"joint: j{k - 1}")
     (tmp_path / "p.yaml").write_text(text)
-    with Records.create(tmp_path / "study", read_protocol(tmp_path / "p.yaml")) as records:
+    with Records.create(tmp_path / "experiment", read_protocol(tmp_path / "p.yaml")) as records:
         arm.unlink()
         with Records.open(records.folder) as again:
             assert again.protocol.arm.joint_names == ("j0", "j1", "j2")
@@ -318,7 +318,7 @@ def test_arm_files_travel_with_the_experiment(tmp_path):
 @pytest.mark.parametrize("kills", [int(os.environ.get("HOLDFAST_KILLS", "4"))])
 def test_killed_at_any_moment(tmp_path, kills):
     """After kill -9, all that was acknowledged is there, the file is sound, and the session goes on."""
-    folder = tmp_path / "study"
+    folder = tmp_path / "experiment"
     whole = read_protocol()
     quick = tuple(s for s in whole.scenarios if s.law == "pseudoinverse")
     Records.create(folder, replace(whole, substeps=1, scenarios=quick)).close()
@@ -359,7 +359,7 @@ def test_killed_at_any_moment(tmp_path, kills):
 def archive(protocol):
     """A folder of records that nobody may write: for root too, who becomes nobody meanwhile."""
     with tempfile.TemporaryDirectory() as place:
-        folder = Path(place) / "study"
+        folder = Path(place) / "experiment"
         with Records.create(folder, protocol) as records:
             one_trial(records, records.add_subject().code)
         Path(place).chmod(0o755)

@@ -20,19 +20,19 @@ from holdfast.teleop.trials.recordings import End
 
 
 @pytest.fixture(scope="module")
-def study(tmp_path_factory):
+def experiment(tmp_path_factory):
     """A folder with all that records have."""
-    folder = tmp_path_factory.mktemp("verified") / "study"
-    flips.study(folder)
+    folder = tmp_path_factory.mktemp("verified") / "experiment"
+    flips.experiment(folder)
     return folder
 
 
 @pytest.fixture
-def changed(study, tmp_path):
+def changed(experiment, tmp_path):
     """``changed(sql, ...)``: a copy of the records in which something was changed by hand, and what is found then."""
 
     def change(*statements):
-        flips.copied(study, tmp_path / "copy")
+        flips.copied(experiment, tmp_path / "copy")
         with closing(sqlite3.connect(tmp_path / "copy" / "records.sqlite")) as db, db:
             for statement in statements:
                 assert db.execute(statement).rowcount == 1
@@ -41,8 +41,8 @@ def changed(study, tmp_path):
     return change
 
 
-def test_what_was_written_is_sound(study):
-    found = verify(study)
+def test_what_was_written_is_sound(experiment):
+    found = verify(experiment)
     assert found.damaged == []
     assert found.without == []
     assert found.trials == 6
@@ -110,11 +110,11 @@ def by_hand(folder):
     return chains
 
 
-def test_a_stranger_gets_the_same_digests(study):
-    chains = by_hand(study)
+def test_a_stranger_gets_the_same_digests(experiment):
+    chains = by_hand(experiment)
     assert set(chains) == {None, "S01", "S02"}
     together = b"".join(chains[s] for s in (None, "S01", "S02"))
-    assert hashlib.sha256(together).hexdigest() == verify(study).whole
+    assert hashlib.sha256(together).hexdigest() == verify(experiment).whole
 
 
 @pytest.mark.parametrize(
@@ -149,16 +149,16 @@ def test_the_first_damaged_trial_comes_first(changed):
     assert [s.split()[:2] for s in found.damaged] == [["trial", "3"], ["trial", "5"], ["subject", "S01"]]
 
 
-def test_a_changed_protocol_is_found(study, tmp_path):
-    flips.copied(study, tmp_path / "copy")
+def test_a_changed_protocol_is_found(experiment, tmp_path):
+    flips.copied(experiment, tmp_path / "copy")
     with (tmp_path / "copy" / "protocol.yaml").open("a") as file:
         file.write("# nothing\n")
     assert verify(tmp_path / "copy").damaged == ["the file protocol.yaml is not as it was when the experiment began"]
 
 
-def test_an_older_folder_is_read_and_goes_on_with_digests(study, tmp_path):
+def test_an_older_folder_is_read_and_goes_on_with_digests(experiment, tmp_path):
     folder = tmp_path / "copy"
-    flips.copied(study, folder)
+    flips.copied(experiment, folder)
     flips.older(folder)
     before = (folder / "records.sqlite").read_bytes()
     assert verify(folder).without == [1, 2, 3, 4, 5, 6]
@@ -179,8 +179,8 @@ def test_what_is_not_an_experiment(tmp_path):
         verify(tmp_path)
 
 
-def test_a_deleted_subject_leaves_sound_records(study, tmp_path):
-    flips.copied(study, tmp_path / "copy")
+def test_a_deleted_subject_leaves_sound_records(experiment, tmp_path):
+    flips.copied(experiment, tmp_path / "copy")
     with Records.open(tmp_path / "copy") as records:
         records.delete_subject("S01")
     found = verify(tmp_path / "copy")
@@ -193,7 +193,7 @@ def test_a_deleted_subject_leaves_sound_records(study, tmp_path):
 
 def test_a_rolled_back_change_leaves_no_digest(tmp_path):
     protocol = replace(read_protocol(), substeps=1)
-    with Records.create(tmp_path / "study", protocol) as records:
+    with Records.create(tmp_path / "experiment", protocol) as records:
 
         def fails():
             with records.together():
@@ -203,7 +203,7 @@ def test_a_rolled_back_change_leaves_no_digest(tmp_path):
         with pytest.raises(ZeroDivisionError):
             fails()
         records.add_subject()
-    assert verify(tmp_path / "study").damaged == []
-    with Records.open(tmp_path / "study") as records:
+    assert verify(tmp_path / "experiment").damaged == []
+    with Records.open(tmp_path / "experiment") as records:
         assert records.entries(kind=Kind.TRIAL) == []
         assert End.ABORTED not in [e.end for e in records.entries()]

@@ -53,7 +53,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "optimum": lambda: hf.optimise(PANDA, PANDA.forward_kinematics(HOME), hf.indices.relative_manipulability(PANDA), starts=8),
     "self_motion": lambda: hf.self_motion(FLAT, [1.5, 1.5], "planar"),
     "joint_bounds": lambda: hf.joint_bounds(FLAT, [1.5, 1.5], "planar"),
-    "reachable_after_a_lock": lambda: hf.reachable_when_locked(FLAT, [1.5, 1.5], 1, at=np.deg2rad([0, 60, 170]), task="planar"),
+    "reachable_after_a_lock": lambda: hf.reachable_when_locked(FLAT, [1.5, 1.5], {1: np.deg2rad([0, 60, 170])}, task="planar"),
     "tolerant_workspace": lambda: hf.tolerant_workspace(FLAT, "planar", optimise=True),
     "workspace": lambda: hf.workspace(LAW, [1.5, 1.5], "grid:5", configurations=4, points=2, method="procedure"),
     "target_measures": lambda: hf.target_measures(LAW, "grid:3", 3, configurations=2, points=1, time_limit=60),
@@ -64,16 +64,16 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "recovery": lambda: hf.recover(
         PANDA, {"panda_joint4": -2.0}, [2, 0.6, 0, -2, 0, 2.5, 0.8], task="position", samples=40, starts=32
     ),
-    "rest_points": lambda: hf.stationary_points(LAW, [1.5, 1.5], 1, at=np.deg2rad([140])),
-    "rest_curves": lambda: hf.stationary_points(LAW, [1.5, 1.5], 1),
-    "basins": lambda: hf.basins(LAW, [1.5, 1.5], 1, at=np.deg2rad([45]), grid=8),
+    "rest_points": lambda: hf.stationary_points(LAW, [1.5, 1.5], {1: np.deg2rad(140)}),
+    "rest_curves": lambda: hf.stationary_points(LAW, [1.5, 1.5], {1: None}),
+    "basins": lambda: hf.basins(LAW, [1.5, 1.5], {1: np.deg2rad(45)}, grid=8),
     "runs": lambda: hf.simulate(LAW, np.array([AT, -AT]), [1.5, 1.5], locked=[1], time=0.5),
     "runs_in_cycles": lambda: hf.simulate(
         control.damped(PANDA, 0.1, "position", gain=0.1), HOME, [0.5, 0.2, 0.4], locked=[3], cycles=True, time=4
     ),
     "physical_run": lambda: hf.simulate_physics(LAW, AT, [1.5, 1.5], locked=[1], time=0.5),
     "free_swing": lambda: hf.free_swing(PANDA, HOME, 3, brake_after=[0.05, 0.1]),
-    "motions": lambda: hf.point_to_point(PANDA, 5, distance=(0.2, 0.8), task="position", reachable_after="each"),
+    "motions": lambda: hf.point_to_point(PANDA, 5, distance=(0.2, 0.8), task="position", failures="single"),
     "law_comparison": lambda: hf.compare_laws(
         [LAW, control.weighted(FLAT, [1, 2, 3], "planar")], [AT, -AT], [[1.5, 1.5], [1.0, 1.0]]
     ),

@@ -3,7 +3,7 @@
 import { circle, line, Surface } from "./canvas";
 import { BLUE, FAINT, INK, ORANGE, SKY, SOFT } from "./palette";
 import { point, task } from "./projection";
-import type { View } from "../study";
+import type { View } from "../experiment";
 
 export interface ArmScene {
   /** Base, joints and tool point, m. */
@@ -43,7 +43,7 @@ export class ArmWindow {
     const [start, target] = [scene.start, scene.target].map((v) => place(task(this.view, v)));
     const chain: [number, number][] = [];
     for (let k = 0; k < scene.points.length; k += 3) chain.push(place(point(this.view, scene.points, k)));
-    const hand = chain[chain.length - 1];
+    const tip = chain[chain.length - 1];
     const thick = Math.max(2, Math.min(width, height) / 220);
 
     if (this.reach !== null) {
@@ -58,7 +58,7 @@ export class ArmWindow {
     c.setLineDash([4 * thick, 3 * thick]);
     c.lineWidth = thick;
     c.strokeStyle = ORANGE;
-    line(c, hand, target);
+    line(c, tip, target);
     c.setLineDash([]);
     circle(c, ...target, scene.radius * scale);
     c.lineWidth = 1.4 * thick;

@@ -1,6 +1,6 @@
 /** From the base frame, and from the task's rows, to a view's two axes. */
 
-import type { View } from "../study";
+import type { View } from "../experiment";
 
 /** A point of the base frame, at `offset` of an array. */
 export function point(view: View, points: ArrayLike<number>, offset: number): [number, number] {

@@ -3,7 +3,7 @@
 import { circle, line, Surface } from "./canvas";
 import { BLUE, FAINT, PALE, SOFT } from "./palette";
 import { task } from "./projection";
-import type { View } from "../study";
+import type { View } from "../experiment";
 
 /** Of half the window's smaller side: where the limit circle is. */
 const SHARE = 0.8;

@@ -3,7 +3,7 @@
 import type { Arm } from "../arm";
 import { h } from "../dom";
 import { ArmWindows, VelocityWindows } from "../screens/windows";
-import type { Study } from "../study";
+import type { Experiment } from "../experiment";
 import { Texts } from "../texts";
 import type { About, Cycle } from "./server";
 import { texts } from "./texts";
@@ -19,11 +19,11 @@ export class LiveView {
   private cycle: Cycle | null = null;
 
   constructor(
-    private readonly study: Study,
+    private readonly experiment: Experiment,
     private readonly arm: Arm,
     private readonly about: About,
   ) {
-    const drawn = { study, arm, texts: new Texts(texts.window), plan: about.plan };
+    const drawn = { experiment, arm, texts: new Texts(texts.window), plan: about.plan };
     this.start = new Float64Array(arm.axes);
     this.q = new Float64Array(arm.joints);
     this.arms = new ArmWindows(drawn);
@@ -46,7 +46,7 @@ export class LiveView {
   private said(c: Cycle, steering: boolean): string {
     const joint = c.healthy.indexOf(0);
     const locked = joint < 0 ? "" : texts.locked(this.about.joints[joint]);
-    const seconds = (c.cycle / this.study.rate).toFixed(1);
+    const seconds = (c.cycle / this.experiment.rate).toFixed(1);
     const said = texts.under(texts[c.kind], c.position + 1, this.about.scenarios[c.scenario], locked, seconds);
     return steering ? said[0].toUpperCase() + said.slice(1) : `${texts.last} ${said}`;
   }

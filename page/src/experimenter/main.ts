@@ -2,7 +2,7 @@
 
 import { loadArm } from "../arm";
 import { h } from "../dom";
-import { loadStudy } from "../study";
+import { loadExperiment } from "../experiment";
 import { LiveView } from "./live";
 import { Panel } from "./panel";
 import { Server, type Cycle, type State } from "./server";
@@ -69,15 +69,15 @@ class Page {
 
 async function main(): Promise<void> {
   const server = new Server();
-  const [about, study, arm] = await Promise.all([
+  const [about, experiment, arm] = await Promise.all([
     server.about(),
-    loadStudy(server.address("/study.json")),
+    loadExperiment(server.address("/experiment.json")),
     loadArm(server.address("/arm.js")),
   ]);
   document.title = `${texts.title}: ${about.name}`;
   const failure = h("p", { class: "said", role: "alert", "data-testid": "failure", "data-bad": "true" });
   const top = new Top(server, about, about.name, (said) => (failure.textContent = said));
-  const panel = new Panel(server, new LiveView(study, arm, about));
+  const panel = new Panel(server, new LiveView(experiment, arm, about));
   const table = new Table((code) => page.choose(code));
   const page = new Page(top, table, panel, about);
   document.getElementById("app")?.replaceChildren(top.element, failure, h("main", {}, table.element, panel.element));

@@ -3,7 +3,7 @@
 export interface AxisMap {
   /** Of the gamepad. */
   axis: number;
-  /** Where it stands when nobody touches it. */
+  /** Its value when nobody touches it. */
   centre: number;
   /** Raw reading at full deflection, less the centre; its sign is the direction. */
   range: number;
@@ -50,7 +50,7 @@ export class Readings {
     });
   }
 
-  /** Where an axis stands at rest, and how far it strays: one and a half times what was seen. */
+  /** The value of an axis at rest, and how far it strays: one and a half times what was seen. */
   rest(axis: number): { centre: number; noise: number } {
     const centre = (this.sum[axis] ?? 0) / Math.max(1, this.count);
     const strays = Math.max((this.high[axis] ?? 0) - centre, centre - (this.low[axis] ?? 0));

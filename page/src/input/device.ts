@@ -1,6 +1,6 @@
 /** What holds the arm's stick: a gamepad, the mouse, the keys, or a simulated person. */
 
-import type { View } from "../study";
+import type { View } from "../experiment";
 
 export type Kind = "gamepad" | "pointer" | "keys" | "robot";
 
@@ -24,7 +24,7 @@ export interface Device {
   about(): Record<string, string | number>;
   /** Take a window as a surface; the centre of the stick is its middle. `reach`: pixels to full deflection. */
   attach?(surface: HTMLElement, view: View, reach: () => number): void;
-  /** Let go of the windows. */
+  /** Forget the windows. */
   detach?(): void;
   /** A trial begins. */
   begin?(): void;
@@ -32,6 +32,6 @@ export interface Device {
   see?(scene: Scene): void;
   /** Wants to give the trial up: only a robot does so by itself. */
   readonly tired?: boolean;
-  /** Let go of everything that it listens to. */
+  /** Stop listening to anything. */
   release(): void;
 }

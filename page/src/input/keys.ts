@@ -22,7 +22,7 @@ export class Keys implements Device {
     const { signal } = this.controller;
     window.addEventListener("keydown", (event) => this.down(event), { signal });
     window.addEventListener("keyup", (event) => this.up(event), { signal });
-    // Keys that are let go of elsewhere are never heard of.
+    // The release of a key elsewhere is never heard of.
     window.addEventListener("blur", () => this.held.clear(), { signal });
   }
 

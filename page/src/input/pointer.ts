@@ -1,6 +1,6 @@
-/** Mouse or finger as a stick: pressed and drawn away from the middle of a velocity window; it springs back when let go. */
+/** Mouse or finger as a stick: pressed and drawn away from the middle of a velocity window; it springs back when released. */
 
-import type { View } from "../study";
+import type { View } from "../experiment";
 import type { Device } from "./device";
 
 export class Pointer implements Device {

@@ -2,7 +2,7 @@
 
 import { button, h, paragraphs } from "../dom";
 import type { Station } from "../station";
-import type { Form, Question } from "../study";
+import type { Form, Question } from "../experiment";
 
 type Answer = string | number | boolean;
 
@@ -130,7 +130,7 @@ function scale(q: Question, station: Station): Field {
     touched = true;
     input.classList.remove("untouched");
   };
-  // A slider says nothing before it was moved, or clicked where it stands.
+  // A slider says nothing before it was moved, or clicked where it is.
   for (const name of ["input", "pointerup", "keydown"]) {
     input.addEventListener(name, (event) => {
       if (

@@ -45,7 +45,7 @@ export class Frame {
     if (this.line.dataset.online === "false") this.line.textContent = this.texts.get("offline", { waiting: count });
   }
 
-  /** The experimenter pauses the session; a trial under way goes on. */
+  /** The experimenter pauses the session; a trial under way continues. */
   pause(yes: boolean): void {
     this.paused = yes;
     this.update();
@@ -72,7 +72,7 @@ export class Frame {
     return this.paused && !this.busy;
   }
 
-  /** The session cannot go on in this page. */
+  /** The session cannot continue in this page. */
   stop(reason: string): void {
     this.over = true;
     this.show("stopped", this.texts.get("stopped_title"), reason);

@@ -15,7 +15,7 @@ export async function showInstructions(element: HTMLElement, station: Station): 
     start: texts.get(`start_${device?.kind ?? "keys"}`),
     steer: texts.get(`steer_${device?.kind ?? "keys"}`),
   };
-  const views = station.study.views.length;
+  const views = station.experiment.views.length;
   const page = (part: number, more: string[], figure?: HTMLElement): Promise<string> => {
     const title = texts.get(`instructions_${part}_title`);
     const text = [`instructions_${part}_text`, ...more].map((key) => texts.get(key, values).trim()).join("\n\n");
@@ -40,7 +40,7 @@ export async function showInstructions(element: HTMLElement, station: Station): 
   };
   requestAnimationFrame(draw);
   const more = [
-    ...(station.study.reach === null ? [] : ["instructions_reach"]),
+    ...(station.experiment.reach === null ? [] : ["instructions_reach"]),
     ...(views > 1 ? ["instructions_views"] : []),
   ];
   await page(1, more, h("div", { class: "figure", "data-views": views }, ...arms.elements, ...velocities.elements));

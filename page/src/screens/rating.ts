@@ -5,14 +5,14 @@ import type { Station } from "../station";
 
 /** @param suggestion what a dry run says, a step from 0; @returns the step */
 export function showRating(element: HTMLElement, station: Station, suggestion: number): Promise<number> {
-  const { texts, study } = station;
+  const { texts, experiment } = station;
   return new Promise((resolve) => {
     const controller = new AbortController();
     const choose = (step: number): void => {
       controller.abort();
       resolve(step);
     };
-    const buttons = study.rating.map((name, k) =>
+    const buttons = experiment.rating.map((name, k) =>
       h(
         "button",
         { type: "button", class: "step", "data-testid": `rating-${k + 1}`, onclick: () => choose(k) },
@@ -25,7 +25,7 @@ export function showRating(element: HTMLElement, station: Station, suggestion: n
         "section",
         { class: "card wide", "data-testid": "rating" },
         h("h1", {}, texts.get("rating_title")),
-        h("div", { class: "prose" }, h("p", {}, texts.get("rating_text", { count: study.rating.length }))),
+        h("div", { class: "prose" }, h("p", {}, texts.get("rating_text", { count: experiment.rating.length }))),
         h("div", { class: "steps" }, ...buttons),
       ),
     );

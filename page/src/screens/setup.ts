@@ -13,7 +13,7 @@ import { VelocityWindows } from "./windows";
 type Kind = "gamepad" | "pointer" | "keys";
 const KINDS: Kind[] = ["gamepad", "pointer", "keys"];
 
-/** Resolved when the person goes on; the station has its device then. */
+/** Resolved when the person continues; the station has its device then. */
 export function showSetup(element: HTMLElement, station: Station): Promise<void> {
   return new Promise((resolve) => new Setup(element, station, resolve).show());
 }
@@ -87,7 +87,7 @@ class Setup {
           h("div", { class: "options" }, ...options),
           h(
             "div",
-            { class: "try", "data-views": this.station.study.views.length },
+            { class: "try", "data-views": this.station.experiment.views.length },
             ...this.velocities.elements,
             this.how,
           ),

@@ -1,4 +1,4 @@
-/** One trial: wait for the trigger, steer, come to rest inside the circle. Broken off trials are done again at once. */
+/** One trial: wait for the trigger, steer, stop inside the circle. Broken off trials are done again at once. */
 
 import { button, h } from "../dom";
 import { Run, type Ending, type Task } from "../run";
@@ -68,7 +68,7 @@ class Trial {
     this.abort = button("abort", texts.get("abort"), () => (this.aborting = true), "second");
     this.root = h(
       "section",
-      { class: "trial", "data-testid": "trial", "data-views": station.study.views.length },
+      { class: "trial", "data-testid": "trial", "data-views": station.experiment.views.length },
       h("div", { class: "arms" }, ...this.arms.elements),
       h(
         "div",
@@ -139,7 +139,7 @@ class Trial {
     if (spec.record !== null) station.send({ type: "begin", ...spec.record });
     this.frames = new Frames();
     this.enter("running", station.texts.get("trial_running"));
-    station.clock.start(station.study.rate, (time) => this.cycle(time));
+    station.clock.start(station.experiment.rate, (time) => this.cycle(time));
   }
 
   private cycle(time: number): void {
@@ -210,7 +210,7 @@ class Trial {
     if (phase === "waiting" || phase === "broken") this.watch();
     if (phase === "running") this.frames.at(performance.now() / 1000);
     // The arm moves from one configuration to the next during the cycle whose command was read at its beginning.
-    const share = phase === "running" ? (station.clock.now - this.cycleAt) * station.study.rate : 1;
+    const share = phase === "running" ? (station.clock.now - this.cycleAt) * station.experiment.rate : 1;
     const part = Math.max(0, Math.min(1, share));
     for (let i = 0; i < this.shown.length; i++) this.shown[i] = run.before[i] + part * (run.q[i] - run.before[i]);
     this.arms.draw(this.shown, { start: this.start, target: spec.task.target });

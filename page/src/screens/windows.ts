@@ -10,7 +10,7 @@ import type { Station } from "../station";
 const ROOM = 1.1;
 
 /** What the windows need to know: they are drawn for the experimenter too. */
-export type Drawn = Pick<Station, "study" | "texts" | "arm"> & { plan: { training: Posed[]; trials: Posed[] } };
+export type Drawn = Pick<Station, "experiment" | "texts" | "arm"> & { plan: { training: Posed[]; trials: Posed[] } };
 
 interface Posed {
   q0: number[];
@@ -23,9 +23,9 @@ function titled(title: string, content: HTMLElement, kind: string): HTMLElement 
 
 /** "Your command", or "Your command, from above" where there are several views. */
 function caption(station: Drawn, key: string, view: number): string {
-  const { texts, study } = station;
+  const { texts, experiment } = station;
   const name = texts.get(key);
-  return study.views.length > 1 ? `${name}, ${texts.get(`view_${view + 1}`)} (${study.views[view].label})` : name;
+  return experiment.views.length > 1 ? `${name}, ${texts.get(`view_${view + 1}`)} (${experiment.views[view].label})` : name;
 }
 
 export class VelocityWindows {
@@ -33,10 +33,10 @@ export class VelocityWindows {
   private readonly windows: VelocityWindow[];
 
   constructor(station: Drawn) {
-    const { study, texts } = station;
-    const { limit, dead_zone } = study.stick;
+    const { experiment, texts } = station;
+    const { limit, dead_zone } = experiment.stick;
     const name = texts.get("velocity_window_says");
-    this.windows = study.views.map((view, k) => new VelocityWindow(`velocity-${k + 1}`, name, view, limit, dead_zone));
+    this.windows = experiment.views.map((view, k) => new VelocityWindow(`velocity-${k + 1}`, name, view, limit, dead_zone));
     this.elements = this.windows.map((w, k) =>
       titled(caption(station, "velocity_window", k), w.surface.element, "velocity"),
     );
@@ -58,19 +58,19 @@ export class ArmWindows {
   private readonly points: Float64Array;
 
   constructor(private readonly station: Drawn) {
-    const { study, texts, arm } = station;
+    const { experiment, texts, arm } = station;
     this.points = new Float64Array(3 * arm.markers);
     const { centres, extent } = seen(station);
     const says = texts.get("arm_window_says");
-    this.windows = study.views.map(
-      (view, k) => new ArmWindow(`arm-${k + 1}`, says, view, study.reach, centres[k], extent),
+    this.windows = experiment.views.map(
+      (view, k) => new ArmWindow(`arm-${k + 1}`, says, view, experiment.reach, centres[k], extent),
     );
     this.elements = this.windows.map((w, k) => titled(caption(station, "arm_window", k), w.surface.element, "arm"));
   }
 
   draw(q: Float64Array, scene: Omit<ArmScene, "points" | "radius">): void {
     this.station.arm.points(q, this.points);
-    for (const w of this.windows) w.draw({ ...scene, points: this.points, radius: this.station.study.radius });
+    for (const w of this.windows) w.draw({ ...scene, points: this.points, radius: this.station.experiment.radius });
   }
 }
 
@@ -81,14 +81,14 @@ export class ArmWindows {
  * @returns the middle of each view, and half of what is to be seen, m
  */
 function seen(station: Drawn): { centres: [number, number][]; extent: number } {
-  const { study, arm, plan } = station;
-  if (study.reach !== null) return { centres: study.views.map((v) => task(v, study.centre)), extent: study.reach };
+  const { experiment, arm, plan } = station;
+  if (experiment.reach !== null) return { centres: experiment.views.map((v) => task(v, experiment.centre)), extent: experiment.reach };
   const points = new Float64Array(3 * arm.markers);
-  const low = study.views.map(() => [Infinity, Infinity]);
-  const high = study.views.map(() => [-Infinity, -Infinity]);
+  const low = experiment.views.map(() => [Infinity, Infinity]);
+  const high = experiment.views.map(() => [-Infinity, -Infinity]);
   for (const { q0, target } of [...plan.training, ...plan.trials]) {
     arm.points(Float64Array.from(q0), points);
-    study.views.forEach((view, k) => {
+    experiment.views.forEach((view, k) => {
       const all = [task(view, target), ...Array.from({ length: arm.markers }, (_, i) => point(view, points, 3 * i))];
       for (const place of all) {
         place.forEach((value, i) => {

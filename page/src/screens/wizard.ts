@@ -1,8 +1,8 @@
-/** Calibration of a gamepad, step by step: let go, push each way, press the button to start with. */
+/** Calibration of a gamepad, step by step: release, push each way, press the button to start with. */
 
 import { pushed, Readings, type AxisMap, type Calibration } from "../input/calibration";
 
-const REST = 1.5; // s of standing still are watched
+const REST = 1.5; // s of stillness are watched
 const HOLD = 0.6; // s of pushing
 
 export class Wizard {

@@ -1,4 +1,4 @@
-"""Configurations as arrays: what every entry point accepts, and where to draw them from."""
+"""Configurations as arrays: checked input, and limits to draw them between."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ class Joint:
             object.__setattr__(self, field_name, value)
         if self.lower > self.upper:
             raise ArmError(
-                f"limits of joint '{self.name}' are upside down: lower {self.lower:g} is above upper {self.upper:g}; swap them"
+                f"limits of joint '{self.name}' are reversed: lower {self.lower:g} is above upper {self.upper:g}; swap them"
             )
 
     @property

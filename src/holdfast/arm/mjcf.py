@@ -111,7 +111,7 @@ def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
             model = spec.compile()
     except ValueError as error:
         reason = " ".join(str(error).split())
-        raise ArmError(f"MuJoCo cannot read this ({reason}); give a sound MJCF file, with the files that it names") from error
+        raise ArmError(f"MuJoCo cannot read this ({reason}); give a valid MJCF file, with the files that it names") from error
     if not model.njnt:
         raise ArmError("the model has no joint; an arm needs at least one")
     named = spec.modelname

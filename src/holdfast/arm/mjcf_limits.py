@@ -1,4 +1,4 @@
-"""What an MJCF file may ask of MuJoCo: it expands counts and opens the files that are named without looking at either."""
+"""Limits for MJCF files: MuJoCo expands counts and opens the named files without looking at either."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _PNG = b"\x89PNG\r\n\x1a\n"
 
 
 def check(path: Path) -> str:
-    """The text of a model that MuJoCo may be given.
+    """The text of a model, if it is safe for MuJoCo.
 
     Raises:
         ArmError: It cannot be read, or it or a file that it names would make far more of itself than an arm needs.
@@ -44,14 +44,14 @@ def _text(path: Path) -> str:
         with reading.guarded(advice="give the path of an MJCF file", kind=ArmError):
             return reading.text(path, _LARGEST)
     except UnicodeDecodeError as error:
-        raise ArmError(f"this is not sound XML ({error}); give an MJCF file") from error
+        raise ArmError(f"this is not valid XML ({error}); give an MJCF file") from error
 
 
 def _check(text: str, path: Path, folder: Path, seen: set[Path]) -> None:
     try:
         root = ElementTree.fromstring(text)
     except (ElementTree.ParseError, ValueError, LookupError) as error:
-        raise ArmError(f"this is not sound XML ({error}); give an MJCF file") from error
+        raise ArmError(f"this is not valid XML ({error}); give an MJCF file") from error
     elements = 0
     for element, copies in _copies(root, 1):
         elements += copies

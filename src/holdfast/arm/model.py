@@ -1,4 +1,4 @@
-"""An arm: a machine, and what can be asked of it."""
+"""An arm: a machine with its kinematics, statics and dynamics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Poses and rotations as arrays: what every entry point accepts."""
+"""Poses and rotations as arrays: checked input, and conversions."""
 
 from __future__ import annotations
 

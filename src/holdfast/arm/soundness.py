@@ -1,4 +1,4 @@
-"""Is an arm's data sound? Findings for people, and a gate for analyses that need inertials."""
+"""Checks of an arm's data: findings to read, and errors where an analysis needs inertial data."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROUNDING = 1e-9  # relative to the largest moment
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that is missing, implausible or impossible.
+    """Something missing, implausible or impossible.
 
     Attributes:
         severity: ``error``: no analysis that uses the number can be right; ``warning``: some analyses lack it.
@@ -46,7 +46,7 @@ def check(arm: Machine) -> list[Finding]:
 
 
 def require_masses(arm: Machine) -> None:
-    """Refuse an arm with a link of which nothing is known; a link may be massless.
+    """Raise :class:`ArmError` if nothing is known of a link; massless links pass.
 
     Raises:
         ArmError: The first such link.
@@ -60,7 +60,7 @@ def require_masses(arm: Machine) -> None:
 
 
 def require_possible_inertia(arm: Machine) -> None:
-    """Refuse an arm with a link of which nothing is known or whose inertia no body has; points and massless links pass.
+    """Raise :class:`ArmError` if nothing is known of a link or its inertia is impossible; points and massless links pass.
 
     Raises:
         ArmError: The first such link, and why.
@@ -74,7 +74,7 @@ def require_possible_inertia(arm: Machine) -> None:
 
 
 def require_inertia(arm: Machine) -> None:
-    """Refuse an arm whose links are not all known, with mass and a possible inertia.
+    """Raise :class:`ArmError` unless every link is known, with mass and a possible inertia.
 
     Raises:
         ArmError: The first link that is not, and why.

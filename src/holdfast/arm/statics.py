@@ -1,4 +1,4 @@
-"""Symbolic statics and inertia of a serial arm: what gravity asks of each joint, and how heavy each joint feels.
+"""Symbolic statics and inertia of a serial arm: holding torques and the inertia about each joint.
 
 Joint i carries a *composite body*: the links after it and the payload, as if they were welded together. English and
 Maciejewski 1998 give its mass, first and second moment by a recursion from the tip, eq. (9), (10), (26), (27), each in

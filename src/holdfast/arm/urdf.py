@@ -87,7 +87,7 @@ def robot_element(path: Path) -> ElementTree.Element:
     """The outermost element of a URDF file.
 
     Raises:
-        ArmError: The file cannot be read, or is no URDF.
+        ArmError: The file cannot be read, or is not a URDF.
     """
     robot = _element(path, "URDF")
     left = next(_unexpanded(robot), None)
@@ -119,7 +119,7 @@ def _element(path: Path, kind: str) -> ElementTree.Element:
     except (expat.ExpatError, LookupError, ValueError, AssertionError) as error:
         if isinstance(error, ArmError):
             raise
-        raise ArmError(f"this is not sound XML ({error}); give a {kind} file") from error
+        raise ArmError(f"this is not valid XML ({error}); give a {kind} file") from error
     if robot.tag != "robot":
         raise ArmError(f"the outermost element is <{robot.tag}>; a {kind} file has <robot>")
     return robot
@@ -250,7 +250,7 @@ def _limits(element: ElementTree.Element, kind: str, where: str) -> tuple[float,
         # The format says that the one left out is 0.
         lower, upper = (_numbers(limit.get(key, "0"), 1, f"{where}: {key}")[0] for key in ("lower", "upper"))
         if lower > upper:
-            raise ArmError(f"{where}: its limits are upside down, lower {lower:g} is above upper {upper:g}; swap them")
+            raise ArmError(f"{where}: its limits are reversed, lower {lower:g} is above upper {upper:g}; swap them")
     return lower, upper, _size(limit, "velocity", where) or np.inf, _size(limit, "effort", where) or np.inf
 
 

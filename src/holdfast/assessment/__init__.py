@@ -1,4 +1,4 @@
-"""Over a region: sample poses, solve, evaluate, and say how probable fault tolerance is."""
+"""Fault tolerance over a region: sample poses, solve, evaluate, and give probabilities."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""The answer of an assessment in sentences: what keeps its index, how often, and what is in the way."""
+"""The answer of an assessment in sentences: how often a threshold is met, and what prevents it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ZERO = 1e-9  # values that a structural failure leaves behind are rounding noise
 
 
 class Sampled(Protocol):
-    """What of an assessment the answer is made of; see :class:`holdfast.Assessment`."""
+    """The parts of an assessment that the answer uses; see :class:`holdfast.Assessment`."""
 
     @property
     def plan(self) -> Plan: ...  # noqa: D102
@@ -74,7 +74,7 @@ class Answer:
 
     @property
     def decided(self) -> bool:
-        """There is a threshold that means something."""
+        """There is a meaningful threshold."""
         return self.chosen or self.index.bound is not None or (self.d.reached > 0 and not self.nothing)
 
     @cached_property
@@ -125,7 +125,7 @@ class Answer:
 
     @cached_property
     def why(self) -> str:
-        """What keeps the answer at nothing, joint or structure, and the next figures that say something."""
+        """Why the answer is nothing, joint or structure, and the next informative numbers."""
         a, index, names = self.a, self.index, self.a.plan.arm.joint_names
         own = self.structures[0]
         ends = [k for k in own.fatal if any(k in s for s in index.failures)]

@@ -1,4 +1,4 @@
-"""What an assessment found: the probability that the arm keeps what it needs when a joint locks, and what follows."""
+"""The result of an assessment: how probably an index meets a threshold after a failure, and what follows."""
 
 from __future__ import annotations
 
@@ -204,7 +204,7 @@ class Assessment(Result):
         return 1.0
 
     def gap(self, optimised: bool = False) -> float | None:
-        """What the median over the reached poses lacks to the bound that no configuration can exceed, or None if unknown.
+        """Distance of the median over the reached poses from the bound of every configuration; None if unknown.
 
         For relative manipulability after any one failure the bound is ``sqrt((n - m) / n)``. What is known of
         the bound for several failures at a time, ``index.bound_note`` says.
@@ -216,7 +216,7 @@ class Assessment(Result):
 
     @checked
     def if_never_fails(self, joint: str | int, optimised: bool = False) -> Distribution:
-        """The distribution that the arm would have if no failure of one joint could happen, at the same configurations.
+        """The distribution if one joint could never fail, at the same configurations.
 
         It is the worst case over the remaining failures. Configurations are not chosen again: of the optimised sample it is
         what those chosen for all failures keep, a lower bound.

@@ -1,4 +1,4 @@
-"""A distribution that is only counted, in bins that the index alone decides, so that parts of it can be added."""
+"""A distribution as counts, in bins that depend on the index alone, so that parts of it can be added."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rows of one block of a plan: its poses solved, evaluated, and asked what is left of them after a lock."""
+"""The rows of one block of a plan: its poses solved, evaluated, and tried again with joints locked."""
 
 from __future__ import annotations
 

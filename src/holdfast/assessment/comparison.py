@@ -142,7 +142,7 @@ class Comparison(Result):
 
     @cached_property
     def notes(self) -> list[str]:
-        """What differs between the candidates and must be known when they are compared, one sentence each."""
+        """Differences between the candidates that matter when they are compared, one sentence each."""
         runs = self.assessments
         first = runs[0]
         found = []
@@ -178,7 +178,7 @@ class Comparison(Result):
         return found
 
     def describe(self) -> list[str]:
-        """Which candidate is the best, of each task, and what must be known before they are compared."""
+        """The best candidate for each task, and differences that matter when they are compared."""
         sign = "least" if self.assessments[0].index.better == "larger" else "most"
         said = []
         for task in dict.fromkeys(a.index.task.name for a in self.assessments):
@@ -283,7 +283,7 @@ def load_comparison(path: str | Path, threshold: float | None = None) -> Compari
 
 
 def check_names(names: Sequence[str]) -> None:
-    """Refuse candidates that have one name.
+    """Raise :class:`InputError` if two candidates have one name.
 
     Raises:
         InputError: A name is empty or given twice.

@@ -1,4 +1,4 @@
-"""Carrying out a plan: blocks in the pool of threads, chunks in a folder, and what is counted on the way."""
+"""Running a plan: blocks in the pool of threads, chunks in a folder, and what is counted on the way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far an arm is from running through itself: capsules on its links and the distances between them."""
+"""How far an arm is from colliding with itself: capsules on its links and the distances between them."""
 
 from holdfast._lazy import offer
 

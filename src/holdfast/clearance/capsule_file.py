@@ -33,7 +33,7 @@ def read(path: Path) -> dict[str, Any]:
     """The keys and values in a file, not checked yet.
 
     Raises:
-        InputError: It cannot be read or is no YAML.
+        InputError: It cannot be read or is not YAML.
     """
     return content(path, "holdfast.clearance.capsules", "radius or links")
 

@@ -282,7 +282,7 @@ class Clearance:
 
 
 def too_close(margin: float) -> str:
-    """What an arm does whose clearance is below the margin, m, for people."""
+    """The phrase for an arm whose clearance is below the margin, m."""
     return f"comes closer than {margin:g} m to itself" if margin else "runs through itself"
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
 
-from holdfast.cli.options import TARGET_HELP, read_arm, read_joint, read_numbers, read_target, read_task
-from holdfast.errors import InputError
+from holdfast.cli.options import TARGET_HELP, read_arm, read_target, read_task
 from holdfast.registry import LAWS
 
 if TYPE_CHECKING:
@@ -44,11 +42,7 @@ CyclesOption = Annotated[bool, typer.Option("--cycles", help="Discrete control c
 TimeLimitOption = Annotated[
     float | None, typer.Option("--time-limit", help="s or cycles.", show_default="3000/gain s, or 1000 cycles")
 ]
-LockOption = Annotated[
-    list[str],
-    typer.Option("--lock", help="A joint that is locked. May be given again, with --at.", show_default=False),
-]
-AtDegreesOption = Annotated[bool, typer.Option("--degrees", help="--at is in degrees (prismatic joints stay in m).")]
+LockDegreesOption = Annotated[bool, typer.Option("--degrees", help="--lock is in degrees (prismatic joints stay in m).")]
 
 
 def read_law(label: str, arm: Arm, task: str | Task, option: str = "--law", **more: Any) -> Law:
@@ -69,17 +63,6 @@ def law_of(
     """The law that --law, ARM, --task, --base, --tip and --hold name."""
     model = read_arm(arm, base, tip, hold)
     return read_law(label, model, read_task(task, arm, model), **more)
-
-
-def read_locked(arm: Arm, lock: list[str], at: str | None, degrees: bool) -> tuple[list[int], Any]:
-    """The joints of --lock, and their values of --at, rad or m."""
-    joints = [read_joint(arm, text) for text in lock]
-    if at is None:
-        return joints, None
-    values = read_numbers("--at", at, "one number for each locked joint")
-    if values.size != len(joints):
-        raise InputError(f"--at has {values.size} numbers; give one for each of the {len(joints)} locked joints")
-    return joints, np.where(arm.prismatic[joints], values, np.deg2rad(values)) if degrees else values
 
 
 def read_places(text: str) -> str | int:

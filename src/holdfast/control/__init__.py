@@ -1,4 +1,4 @@
-"""How to move: control laws that do not know of a failure, and redundancy resolution that serves an objective before one."""
+"""Control laws that do not know of a failure, their deviations after one, and their export."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""Where arms end up from everywhere: measures over a workspace, maps, the best law, laws side by side."""
+"""How failed arms end over a workspace: measures, maps, the best law, comparisons of laws."""
 
 from holdfast._lazy import offer
 

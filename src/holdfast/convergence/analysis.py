@@ -1,4 +1,4 @@
-"""What the analysis of a workspace does with the motions from every start to one target."""
+"""The analysis of a workspace for one target: the motions from every start."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def usual_method(law: Law) -> Method:
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """One target, and how the motions to it are looked at; the options are those of :func:`holdfast.workspace`."""
+    """One target, and how the motions to it are analysed; the options are those of :func:`holdfast.workspace`."""
 
     law: Law
     pose: Array
@@ -198,7 +198,7 @@ def prepared(
     sinks: Mapping[int, Arcs] | None = None,
     seed: int = 0,
 ) -> Job:
-    """What there is to do for a target; it has no bounds where the target is not ``reached``.
+    """The job of a target; it has no bounds where the target is not ``reached``.
 
     Raises:
         InputError: Wrong shapes or options, or a procedure for a target with surfaces of stationary points.
@@ -235,7 +235,7 @@ def _sinks(law: Law, pose: Array) -> dict[int, Arcs]:
     """Of each joint, the locked values with a sink, and those beside which motions may circle or creep."""
     found: dict[int, Arcs] = {}
     for j in range(law.arm.n):
-        curves = stationary_points(law, pose, locked=j)
+        curves = stationary_points(law, pose, {j: None})
         if len(curves.loose):
             raise InputError(
                 f"with {law.arm.joint_names[j]} locked the stationary points form surfaces, which were only sampled, so the "

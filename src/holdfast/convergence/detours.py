@@ -1,4 +1,4 @@
-"""What a control law costs the arm as long as nothing has failed: detours, slants and delays on the way to a target."""
+"""What a control law costs the healthy arm: detours, slants and delays on the way to a target."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class HealthyCost:
 
 
 def healthy_cost(law: Law, q0: Array, target: Array, cycles: bool, radius: float) -> HealthyCost:
-    """Follow N motions, (N, n) to (N, 4, 4), of the healthy arm: the run, cut into pieces at whose ends one looks.
+    """Follow N motions, (N, n) to (N, 4, 4), of the healthy arm, looked at piece by piece.
 
     What is between two samples is not seen: 64 samples over 40/Ke, the first 0.01/Ke and the last 1.3/Ke apart.
     """

@@ -176,14 +176,14 @@ class LawComparison(Result):
             InputError: No such law, or no joint was locked.
         """
         if not self.joints:
-            raise InputError("no joint was locked here; give locked='each' or a list of joints")
+            raise InputError("no joint was locked here; give failures='single' or a list of joints")
         return np.array([getattr(self.case(law, joint), of) for joint in self.joints])
 
     def share_any(self, law: str, outcome: str = "converged") -> Interval:
         """Share of an outcome where each of the joints is as likely to lock as any other, with its 95 % interval.
 
-        The runs of one motion with different joints locked are no independent samples: the unit is the motion, and the interval
-        that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
+        The runs of one motion with different joints locked are not independent samples: the unit is the motion, and the
+        interval that of a mean of fractions, which always covers (:meth:`holdfast.probability.Interval.of_fractions`).
         """
         return Interval.of_fractions((self.pooled(law, "code") == Outcome[outcome.upper()]).mean(axis=0))
 
@@ -218,7 +218,7 @@ class LawComparison(Result):
         generous = {"lost": (False, False), "for": (False, True), "against": (True, False)}[undecided]
         if failure == ANY:
             if not self.joints:
-                raise InputError("a mean over the joints takes a locked joint; give locked='each' or name one joint")
+                raise InputError("a mean over the joints takes a locked joint; give failures='single' or name one joint")
             one, two = (
                 np.array([_arrived(self.case(x, joint), kind) for joint in self.joints])
                 for x, kind in zip((other, law), generous, strict=True)

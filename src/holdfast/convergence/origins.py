@@ -160,7 +160,7 @@ class Workspace(Result):
             )
         if self.method == "procedure":
             lines.append(
-                f"{ends['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked where no sink is, "
+                f"{ends['no_sink']} more were not simulated ({100 * self.saved:.2f} %): the joint locked away from every sink, "
                 "which makes convergence very likely but does not prove it"
             )
         return lines

@@ -37,7 +37,7 @@ class Places:
 
     Attributes:
         poses: (P, 4, 4) tool poses in the world; only the rows of the task count.
-        cells: (P, 2) column and row of each place in a lattice, from 0; None if they are no lattice.
+        cells: (P, 2) column and row of each place in a lattice, from 0; None if they are not a lattice.
         axes: Coordinates (C,) of the columns and rows of the lattice along the task's two rows, m; None likewise.
     """
 
@@ -78,7 +78,7 @@ def lattice(arm: Arm, task: Task, count: int = LATTICE) -> Places:
     if not in_a_plane(task):
         raise TaskError(f"task '{task.name}' is not the position in a plane, so there is no lattice; give places or a number")
     if count < 2:
-        raise InputError(f"a lattice of {count} points along its edge is none; give 2 or more")
+        raise InputError(f"a lattice cannot have {count} points along its edge; give 2 or more")
     reach = sum(float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints[1:]) + float(np.linalg.norm(arm.tool[:3, 3]))
     middle = arm.frames_at_zero[0, :3, 3]
     line = np.linspace(-reach, reach, count)
@@ -115,7 +115,7 @@ def read_places(arm: Arm, task: Task, given: ArrayLike | str | int | Places, gen
         return lattice(arm, task, int(count or LATTICE))
     if isinstance(given, (int, np.integer)):
         if given < 1:
-            raise InputError(f"{given} places are none; give 1 or more")
+            raise InputError(f"there cannot be {given} places; give 1 or more")
         return random_places(arm, int(given), generator)
     values = np.asarray(given, dtype=np.float64)
     if values.ndim in (2, 3) and values.shape[-2:] == (4, 4):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from holdfast.arm.configurations import finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.errors import InputError
+from holdfast.failures import FailureSpec, single_joints
 from holdfast.solvers.inverse_kinematics import solver
 
 Array = NDArray[np.float64]
@@ -65,7 +65,7 @@ def point_to_point(
     seed: int = 0,
     *,
     distance: tuple[float, float] | None = None,
-    reachable_after: Literal["each"] | Sequence[str | int] | None = None,
+    failures: FailureSpec | None = None,
     task: str | Task | Sequence[str] = "pose",
     restarts: int = 30,
 ) -> PointToPoint:
@@ -78,15 +78,15 @@ def point_to_point(
         count: How many motions.
         seed: The same seed gives the same motions, and more of them begin with the same ones.
         distance: Least and greatest distance of the tool from start to target, m; any if not given.
-        reachable_after: Joints, by name or index from 0, or ``"each"``: only motions whose target can be reached, within the
-            limits, also with any one of them locked where it starts. Decided by inverse kinematics as
+        failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0: only motions whose target can be
+            reached, within the limits, also with any one of them locked where it starts. Decided by inverse kinematics as
             :func:`holdfast.solve_ik` does, so a target that is hard to reach may be taken for one that is not.
         task: Rows of the target that must be reached then; nothing else depends on it.
         restarts: Random starts of that inverse kinematics.
 
     Raises:
         InputError: Options out of range; or so few motions meet the wishes that the search was given up.
-        TaskError: A task that the arm does not have.
+        TaskError: A task that the arm does not have, or failures that are not of one joint each.
     """
     if count < 1:
         raise InputError(f"count is {count}; it must be 1 or more")
@@ -95,11 +95,11 @@ def point_to_point(
     nearest, farthest = (0.0, np.inf) if distance is None else distance
     if not 0 <= nearest < farthest:
         raise InputError(f"distance is {nearest:g} to {farthest:g} m; the first must be 0 or more and below the second")
-    joints = read_joints(arm, reachable_after, "reachable_after")
+    joints = single_joints(arm, failures)
     chosen = as_task(arm, task)
     wishes = [] if distance is None else [f"{nearest:g} to {farthest:g} m long"]
     if joints:
-        names = "any one joint" if reachable_after == "each" else " or ".join(arm.joint_names[k] for k in joints)
+        names = "any one joint" if len(joints) == arm.n else " or ".join(arm.joint_names[k] for k in joints)
         wishes.append(f"target still within reach (task {chosen.name}) with {names} locked at the start")
     wish = ", ".join(wishes) or "drawn within the limits"
     low, high = finite_limits(arm)
@@ -123,17 +123,6 @@ def point_to_point(
         drawn += _BLOCK
     q0, target, q_target = (np.concatenate([getattr(b, x) for b in kept])[:count] for x in ("q0", "target", "q_target"))
     return PointToPoint(arm, q0, target, q_target=q_target, drawn=drawn, wish=wish)
-
-
-def read_joints(arm: Arm, given: Literal["each"] | Sequence[str | int] | None, name: str) -> list[int]:
-    """Indices of the joints of an argument ``name`` that is a list of them, ``each``, or None for none."""
-    if given is None:
-        return []
-    if isinstance(given, str):
-        if given != "each":
-            raise InputError(f"{name} is '{given}'; give 'each', a list of joints, or None")
-        return list(range(arm.n))
-    return [arm.joint_index(j) for j in given]
 
 
 def _still_reached(

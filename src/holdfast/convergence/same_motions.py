@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,8 +15,8 @@ from holdfast.arm.poses import check_poses
 from holdfast.control.law import Law
 from holdfast.convergence.detours import healthy_cost
 from holdfast.convergence.law_comparison import HEALTHY, LawComparison, at_rest
-from holdfast.convergence.random_motions import read_joints
 from holdfast.errors import InputError
+from holdfast.failures import FailureSpec, single_joints
 from holdfast.notice import working
 from holdfast.simulation.closed_loop import RADIUS, TOLERANCE, simulate
 from holdfast.simulation.runs import Outcome, Runs
@@ -31,7 +31,7 @@ def compare_laws(
     q0: ArrayLike,
     target: ArrayLike,
     *,
-    locked: Literal["each"] | Sequence[str | int] | None = "each",
+    failures: FailureSpec | None = "single",
     cycles: bool = False,
     time_limit: float | None = None,
     tolerance: float = TOLERANCE,
@@ -49,8 +49,8 @@ def compare_laws(
             dictionary of them by name. Without names they are called by their labels.
         q0: (n,) or (N, n) configurations at the start, rad and m; see also :func:`holdfast.point_to_point`.
         target: As :func:`holdfast.simulation.simulate` takes it, one or N.
-        locked: ``"each"`` joint alone, or a list of joints by name or index from 0, each of which locks alone; None: no
-            failures.
+        failures: ``"single"`` (each joint alone), or a list of joints by name or index from 0, each of which locks alone; None:
+            no failures.
         cycles: As for :func:`holdfast.simulation.simulate`, and so the next three.
         time_limit: s or cycles.
         tolerance: Of the adaptive method.
@@ -61,6 +61,7 @@ def compare_laws(
 
     Raises:
         InputError: Wrong shapes or options; laws of different arms or tasks.
+        TaskError: Failures that are not of one joint each.
     """
     named = dict(laws) if isinstance(laws, Mapping) else _by_label(laws)
     every = tuple(named.values())
@@ -70,9 +71,7 @@ def compare_laws(
     for name, law in named.items():
         if law.arm is not arm or not law.task.same_rows(task):
             raise InputError(f"law '{name}' is of another arm or task than '{next(iter(named))}'; make both of the same")
-    joints = read_joints(arm, locked, "locked")
-    if len(set(joints)) != len(joints):
-        raise InputError("locked names a joint twice; each is locked alone, once")
+    joints = single_joints(arm, failures)
     start, _ = as_configurations(arm, q0)
     goal = real_numbers(target, "target")
     if not goal.ndim:

@@ -1,4 +1,4 @@
-"""Runs that the time limit ended on their last, slow stretch to the target: what becomes of them, from its linearisation.
+"""Runs that the time limit ended on their last, slow stretch to the target: what becomes of them, by linearisation.
 
 Near the ends of the range of a locked joint the failed arm converges ever more slowly, at the rate ``n_i^2 Ke`` of
 the null vector's component: no time limit is long enough for all.

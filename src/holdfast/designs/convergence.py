@@ -183,7 +183,7 @@ def design_for_convergence(
                 raise
     if rest is not None:
         if space.lower.min() <= 0:
-            raise InputError("a link of length 0 or less is none; give bounds above 0")
+            raise InputError("a link cannot have length 0 or less; give bounds above 0")
         return _exact(rest, box, _rings(rest, targets), objective, designs, climbs, seed, progress)
     if keep_reach:
         raise InputError("keep_reach belongs to the exact search for planar arms of three joints; leave it out")
@@ -194,7 +194,7 @@ def _planar(law: Law, space: DesignSpace) -> PlanarRest:
     rest = PlanarRest(law)
     other = [name for name in space.names if name not in ("a1", "a2", "a3")]
     if other:
-        raise InputError(f"'{other[0]}' is no link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
+        raise InputError(f"'{other[0]}' is not a link length; exact sets are known for a1, a2 and a3, or sample: exact=False")
     return rest
 
 

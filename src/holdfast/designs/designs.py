@@ -1,4 +1,4 @@
-"""What a search of designs found."""
+"""The result of a search of designs."""
 
 from __future__ import annotations
 

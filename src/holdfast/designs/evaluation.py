@@ -1,4 +1,4 @@
-"""What designs are worth, pose by pose: the best configuration of every design and pose, in one batch.
+"""Designs evaluated pose by pose: the best configuration of every design and pose, in one batch.
 
 The search for configurations is that of :func:`holdfast.optimise` (same steps, compiled once for all designs), but most of its
 random starts are spared: a design begins where a design near it has ended.

@@ -1,4 +1,4 @@
-"""All designs of a space as one arm with symbols for the numbers that are open: what is compiled serves every design.
+"""All designs of a space as one arm with symbols for the varied numbers: compiled once for every design.
 
 The symbols are the arm's constants themselves, so the equations of ``arm``, ``indices`` and ``solve`` are used as they are
 and what is not varied still vanishes from the code where it is 0. (The other way, a locked joint for every parameter in a

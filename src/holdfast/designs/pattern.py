@@ -22,7 +22,7 @@ _DRAWS = 64  # times as many drawn as wanted, at most, where the sum is kept
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """What designs there are.
+    """The designs that are allowed.
 
     Attributes:
         space: Parameters and their bounds.

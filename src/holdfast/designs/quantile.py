@@ -1,4 +1,4 @@
-"""The value that a share of the poses is guaranteed to have: the quantile itself, and a smooth one with slopes to climb by."""
+"""The value that a share of the poses is guaranteed to have: the quantile itself, and a smooth estimate with slopes."""
 
 from __future__ import annotations
 

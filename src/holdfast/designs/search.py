@@ -1,4 +1,4 @@
-"""The search: designs spread over the space, then climbs with exact gradients, then a check on poses that played no part."""
+"""The search: designs spread over the space, then climbs with exact gradients, then a check on fresh poses."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ def design(
 
 
 def pareto(reach: Array, value: Array) -> NDArray[np.intp]:
-    """Numbers of the designs that no other one beats in both, by reach from the shortest."""
+    """Numbers of the designs that no other beats in both, by reach from the shortest."""
     order = np.lexsort((-value, -reach))  # from the farthest reach; of equal reach the best value first
     front, top = [], -np.inf
     for i in order:

@@ -1,4 +1,4 @@
-"""Which numbers of an arm are open, and between which bounds: the space in which a design is searched."""
+"""The space of a search: which numbers of an arm vary, and between which bounds."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Parameter:
         if not (np.isfinite(low) and np.isfinite(high)):
             raise InputError(f"bounds of {self.name} are {low:g} and {high:g}; they must be finite numbers")
         if low > high:
-            raise InputError(f"bounds of {self.name} are upside down: {self.text(low)} is above {self.text(high)}; swap them")
+            raise InputError(f"bounds of {self.name} are reversed: {self.text(low)} is above {self.text(high)}; swap them")
         if low == high:
             raise InputError(
                 f"both bounds of {self.name} are {self.text(low)}; give it room, or leave it out: then it stays as it is"
@@ -89,7 +89,7 @@ class Parameter:
 
 @dataclass(frozen=True, eq=False)
 class DesignSpace:
-    """An arm and the numbers of it that are open. A design is a vector (k,), one value per parameter, rad or m.
+    """An arm and the numbers of it that vary. A design is a vector (k,), one value per parameter, rad or m.
 
     Attributes:
         arm: The given arm. Its own values must lie within the bounds, so that before and after can be compared.
@@ -372,7 +372,7 @@ def _parts(name: str, before: str = "") -> tuple[str, int | None]:
     place, _, kind = name.partition(".")
     if place == "tool" and kind in OF_TOOL:
         return kind, None
-    raise InputError(f"{before}'{name}' is no parameter of an arm; write {_EXAMPLE}")
+    raise InputError(f"{before}'{name}' is not a parameter of an arm; write {_EXAMPLE}")
 
 
 def _rpy(rotation: Array) -> tuple[float, float, float]:

@@ -26,7 +26,7 @@ def too_many(rows: int, chunk: int) -> bool:
 
 
 def is_plain(name: object) -> bool:
-    """Whether something is the name of a folder right here, wherever the results are taken to."""
+    """Whether something is the name of a folder right here, on every system."""
     return (
         isinstance(name, str)
         and name not in ("", ".", "..")
@@ -64,7 +64,7 @@ def shortened(text: str, most: int = 60) -> str:
 
 @contextmanager
 def held(folder: Path, name: str) -> Iterator[None]:
-    """Hold a folder by a lock on the file ``name`` in it, which dies with this program.
+    """Hold a folder by a lock on the file ``name`` in it, which ends with this program.
 
     Raises:
         StoreError: Another program holds it, or the folder is not writable.

@@ -61,7 +61,7 @@ class Made:
             data = json.loads(reading.text(file))
             return {"makers": list(data["makers"]), "runs": list(data["runs"])}
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise StoreError(f"'{file}' is damaged ({error}); remove it to go on without knowing what made the rows") from error
+            raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error
 
     def _write(self, data: dict[str, list[Any]]) -> None:
         replaced(self._folder / _FILE, json.dumps(data, indent=1), advice=SAFE)

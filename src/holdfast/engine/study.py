@@ -100,7 +100,7 @@ class Study:
             if study.digest != data["digest"]:
                 raise StoreError(
                     f"'{folder}' holds another study ({study._unlike(data)}); give another folder, or the same study file to "
-                    "go on with it"
+                    "resume it"
                 )
             if study._data != data:
                 study._write(data)

@@ -13,10 +13,11 @@ from holdfast.arguments import LARGEST, checked, real_numbers
 from holdfast.arm.configurations import finite_limits
 from holdfast.arm.task import target_pose
 from holdfast.control.law import Law
-from holdfast.equilibria.points import Joints, StationaryPoints, classified, read_joints, read_values, search
+from holdfast.equilibria.points import StationaryPoints, classified, search
 from holdfast.equilibria.stability import Kind
 from holdfast.equilibria.system import RestSystem, distinct
 from holdfast.errors import InputError
+from holdfast.failures import LockedAt, locks_given
 from holdfast.notice import says
 from holdfast.probability.intervals import Interval, check_confidence
 from holdfast.result import Result
@@ -100,9 +101,8 @@ class Basins(Result):
 def basins(
     law: Law,
     target: ArrayLike,
-    locked: Joints,
+    locked: LockedAt,
     *,
-    at: ArrayLike,
     starts: int | ArrayLike = STARTS,
     grid: int | None = None,
     seed: int = 0,
@@ -117,9 +117,8 @@ def basins(
     Args:
         law: The control law, with its arm, task and gain.
         target: (m,) for tasks without angular rows, or a tool pose (4, 4).
-        locked: A joint by name or index from 0, or several.
-        at: Value of each, rad (or m).
-        starts: How many random starts, or configurations (N, n), whose locked joints are set to ``at``.
+        locked: ``{joint: value}``, rad or m, of one joint or several, by name or index from 0.
+        starts: How many random starts, or configurations (N, n), whose locked joints are set to their values.
         grid: With two healthy joints, cell centres of a grid of so many by so many in place of ``starts``.
         seed: Of the random starts and of the search for stationary points.
         time_limit: Of each run, s; 3000/Ke if not given.
@@ -131,9 +130,8 @@ def basins(
     Source: Goel et al. 2005, Fig. 8. Matching, shares and intervals are ours.
     """
     check_confidence(confidence)
-    joints, pose = read_joints(law.arm, locked), target_pose(law.task, target)
+    (joints, values), pose = locks_given(law.arm, locked), target_pose(law.task, target)
     generator = np.random.default_rng(seed)
-    values = read_values(joints, at)
     system = RestSystem(law, pose, joints)
     moving = tuple(int(k) for k in np.flatnonzero(system.healthy))
     points = search(system, values, generator)

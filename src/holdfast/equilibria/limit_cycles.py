@@ -38,7 +38,7 @@ class Orbit(Result):
     """The motion at the end of one run.
 
     Attributes:
-        label: ``limit cycle``, ``turning`` (a joint turns for ever) or ``unknown``.
+        label: ``limit cycle``, ``turning`` (a joint turns forever) or ``unknown``.
         period: s (without the speed limit of the law, which changes no path); NaN where the motion did not close.
         amplitude: (n,) greatest less least value of each joint over a period, rad (or m); over the window where there is none.
         windings: (n,) whole turns of each joint in a period; 0 where there is none.

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.control.law import Law
 from holdfast.equilibria.stability import Kind, Kinds, attracts, kinds
 from holdfast.equilibria.system import RestSystem, distinct, idle_joints, wrapped
-from holdfast.errors import InputError
 from holdfast.notice import Progress, told
 from holdfast.result import Result
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-Joints = str | int | Sequence[str | int]
 
 WAVE, PATIENCE, MOST_WAVES = 256, 3, 40
 SAME, SAME_DEGENERATE = 1e-5, 0.05  # rad (and m): points nearer than this are one
@@ -109,23 +107,6 @@ class StationaryPoints(Result):
     def _subset(self, rows: Flags | NDArray[np.intp]) -> StationaryPoints:
         names = ("q", "kind", "eigenvalues", "error", "residual", "continuum", "within_limits")
         return replace(self, **{name: getattr(self, name)[rows] for name in names})
-
-
-def read_joints(arm: Arm, locked: Joints) -> tuple[int, ...]:
-    """Locked joints as indices from 0."""
-    given = [locked] if isinstance(locked, (str, int, np.integer)) else list(locked)
-    joints = tuple(arm.joint_index(k) for k in given)
-    if not joints or len(set(joints)) != len(joints) or len(joints) >= arm.n:
-        raise InputError(f"locked names {len(joints)} joints of '{arm.name}'; give 1 to {arm.n - 1}, each once")
-    return joints
-
-
-def read_values(joints: Sequence[int], at: ArrayLike) -> Array:
-    """(k,) where the locked joints are."""
-    values = np.atleast_1d(np.asarray(at, dtype=np.float64))
-    if values.shape != (len(joints),) or not np.isfinite(values).all():
-        raise InputError(f"at has shape {np.shape(at)}; give one finite value for each of the {len(joints)} locked joints")
-    return values
 
 
 def search(system: RestSystem, at: Array, generator: np.random.Generator, advance: Progress = told) -> StationaryPoints:

@@ -23,7 +23,7 @@ from holdfast.simulation.system import System
 Array = NDArray[np.float64]
 Kinds = NDArray[np.uint8]
 
-REACHED = 1e-6  # rad, and lengths in units of the arm's own: an error below it is none
+REACHED = 1e-6  # rad, and lengths in units of the arm's own: an error below it counts as 0
 ZERO_BAND = 1e-6  # of the linearisation's norm, or of 1: real parts below it have no sign
 
 

@@ -19,7 +19,7 @@ from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 
-RANK = 1e-9  # of the largest singular value: a smaller one is none
+RANK = 1e-9  # of the largest singular value: a smaller one counts as 0
 
 
 def stuck_subspace(j: ArrayLike, weights: ArrayLike | None, locked: Sequence[int]) -> Array:
@@ -55,7 +55,7 @@ def is_stuck(
         j: (m, n) Jacobian of full rank.
         weights: As for :func:`stuck_subspace`.
         locked: Joints, from 0.
-        command: (m,) task velocity. A command of zero is no stuck one: the target is reached.
+        command: (m,) task velocity. A command of zero is not stuck: the target is reached.
         tolerance: Of the healthy rates, as a share of all rates.
 
     Raises:

@@ -37,7 +37,7 @@ def raw(path: str | Path, largest: int = LARGEST) -> bytes:
         largest: Bytes that it may have.
 
     Raises:
-        OSError: It cannot be read, is no regular file, or is larger; its ``strerror`` says so to people.
+        OSError: It cannot be read, is not a regular file, or is larger; its ``strerror`` says which.
     """
     try:
         state = Path(path).stat()

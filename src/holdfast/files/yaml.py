@@ -76,7 +76,7 @@ def parse(text: str, hint: str = "") -> Any:
         raise InputError(_TOO_DEEP) from error
     # PyYAML lets pass what Python says of a value, as of the day 2026-02-30 or of !!int x.
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, TypeError) as error:
-        raise InputError(f"this is not sound YAML ({_short(' '.join(str(error).split()), 300)}){hint}") from error
+        raise InputError(f"this is not valid YAML ({_short(' '.join(str(error).split()), 300)}){hint}") from error
 
 
 def _extent(node: yaml.Node, known: dict[int, tuple[int, int]]) -> tuple[int, int]:
@@ -113,7 +113,7 @@ def content(path: Path, example: str, least: str) -> dict[str, Any]:
         with reading.guarded(advice="give the path of a YAML file"):
             data = parse(reading.text(path, _LARGEST), f"; see {example} for an example")
     except UnicodeDecodeError as error:
-        raise InputError(f"this is not sound YAML ({error}); see {example} for an example") from error
+        raise InputError(f"this is not valid YAML ({error}); see {example} for an example") from error
     if not isinstance(data, dict):
         raise InputError(f"the file must hold keys and values, at least {least}; see {example} for an example")
     return data

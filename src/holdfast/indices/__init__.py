@@ -1,4 +1,4 @@
-"""What one configuration is worth after a failure: locked-joint indices and free-swinging susceptibilities, with gradients.
+"""Fault tolerance of one configuration: locked-joint indices and free-swinging susceptibilities, with gradients.
 
 Free-swinging joints are in :mod:`holdfast.indices.susceptibility`. Every constructor of an index takes
 ``(arm, task="pose", failures="single", length=None)``, and what it needs besides, and returns an :class:`Index`.

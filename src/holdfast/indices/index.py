@@ -1,4 +1,4 @@
-"""What every index can do, whatever its formula."""
+"""The base class of all indices."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class WorstCase:
 
 
 class Index(Labelled, Objective):
-    """A number that says what a configuration is worth after any one of a set of failures.
+    """A number that rates a configuration after any one of a set of failures.
 
     Attributes:
         name: For people and files.

@@ -226,7 +226,7 @@ class WeightedSum(Objective):
 
 @checked_class
 class Opposite(Objective):
-    """The same number, wanted the other way: for the worst configuration of a pose, to compare the best one with.
+    """The same number with the other way better: for the worst configuration of a pose.
 
     Multiplying by -1 is something else: it turns the number and what is wanted of it, so that the same configuration stays
     the best one. The worst of an index often lies in a crease, where a failure leaves nothing at all; the optimiser

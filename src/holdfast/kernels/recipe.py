@@ -1,4 +1,4 @@
-"""What an expression is made of, as a digest: who has computed from the same things before need not build it again.
+"""What an expression is made of, as a digest: an expression of the same parts need not be built again.
 
 Numbers, texts, arrays, enumerations, containers of them, dataclasses and objects of holdfast count by their values, together
 with the sources of the package and the versions of holdfast, CasADi and NumPy. A function of somebody else's, or an object of
@@ -26,7 +26,7 @@ _PACKAGE = Path(__file__).parents[1]
 
 
 class _Unknown(Exception):
-    """Something without a digest."""
+    """A part without a digest."""
 
 
 def digest_of(*parts: object) -> str | None:

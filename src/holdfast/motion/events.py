@@ -33,7 +33,7 @@ from holdfast.motion.trajectory import Event
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-FLAT = 1e-2  # of the median curvature along a path: this much below 0 is no local best
+FLAT = 1e-2  # of the median curvature along a path: this much below 0 is not a local best
 _CLOSE = 0.2  # of the median curvature along a path: where it is less and rates are high, an extremum nearly ends
 _FAST = 4.0  # times the median rate: this is high
 NOTHING = 1e-3  # of the largest cost along a path: at most this counts as zero, as gradient projection lags a little

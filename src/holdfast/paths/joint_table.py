@@ -64,7 +64,7 @@ def read_joint_table(arm: Arm, file: Path, what: str, first: str) -> JointTable:
         first: Name of a column that may precede the joints', for messages.
 
     Raises:
-        InputError: Unreadable, or a joint's column is missing or there twice.
+        InputError: Unreadable, or a joint's column is missing or given twice.
     """
     title = f"{what} '{file}'"
     try:
@@ -78,6 +78,6 @@ def read_joint_table(arm: Arm, file: Path, what: str, first: str) -> JointTable:
     for name in wanted:
         if head.count(name) != 1:
             raise InputError(
-                f"{title}: column '{name}' is missing or there twice; '{arm.name}' needs {', '.join([first, *wanted])}"
+                f"{title}: column '{name}' is missing or given twice; '{arm.name}' needs {', '.join([first, *wanted])}"
             )
     return JointTable(title, head, tuple(lines[1:]))

@@ -1,4 +1,4 @@
-"""The closed loop of a controller that does not know of a locked joint, once with bodies, motors and a joint really locked."""
+"""The closed loop of a controller that does not know of a locked joint, with bodies and motors."""
 
 from __future__ import annotations
 

@@ -250,7 +250,7 @@ def _require_stop(joint: Joint, upwards: bool) -> None:
     side, limit = ("upper", joint.upper) if upwards else ("lower", joint.lower)
     if not np.isfinite(limit):
         raise ArmError(
-            f"joint '{joint.name}' slides and has no {side} limit, where gravity takes it, so it would fall for ever; "
+            f"joint '{joint.name}' slides and has no {side} limit, where gravity takes it, so it would fall forever; "
             "give it that limit in m"
         )
 

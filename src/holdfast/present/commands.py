@@ -54,7 +54,7 @@ def command_line(a: Assessment) -> tuple[str | None, str]:
     if a.region.kind != "joints":
         options["restarts"] = str(a.restarts)
     apart = _clearance_options(a)
-    locks = [f"--lock-at {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
+    locks = [f"--lock {shlex.quote(f'{a.arm.joint_names[k]}={angle!r}')}" for k, angle in a.plan.lock_at]
     lines = [f"holdfast assess {shlex.quote(spec)}"]
     words += [f"--{name} {shlex.quote(value)}" for name, value in options.items()]
     flags = [*(["--optimise"] if a.plan.optimise else []), *(["--after-lock"] if a.plan.after_lock else [])]

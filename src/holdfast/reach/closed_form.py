@@ -37,7 +37,7 @@ class ThreeLinks:
 
     @classmethod
     def of(cls, arm: Arm, task: Task) -> ThreeLinks | None:
-        """What an arm is in the plane of a planar task; None if it is no such arm or a joint cannot turn all the way."""
+        """The arm in the plane of a planar task; None if it is of another kind or a joint cannot turn all the way."""
         if arm.n != 3 or task.name != "planar" or arm.prismatic.any():
             return None
         if not (arm.upper - arm.lower >= FULL - 1e-9).all():

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from holdfast.arguments import checked
+from holdfast.arguments import checked, real_numbers
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task, target_poses
 from holdfast.errors import InputError
+from holdfast.failures import LockedValues, read_locks
 from holdfast.notice import says
 from holdfast.solvers.inverse_kinematics import Reach, solver
 
@@ -20,9 +21,8 @@ from holdfast.solvers.inverse_kinematics import Reach, solver
 def reachable_when_locked(
     arm: Arm,
     target: ArrayLike,
-    joint: str | int,
+    locked: LockedValues,
     *,
-    at: ArrayLike,
     task: str | Task | Sequence[str] = "pose",
     seed: int = 0,
     restarts: int = 100,
@@ -34,8 +34,8 @@ def reachable_when_locked(
         arm: The arm.
         target: (m,) or (N, m) for tasks without angular rows: the task's rows of the wanted tool point, m. For any task,
             (4, 4) or (N, 4, 4) tool poses in the world.
-        joint: The locked joint, by name or index from 0.
-        at: Where it is, rad or m: one value, or (N,). One target goes with many values, and the other way round.
+        locked: ``{joint: value}`` of one joint, by name or index from 0, rad or m; or its values (N,). One target goes with
+            many values, and the other way round.
         task: Rows of the pose that matter.
         seed: Of the random starts.
         restarts: Random starts per row before giving up.
@@ -52,11 +52,16 @@ def reachable_when_locked(
     self-motion manifold.
     """
     rows = as_task(arm, task)
-    k = arm.joint_index(joint)
+    if len(locked) != 1:
+        raise InputError(f"locked names {len(locked)} joints; give {{joint: value}} of one")
+    (k,) = read_locks(arm, list(locked))
+    name = arm.joint_names[k]
+    angles = real_numbers(
+        next(iter(locked.values())), f"the lock of '{name}'", f"a value, {arm.joints[k].unit}, or (N,) of them"
+    )
     poses, given = target_poses(rows, target)
-    angles = np.asarray(at, dtype=np.float64)
     if angles.ndim > 1:
-        raise InputError(f"at has shape {angles.shape}; give one value, or (N,) of them")
+        raise InputError(f"the lock of '{name}' has shape {angles.shape}; give one value, or (N,) of them")
     if restarts < 1:
         raise InputError(f"restarts is {restarts}; it must be 1 or more")
     if not 0 < tolerance <= 1:
@@ -66,8 +71,7 @@ def reachable_when_locked(
     if beyond.size:
         value = np.atleast_1d(angles)[beyond[0]]
         raise InputError(
-            f"joint '{arm.joint_names[k]}' cannot be locked at {value:g} {arm.joints[k].unit}; its limits are {low:g} to "
-            f"{high:g}"
+            f"joint '{name}' cannot be locked at {value:g} {arm.joints[k].unit}; its limits are {low:g} to {high:g}"
         )
     single_target = np.ndim(target) == (2 if given is None else 1)
     counts = {1 if single_target else len(poses), 1 if angles.ndim == 0 else angles.size} - {1}

@@ -1,4 +1,4 @@
-"""Every point within reach before and after any joint locks, with artificial joint limits that make this much."""
+"""The points within reach before and after any joint locks, with artificial joint limits that enlarge this region."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def tolerant_workspace(
     seed: int = 0,
     confidence: float = 0.95,
 ) -> TolerantWorkspace:
-    """The points that the arm is sure to reach before and after any single joint locks.
+    """The points that the arm is guaranteed to reach before and after any single joint locks.
 
     Artificial joint limits hold until a joint locks. A point is in the region if the healthy arm reaches it within them and,
     for each joint and every value within its artificial limits, the arm with the joint locked there reaches it, the other
@@ -176,7 +176,7 @@ def tolerant_workspace(
         confidence: Of the interval.
 
     Raises:
-        InputError: Limits that are upside down or beyond those of the arm, or options out of range.
+        InputError: Limits that are reversed or beyond those of the arm, or options out of range.
         TaskError: The arm has no redundancy for the task, or the task does not hold a point of space or of a plane.
 
     Source: Lewis and Maciejewski 1997; Hoover et al. 2015; Bader and Maciejewski 2020 for optimal limits of planar arms.

@@ -35,7 +35,7 @@ class RestOfPath:
         deviation: Largest error of the rows kept half-way between waypoints, m and rad.
         given_up: Rows given up over the whole path, with the most that they miss on the way; None if all are kept.
         starts: Configurations of the first pose from which the path was followed.
-        cut_off: Motions along the path exist, but no way to the beginning of any was found; ``q`` is then empty.
+        cut_off: Motions along the path exist, but no route to the beginning of any was found; ``q`` is then empty.
     """
 
     furthest: float

@@ -65,7 +65,7 @@ class Leg:
         name: ``to the path``, ``along the path`` or ``to the goal``.
         first, last: Of its waypoints.
         length: Of the metric.
-        lower_bound: No way to any of the configurations found of its goal is shorter; more configurations may exist.
+        lower_bound: No route to any of the configurations found of its goal is shorter; more configurations may exist.
         straight: It is one straight line in joint space.
     """
 
@@ -187,9 +187,9 @@ class Recovery(Result):
         for leg in self.legs:
             text = f"{leg.name}: {leg.last - leg.first + 1} waypoints, {leg.length:.4g} {self.unit}"
             if leg.name != "along the path":
-                kind = "a straight line" if leg.straight else "the shortest way found"
+                kind = "a straight line" if leg.straight else "the shortest route found"
                 least = leg.length <= leg.lower_bound * (1 + 1e-9)
-                bound = "no way" if least else f"lower bound {leg.lower_bound:.4g} {self.unit}"
+                bound = "no route" if least else f"lower bound {leg.lower_bound:.4g} {self.unit}"
                 text += f" ({kind}; {bound} to any goal configuration found{' is shorter' if least else ''})"
             lines.append(text)
         if self.rest is not None:

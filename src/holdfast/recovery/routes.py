@@ -164,7 +164,7 @@ class Route:
     Attributes:
         q: (K, n) waypoints, rad and m.
         length: Of the metric, its unit ``s`` or ``rad``.
-        lower_bound: No way to any of the goals is shorter: the straight line to the nearest of them.
+        lower_bound: No route to any of the goals is shorter: the straight line to the nearest of them.
         goal: Which goal it leads to.
         straight: It is one straight line.
     """

@@ -33,7 +33,7 @@ _LIGHT = 1e-3  # weight of a row that is given up while its error is made small:
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a task as people give them up, one by one.
+    """The rows of a task, to be given up one by one.
 
     A full pose is the same six rows in any axes; here its position is along the world's axes and its orientation about the
     tool's, where "the turn about the tool's z axis" is a row. Other tasks keep the axes they have.

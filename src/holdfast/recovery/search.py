@@ -54,7 +54,7 @@ class _Goal:
 
 
 @checked
-@says("planning the way back")
+@says("planning the route")
 def recover(
     arm: Arm,
     locked: Locked,
@@ -73,7 +73,7 @@ def recover(
     tries: int = 4,
     seed: int = 0,
 ) -> Recovery:
-    """Bring an arm home whose locked joints are known, and say what it can still do.
+    """Find a route home for an arm whose locked joints are known, and say what it can still do.
 
     The goal is first looked for as a whole: configurations that meet every row, within the limits, with the locks exactly where
     they are, and clear. The shortest motion found to any of them is returned. If none is found, sets of rows are given up,

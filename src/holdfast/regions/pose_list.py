@@ -149,7 +149,7 @@ class PoseList:
         head = [c.strip() for c in table[0][1]] if table else []
         for name in head:
             if name not in (*COLUMNS, "weight") or head.count(name) > 1:
-                what = "is there twice" if head.count(name) > 1 else "is not known"
+                what = "is given twice" if head.count(name) > 1 else "is not known"
                 raise InputError(f"column '{name}' {what}; the first line must name {', '.join(COLUMNS)} and perhaps weight")
         lost = [name for name in COLUMNS if name not in head]
         if lost:

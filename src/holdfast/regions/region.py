@@ -173,7 +173,7 @@ class Region:
         """Configurations uniform between (n,) lower and upper joint values, rad and m: no inverse kinematics.
 
         Raises:
-            InputError: Limits that are infinite, upside down or of different length.
+            InputError: Limits that are infinite, reversed or of different length.
         """
         try:
             low, high = np.asarray(lower, dtype=np.float64), np.asarray(upper, dtype=np.float64)
@@ -191,7 +191,7 @@ class Region:
     @classmethod
     @checked
     def around(cls, arm: Arm, q: ArrayLike | None = None, share: float = 0.25) -> Region:
-        """A region to begin with when none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
+        """The region where none is given: a cube about the tool at ``q``, edges ``share`` of the arm's reach.
 
         Angles range 90 degrees about the pose at ``q``; for an arm that moves in a plane, positions stay in that plane and
         the angle is free. ``q`` is the middle of the joint ranges if not given.

@@ -1,4 +1,4 @@
-"""The compiled motion of one law: batches of runs, how they ended, and what they were like."""
+"""The compiled motion of one law: batches of runs and how they ended."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from holdfast.solvers.inverse_kinematics import hand_error
 
 Array = NDArray[np.float64]
 
-ARRIVES = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest is no error
+ARRIVES = 1e-5  # rad, and lengths in units of the arm's own: an error below it at rest counts as 0
 MOVES = 1e-3  # rad (and m) per 1/Ke: an arm that is always faster is not stopping
 DECAYS = 0.99  # of the greatest speed, from one tenth of the time to the next: slowing down
 FLIPS = 1e-3  # rad: this near to half a turn the shortest turn has no lasting direction

@@ -118,7 +118,7 @@ def simulate(
         if not (np.isfinite(value) and value > 0):
             raise InputError(f"{what} is {value:g}; it must be a finite number above 0")
     if not TIGHTEST <= tolerance <= LOOSEST:
-        raise InputError(f"tolerance is {tolerance:g}; it must be between {TIGHTEST:g} and {LOOSEST:g}, or rest cannot be told")
+        raise InputError(f"tolerance is {tolerance:g}; it must be between {TIGHTEST:g} and {LOOSEST:g}, or rest cannot be seen")
     if first * law.gain > CLASSIC.longest:
         raise InputError(
             f"step is {first:g} s; above {CLASSIC.longest:g}/Ke, {CLASSIC.longest / law.gain:g} s, the method is not stable"
@@ -153,7 +153,7 @@ def _locks(law: Law, locked: Locked | NDArray[Any], time: ArrayLike) -> tuple[Ar
         wrong = np.flatnonzero((locked < -1) | (locked >= arm.n))
         if wrong.size:
             raise InputError(
-                f"locked[{wrong[0]}] is {locked[wrong[0]]}; '{arm.name}' has joints 0 to {arm.n - 1}, and -1 stands for none"
+                f"locked[{wrong[0]}] is {locked[wrong[0]]}; '{arm.name}' has joints 0 to {arm.n - 1}, and -1 means none"
             )
         times = np.full((len(locked), arm.n), np.inf)
         rows = np.flatnonzero(locked >= 0)

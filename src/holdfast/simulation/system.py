@@ -1,4 +1,4 @@
-"""The failed arm as a system of differential equations, and what is noted of a motion along the way.
+"""The failed arm as a system of differential equations, and what is recorded along a motion.
 
 The controller knows of no failure: it commands ``G(q) Ke e``, and locked joints do not follow. With ``mask`` 0 for
 a locked joint and 1 for a healthy one, ``q' = mask G(q) Ke e(q)``.

@@ -1,4 +1,4 @@
-"""Which configurations: inverse kinematics, the best configuration of a pose, all of them, and the best along a path."""
+"""Solvers for configurations: inverse kinematics, the best one of a pose, all of them, and the best along a path."""
 
 from holdfast._lazy import offer
 

@@ -1,4 +1,4 @@
-"""A smooth function of a few variables made small under constraints, where importing an optimiser would take longer."""
+"""A minimiser for a few variables under constraints, where importing an optimiser would take longer."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _QUIET = {"print_iter": False, "print_header": False, "print_info": False, "erro
 
 
 def descend(look: Callable[[Array], tuple[float, Array, Array, Array]], x: Array, low: Array, high: Array, equal: int) -> Array:
-    """From x (n,) to a local minimum of a cost where its constraints hold; x itself, or where it came, where that fails.
+    """From x (n,) to a local minimum of a cost where its constraints hold; x, or where it got to, if that fails.
 
     Sequential quadratic programming with damped BFGS updates, and a search on the sum of the cost and what the constraints
     miss, along an arc that bends with them.

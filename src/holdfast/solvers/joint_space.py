@@ -1,4 +1,4 @@
-"""Distances between configurations: joints that turn without limits come round after 2 pi."""
+"""Distances between configurations: joints that turn without limits have period 2 pi."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A study file to begin with, every line of it explained."""
+"""A study file to start from, every line of it explained."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def write(
     """Write a study file with comments.
 
     Args:
-        file: Where; there must be none yet.
+        file: Where; it must not exist yet.
         arm: Built-in names, or arm files with their base, tip and what is held.
         poses: Samples of each cell.
         chunk: Of them computed and committed together.

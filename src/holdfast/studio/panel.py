@@ -1,4 +1,4 @@
-"""The controls of one window: what can be pressed and slid, and what is read."""
+"""The controls and numbers of one window."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Panel:
 
     def _fail_tab(self, arm: Arm, state: State) -> None:
         for k, joint in enumerate(arm.joints):
-            group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: is still. Free: swings under gravity.")
+            group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: cannot move. Free: swings under gravity.")
             self._on(group.on_click, "fail", partial(_pressed, k))
         self._button("All healthy", "heal", "No joint has failed.")
         self._button(
@@ -100,7 +100,7 @@ class Panel:
         self._button("Best and worst of this pose", "best-worst", "Ghost arms: green the best, orange the worst.")
         self._button("Take the green one", "take0", "The arm goes where the green ghost is.")
         self._button("Take the orange one", "take1", "The arm goes where the orange ghost is.")
-        self._button("Clear", "clear", "Take the ghosts away.")
+        self._button("Clear", "clear", "Remove the ghosts.")
 
     def _motion_tab(self, state: State) -> None:
         self.laws = [
@@ -114,7 +114,7 @@ class Panel:
         self.file = self.gui.add_text("file", state.file or "", hint="CSV or folder that follow, simulate or recover wrote.")
         self._button("Open the motion", "file", "Scrub or play it with the slider below.")
         self._player()
-        self._button("Clear", "clear", "Take the motion away.")
+        self._button("Clear", "clear", "Remove the motion.")
 
     def _player(self) -> None:
         self.time = self.gui.add_slider("time", 0.0, 1.0, 0.001, 0.0, disabled=True)
@@ -127,7 +127,7 @@ class Panel:
         self.folder = self.gui.add_text("results folder", state.region or "", hint="A folder that holdfast assess wrote.")
         self._button("Open the results", "results", "Poses of the region, coloured by the index: click one.")
         self.gui.add_html(_line("Click a point to see the configuration behind it."))
-        self._button("Clear", "clear", "Take the points away.")
+        self._button("Clear", "clear", "Remove the points.")
 
     def _save_tab(self, state: State) -> None:
         self._button("PNG of the scene", "png", "As this window shows it.")

@@ -1,4 +1,4 @@
-"""One open page: its state, and what happens when a person does something."""
+"""One open page: its state, and what its controls do."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Window:
             thread.stop()
 
     def settle(self, seconds: float = 30.0) -> bool:
-        """Wait until nothing is going on; False if that did not come in time."""
+        """Wait until all work is done; False if that took too long."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             if not (self.work.settle(max(end - time.monotonic(), 0)) and self.live.settle(max(end - time.monotonic(), 0))):

@@ -1,4 +1,4 @@
-"""Work beside the page: what is quick and always the newest, and what takes long and gives way to what is newer."""
+"""Work beside the page: quick work, of which only the newest counts, and long work that newer requests cancel."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ class Latest:
             self._changed.notify_all()
 
     def settle(self, seconds: float) -> bool:
-        """Wait until nothing is left to do; False if that did not come in time."""
+        """Wait until all work is done; False if that took too long."""
         with self._changed:
             return self._changed.wait_for(lambda: not self._waiting and not self._busy, seconds)
 
     def stop(self) -> None:
-        """End the thread after the request in hand."""
+        """End the thread after the present request."""
         with self._changed:
             self._stopped = True
             self._waiting.clear()
@@ -67,7 +67,7 @@ class Latest:
 
 
 class Clock:
-    """Does one thing again and again on a :class:`Latest`, until it is told otherwise.
+    """Repeats one thing on a :class:`Latest`, until it is stopped.
 
     Args:
         live: Where it is done.
@@ -133,7 +133,7 @@ class Worker:
             return self._running or self._next is not None
 
     def settle(self, seconds: float) -> bool:
-        """Wait until nothing is left to do; False if that did not come in time."""
+        """Wait until all work is done; False if that took too long."""
         with self._changed:
             return self._changed.wait_for(lambda: self._next is None and not self._running, seconds)
 

@@ -83,12 +83,12 @@ def start(built, protocol):
 @pytest.fixture(scope="session")
 def server(start, tmp_path_factory):
     """One that tests share, each with subjects of its own."""
-    return start(tmp_path_factory.mktemp("served") / "study")
+    return start(tmp_path_factory.mktemp("served") / "experiment")
 
 
 @pytest.fixture
 def records(protocol, tmp_path):
-    with Records.create(tmp_path / "study", protocol) as opened:
+    with Records.create(tmp_path / "experiment", protocol) as opened:
         yield opened
 
 

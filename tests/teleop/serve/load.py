@@ -160,12 +160,12 @@ def load(
     trial = max(60, int(rate * seconds / 90))  # of the 100 training tasks
     training = Training(at_least=100, in_a_row=100, limit=55, most=100)
     protocol = replace(read_protocol(), training=training, scenarios=read_protocol().scenarios[:1])
-    Records.create(folder / "study", protocol).close()
+    Records.create(folder / "experiment", protocol).close()
     static = folder / "static"
     static.mkdir()
     (static / "index.html").write_text("<!doctype html><title>x</title>")
     (folder / "en.yaml").write_text(TEXTS)
-    call = [sys.executable, str(PROGRAM), str(folder / "study"), str(static), str(folder / "en.yaml")]
+    call = [sys.executable, str(PROGRAM), str(folder / "experiment"), str(static), str(folder / "en.yaml")]
     with (
         Path(os.devnull if log is None else log).open("wb") as said,
         subprocess.Popen(call, stdout=subprocess.PIPE, stderr=None if log is None else said, text=True) as server,
@@ -182,7 +182,7 @@ def load(
             server.wait()
     waited = 1000 * np.concatenate([w for _, w in results])
     sent = sum(cycles for cycles, _ in results)
-    with Records.open(folder / "study") as records:
+    with Records.open(folder / "experiment") as records:
         stored = sum(records.count(e) for e in records.entries())
         differing = len(records.events("replay differs"))
     p50, p99 = np.percentile(waited, [50, 99])

@@ -46,7 +46,7 @@ _open = urllib.request.build_opener(urllib.request.ProxyHandler({})).open
 @pytest.fixture(scope="module")
 def folder(protocol, tmp_path_factory):
     """An experiment with one simulated subject who is done."""
-    made = tmp_path_factory.mktemp("made") / "study"
+    made = tmp_path_factory.mktemp("made") / "experiment"
     with Records.create(made, protocol) as records:
         give_up(records, records.add_subject(kind=Who.SIMULATED))
         records.set_state("S01", State.COMPLETED)
@@ -234,7 +234,7 @@ def test_pauses(http, folder, station):
     post(http, "pause", subject=None, paused=True)
     assert told() == (True, True)
     status, said, _ = ask(f"{http}/experimenter/pause", {"subject": code, "paused": False})
-    assert (status, json.loads(said)["error"]) == (400, f"all sessions are paused; {code} goes on when all do")
+    assert (status, json.loads(said)["error"]) == (400, f"all sessions are paused; {code} resumes when all do")
     post(http, "pause", subject=None, paused=False)
     assert told() == (False, False)
     with Records.open(folder) as records:
@@ -265,7 +265,7 @@ def test_a_session_is_ended(http, folder, protocol, station, rng):
         assert len(records.entries(code)) == 1
     status, said, _ = ask(f"{http}/experimenter/resume", {"subject": code})
     assert status == 400
-    assert "cannot go on" in json.loads(said)["error"]
+    assert "cannot be resumed" in json.loads(said)["error"]
 
 
 def test_a_session_goes_on_in_another_page(http, protocol, station, rng):
@@ -316,14 +316,14 @@ def test_the_export_is_that_of_the_records(http, folder, station, rng, tmp_path)
     client.settle()
     status, content, headers = ask(f"{http}/experimenter/export.zip")
     assert status == 200
-    assert headers["content-disposition"] == 'attachment; filename="study.zip"'
+    assert headers["content-disposition"] == 'attachment; filename="experiment.zip"'
     with Records.open(folder) as records:
         files = tables.export(records, tmp_path)
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         assert archive.testzip() is None
-        assert {Path(n) for n in archive.namelist()} == {Path("study") / f.name for f in files}
+        assert {Path(n) for n in archive.namelist()} == {Path("experiment") / f.name for f in files}
         for file in files:
-            assert archive.read(f"study/{file.name}") == file.read_bytes(), file.name
+            assert archive.read(f"experiment/{file.name}") == file.read_bytes(), file.name
 
 
 # ---- the report ------------------------------------------------------------------------------------------------------------
@@ -379,24 +379,24 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
         subjects: list[str]
         notes: tuple[str, ...] = ("a note",)
 
-        def write(self, out, protocol, paths):
+        def save(self, out, protocol, paths):
             written.append(self)
 
     written: list[Result] = []
     monkeypatch.setattr(computation, "analyse", lambda table, *_, **options: Result(sorted(set(table["subject"]))))
     monkeypatch.setattr(results, "computer_table", lambda _: None)
-    monkeypatch.setattr(tables, "hand_paths", lambda _: None)
+    monkeypatch.setattr(tables, "tool_paths", lambda _: None)
     monkeypatch.setattr(apart.os, "nice", lambda _: 0)
-    study = tmp_path / "study"
-    shutil.copytree(folder, study)
-    with Records.open(study) as records:
+    experiment = tmp_path / "experiment"
+    shutil.copytree(folder, experiment)
+    with Records.open(experiment) as records:
         programs = [s.code for s in records.subjects() if records.progress().get((s.code, Kind.TRIAL))]
-    assert apart._main("report", str(study), str(tmp_path), "refuse") == 0
-    with Records.open(study) as records:
+    assert apart._main("report", str(experiment), str(tmp_path), "refuse") == 0
+    with Records.open(experiment) as records:
         for code in ("P1", "P2", "P3"):
             give_up(records, records.add_subject(code, Who.PERSON))
         records.set_state("P3", State.DROPPED)
-    assert apart._main("report", str(study), str(tmp_path), "refuse") == 0
+    assert apart._main("report", str(experiment), str(tmp_path), "refuse") == 0
     assert [r.subjects for r in written] == [programs, ["P1", "P2"]]
     dropped, simulated = written[1].notes[1:]
     assert dropped.startswith("dropped out, and not part of any number: ")
@@ -407,13 +407,13 @@ def test_the_report_is_of_people_where_people_took_part(folder, tmp_path, monkey
 def test_a_job_that_fails_says_where_to_look(folder, tmp_path, caplog):
     with pytest.raises(InputError, match="holds no experiment"):
         asyncio.run(apart.apart("export", str(tmp_path), str(tmp_path)))
-    with pytest.raises(HoldfastError, match="the dance failed; the reason stands where the server was started"):
+    with pytest.raises(HoldfastError, match="the dance failed; the terminal in which the server was started shows why"):
         asyncio.run(apart.apart("dance", str(folder), str(tmp_path)))
     assert "KeyError: 'dance'" in caplog.text
 
 
 def test_what_is_read_is_of_one_moment(tmp_path, protocol):
-    with Records.create(tmp_path / "study", protocol) as writer, Records.open(tmp_path / "study") as reader:
+    with Records.create(tmp_path / "experiment", protocol) as writer, Records.open(tmp_path / "experiment") as reader:
         writer.add_subject("A")
         with reader.reading():
             assert len(reader.subjects()) == 1

@@ -24,13 +24,13 @@ def list_of(served):
 
 
 def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, protocol, rng):
-    served = start(tmp_path / "study")
+    served = start(tmp_path / "experiment")
     client, idle = Client(served.url, protocol), Client(served.url, protocol)
     code = client.connect().subject
     idle.connect()
     client.trial("training", 0, rng, cycles=3)
     client.settle()
-    (tmp_path / "study").rename(tmp_path / "gone")
+    (tmp_path / "experiment").rename(tmp_path / "gone")
     path = client.trial("training", 1, rng, cycles=3)
     assert isinstance(client.receive(), Unstored)
     assert isinstance(idle.receive(), Unstored)  # told although it said nothing
@@ -41,17 +41,17 @@ def test_a_folder_that_goes_away_ends_acknowledgement_at_once(start, tmp_path, p
     with connect(served.url, proxy=None) as new:  # nobody begins a session either
         new.send(json.dumps({"type": "hello", "format": 1, "session": None, "code": None, "kind": "person"}))
         assert isinstance(messages.read_reply(new.recv(30)), Unstored)
-    (tmp_path / "gone").rename(tmp_path / "study")
+    (tmp_path / "gone").rename(tmp_path / "experiment")
     client.connect()
     client.settle()
     client.socket.close()
     assert list_of(served)["fault"] is None
-    with Records.open(tmp_path / "study") as records:
+    with Records.open(tmp_path / "experiment") as records:
         entries = records.entries(code)
         assert len(entries) == 2
         np.testing.assert_array_equal(records.trials(entries).configurations(1), path)
         assert len(records.events("written again")) == 1
-    assert verify(tmp_path / "study").damaged == []
+    assert verify(tmp_path / "experiment").damaged == []
 
 
 def test_one_server_for_a_folder(server, built):
@@ -60,7 +60,7 @@ def test_one_server_for_a_folder(server, built):
 
 
 def test_nobody_is_deleted_behind_a_servers_back(start, tmp_path, protocol):
-    served = start(tmp_path / "study")
+    served = start(tmp_path / "experiment")
     code = Client(served.url, protocol).connect().subject
     with Records.open(served.folder) as records:
         with pytest.raises(hf.StoreError, match="is served by another program already; stop that one first"):
@@ -98,7 +98,7 @@ def test_pauses_survive_a_restart(start, tmp_path, protocol):
     def again(served, *keys):
         served.process.kill()
         served.process.wait()
-        other = start(tmp_path / "study")
+        other = start(tmp_path / "experiment")
         told = []
         for key in keys:
             client = Client(other.url, protocol)
@@ -107,7 +107,7 @@ def test_pauses_survive_a_restart(start, tmp_path, protocol):
             client.socket.close()
         return other, told
 
-    served = start(tmp_path / "study")
+    served = start(tmp_path / "experiment")
     clients = [Client(served.url, protocol) for _ in range(2)]
     codes = [c.connect().subject for c in clients]
     keys = [c.key for c in clients]

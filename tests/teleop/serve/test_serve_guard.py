@@ -14,7 +14,7 @@ import holdfast as hf
 from holdfast.teleop.serve.app import Options, make_app, prepare
 from holdfast.teleop.serve.guard import Bucket, Guard, Wrong, check_token
 
-TOKEN = "token-of-the-study"
+TOKEN = "token-of-the-experiment"
 
 
 class Asker:
@@ -56,7 +56,7 @@ class Asker:
 @pytest.fixture(scope="module")
 def served(server, start, tmp_path_factory):
     """A server for this computer only, and one with a token."""
-    other = start(tmp_path_factory.mktemp("guarded") / "study", TOKEN)
+    other = start(tmp_path_factory.mktemp("guarded") / "experiment", TOKEN)
     return SimpleNamespace(local=Asker(server.port), other=Asker(other.port), folder=server.folder)
 
 
@@ -73,10 +73,10 @@ def test_what_is_handed_out(served, protocol):
     assert page.headers["cache-control"] == "no-store"
     assert served.local.get("/station.js").headers["content-type"].startswith("text/javascript")
     assert "export function cycle" in served.local.get("/arm.js").text
-    study = json.loads(served.local.get("/study.json").text)
-    assert (study["joints"], study["axes"], study["cycle_limit"]) == (3, 2, 40)
-    assert study["texts"]["title"] == "Welcome"
-    assert KEY not in str(study)
+    experiment = json.loads(served.local.get("/experiment.json").text)
+    assert (experiment["joints"], experiment["axes"], experiment["cycle_limit"]) == (3, 2, 40)
+    assert experiment["texts"]["title"] == "Welcome"
+    assert KEY not in str(experiment)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_this_computer_has_these_names(served, host):
     "origin", ["http://evil.example", "null", "http://localhost:8001", "https://localhost", "file://", "http://["]
 )
 def test_pages_of_other_hosts_are_refused(served, origin):
-    assert served.local.get("/study.json", headers={"origin": origin}).status_code == 403
+    assert served.local.get("/experiment.json", headers={"origin": origin}).status_code == 403
     assert not served.local.connects("/session", origin=origin)
 
 
@@ -124,22 +124,22 @@ def test_the_page_itself_is_let_in(served):
 
 def test_a_token_is_asked_for(served):
     other = served.other
-    for path in ("/", "/study.json", "/arm.js", "/?token=", "/?token=wrong", "/?token=" + TOKEN[:-1], "/?Token=" + TOKEN):
+    for path in ("/", "/experiment.json", "/arm.js", "/?token=", "/?token=wrong", "/?token=" + TOKEN[:-1], "/?Token=" + TOKEN):
         answer = other.get(path)
         assert answer.status_code == 403
         assert "token is missing or wrong" in answer.text
         assert TOKEN not in answer.text
     assert not other.connects("/session")
     assert not other.connects("/session?token=wrong")
-    assert other.get(f"/study.json?token={TOKEN}").status_code == 200
-    assert other.get(f"/study.json?key={KEY}").status_code == 200
+    assert other.get(f"/experiment.json?token={TOKEN}").status_code == 200
+    assert other.get(f"/experiment.json?key={KEY}").status_code == 200
     assert other.connects(f"/session?token={TOKEN}")
     answer = other.get(f"/?token={TOKEN}", headers={"host": "lab.example"})
     cookie = answer.headers["set-cookie"]
     assert "HttpOnly" in cookie
     assert "SameSite=Strict" in cookie
-    assert other.get("/study.json", headers={"cookie": cookie.split(";")[0], "host": "lab.example"}).status_code == 200
-    assert other.get("/study.json", headers={"cookie": "holdfast=\x07;;=", "host": "lab.example"}).status_code == 403
+    assert other.get("/experiment.json", headers={"cookie": cookie.split(";")[0], "host": "lab.example"}).status_code == 200
+    assert other.get("/experiment.json", headers={"cookie": "holdfast=\x07;;=", "host": "lab.example"}).status_code == 403
 
 
 @pytest.mark.parametrize(
@@ -157,8 +157,8 @@ def test_the_experimenter_has_a_key(served, path):
 
 def test_odd_requests(served):
     many = "&".join(f"a{k}=1" for k in range(100))
-    assert served.other.get(f"/study.json?{many}&token={TOKEN}").status_code == 403
-    assert served.local.post("/study.json").status_code == 405
+    assert served.other.get(f"/experiment.json?{many}&token={TOKEN}").status_code == 403
+    assert served.local.post("/experiment.json").status_code == 405
     assert served.local.get("/session").status_code == 404
     assert served.local.post("/", headers={"sec-fetch-site": "cross-site"}).status_code == 403
 
@@ -177,7 +177,7 @@ def test_tokens_that_can_be_guessed_are_refused():
 
 def test_guessing_gets_slow(start, tmp_path):
     """After two hundred wrong tokens an address is not even listened to for a while, whatever it shows."""
-    asker = Asker(start(tmp_path / "study", TOKEN).port)
+    asker = Asker(start(tmp_path / "experiment", TOKEN).port)
     assert asker.get(f"/?token={TOKEN}").status_code == 200
     assert [asker.get(f"/?token=wrong-{k}").status_code for k in range(200)] == [403] * 200
     asked = [asker.get(f"/?token={TOKEN if k % 2 else 'wrong'}").status_code for k in range(4)]
@@ -219,11 +219,11 @@ def test_bucket():
 
 def test_an_experiment_is_begun_or_opened(protocol, tmp_path):
     file = protocol.write(tmp_path / "p.yaml")
-    assert prepare(tmp_path / "study", str(file)).text() == protocol.text()
-    assert prepare(tmp_path / "study", None).text() == protocol.text()
-    assert prepare(tmp_path / "study", str(file)).text() == protocol.text()
+    assert prepare(tmp_path / "experiment", str(file)).text() == protocol.text()
+    assert prepare(tmp_path / "experiment", None).text() == protocol.text()
+    assert prepare(tmp_path / "experiment", str(file)).text() == protocol.text()
     with pytest.raises(hf.InputError, match="another protocol"):
-        prepare(tmp_path / "study", "goel2003")
+        prepare(tmp_path / "experiment", "goel2003")
     with pytest.raises(hf.StoreError, match="not an empty folder"):
         prepare(tmp_path, None)
 

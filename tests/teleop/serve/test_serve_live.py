@@ -75,14 +75,14 @@ def test_slow_watchers_drop_old_messages_and_nobody_waits():
 
 
 @pytest.fixture
-def study(records):
+def experiment(records):
     records.close()
     return records.folder
 
 
-def test_the_experimenter_watches_and_acts(study):
+def test_the_experimenter_watches_and_acts(experiment):
     async def scene():
-        control = Control(study, asyncio.get_running_loop())
+        control = Control(experiment, asyncio.get_running_loop())
         try:
             watch = control.live.watch()
             news = asyncio.ensure_future(anext(watch))
@@ -132,7 +132,7 @@ def test_the_experimenter_watches_and_acts(study):
             for act in (control.note("X", ""), control.drop("X"), control.new_key("X"), control.pause("X", True)):
                 with pytest.raises(hf.InputError, match="no subject X"):
                     await act
-            with pytest.raises(hf.InputError, match="cannot go on"):
+            with pytest.raises(hf.InputError, match="cannot be resumed"):
                 await control.new_key("P1")
             with pytest.raises(hf.InputError, match="10,000"):
                 await control.note("P2", "x" * 10_001)
@@ -141,18 +141,18 @@ def test_the_experimenter_watches_and_acts(study):
             await asyncio.to_thread(control.close)
 
     asyncio.run(scene())
-    with Records.open(study) as records:
+    with Records.open(experiment) as records:
         assert records.subject("P1").state == State.DROPPED
         assert records.subject("P1").note == "left-handed"
         kinds = [e["kind"] for e in records.events()]
         assert kinds == ["paused", "paused", "goes on"]
 
 
-def test_what_was_not_replayed_before_a_kill_is_replayed_after(study, protocol):
+def test_what_was_not_replayed_before_a_kill_is_replayed_after(experiment, protocol):
     from holdfast.teleop.serve.station import Station, enter
     from holdfast.teleop.trials.recordings import End
 
-    with Records.open(study) as records:
+    with Records.open(experiment) as records:
         code = enter(records, hello()).code
         station = Station(records, code)
         q0 = station.welcome("x" * 20, False).plan.training[0].q0
@@ -162,7 +162,7 @@ def test_what_was_not_replayed_before_a_kill_is_replayed_after(study, protocol):
         station.take(messages.EndMessage(type="end", seq=3, end="aborted", q=q0))
 
     async def scene():
-        control = Control(study, asyncio.get_running_loop())
+        control = Control(experiment, asyncio.get_running_loop())
         await control.begin()
         await settled(control)
         rows = await control.subjects()
@@ -171,7 +171,7 @@ def test_what_was_not_replayed_before_a_kill_is_replayed_after(study, protocol):
 
     for _ in range(2):  # and flagged once
         assert [r["differing"] for r in asyncio.run(scene())] == [1]
-    with Records.open(study) as records:
+    with Records.open(experiment) as records:
         (event,) = records.events("replay differs")
         (entry,) = records.entries(code)
         assert entry.end == End.ABORTED
@@ -182,9 +182,9 @@ def test_what_was_not_replayed_before_a_kill_is_replayed_after(study, protocol):
         assert event["trial"] == entry.id
 
 
-def test_a_disk_that_is_full_stops_nobody_for_good(study):
+def test_a_disk_that_is_full_stops_nobody_for_good(experiment):
     async def scene():
-        control = Control(study, asyncio.get_running_loop())
+        control = Control(experiment, asyncio.get_running_loop())
         page = Page()
         try:
             await control.enter(page, hello())

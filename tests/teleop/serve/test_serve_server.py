@@ -63,7 +63,7 @@ def test_a_whole_session(server, protocol, rng):
 
 
 def test_trials_that_differ_are_flagged_before_ctrl_c_ends_it(start, tmp_path, protocol, rng):
-    served = start(tmp_path / "study")
+    served = start(tmp_path / "experiment")
     client = Client(served.url, protocol)
     code = client.connect().subject
     q0 = client.welcome.plan.training[0].q0
@@ -77,7 +77,7 @@ def test_trials_that_differ_are_flagged_before_ctrl_c_ends_it(start, tmp_path, p
     assert served.process.wait(60) == 0
     with pytest.raises(ConnectionClosed):
         client.receive()
-    with Records.open(tmp_path / "study") as records:
+    with Records.open(tmp_path / "experiment") as records:
         (event,) = records.events("replay differs")
         bad = records.entries(code)[1]
         assert (event["trial"], event["subject"]) == (bad.id, code)
@@ -242,7 +242,7 @@ def test_malformed_messages_change_nothing(server, protocol, rng):
 
 def test_a_killed_server_goes_on(start, tmp_path, protocol, rng):
     """kill -9 in mid-trial; what was acknowledged is there, what was not is said again, and nothing is there twice."""
-    folder = tmp_path / "study"
+    folder = tmp_path / "experiment"
     client = Client("", protocol)
     q, path, plant = None, [], protocol.plants[0]
     for round_ in range(3):

@@ -157,7 +157,7 @@ def made(model: Model, step):
 @pytest.fixture(scope="module")
 def shared(protocol, tmp_path_factory):
     with (
-        Records.create(tmp_path_factory.mktemp("station") / "study", protocol) as opened,
+        Records.create(tmp_path_factory.mktemp("station") / "experiment", protocol) as opened,
         pytest.MonkeyPatch.context() as patch,
     ):
         few = training_tasks(opened.protocol, 0)  # for everybody: they take a while, and there are many subjects

@@ -75,13 +75,13 @@ def analyse(
     Example: holdfast teleop analyse experiment
     """
     from holdfast.teleop.analysis.eligibility import analyse_records
-    from holdfast.teleop.records.tables import hand_paths
+    from holdfast.teleop.records.tables import tool_paths
     from holdfast.teleop.records.verification import readable
 
     with readable(folder) as records, working("computing") as say:
         result = analyse_records(records, missing, groups, difficulty)  # type: ignore[arg-type]
         say("drawing")
-        report = result.save(folder, records.protocol, hand_paths(records))[0]
+        report = result.save(folder, records.protocol, tool_paths(records))[0]
     for line in result.describe():
         typer.echo(line)
     typer.echo(f"written: {report}, and {len(list(folder.glob('*.csv')))} tables as CSV beside it")

@@ -74,9 +74,9 @@ def command(
     after_lock: Annotated[
         bool, typer.Option("--after-lock", help="Also find which poses can still be reached once each joint has locked.")
     ] = False,
-    lock_at: Annotated[
+    lock: Annotated[
         list[str] | None,
-        typer.Option("--lock-at", help="joint=angle, rad or m, at which it locks; may be given again.", show_default=False),
+        typer.Option("--lock", help="JOINT=VALUE, rad or m, at which it locks; may be given again.", show_default=False),
     ] = None,
     failure_rate: FailureRateOption = None,
     clearance: ClearanceOption = None,
@@ -131,7 +131,7 @@ def command(
         raise InputError(
             f"--capsules is the shape of one arm and there are {len(arm)}; assess each alone with its own, or give --radius"
         )
-    rates = _read_rates(first.arm, failure_rate, after_lock, lock_at)
+    rates = _read_rates(first.arm, failure_rate, after_lock, lock)
     asked = []
     for c in candidates:
         measure = by_name(
@@ -144,7 +144,7 @@ def command(
             "restarts": restarts,
             "optimise": optimise,
             "after_lock": after_lock,
-            "locked": read_by_joint(c.arm, lock_at, "--lock-at"),
+            "locked": read_by_joint(c.arm, lock, "--lock"),
             "clearance": read_clearance(c.arm, clearance, capsules, radius, margin, optimise) or False,
             "margin": margin or 0.0,
         }
@@ -210,19 +210,17 @@ def _printed(result: Result, json_: bool, files: list[Path], **options: Any) -> 
     printed(result, json_, [page], report=page, **options)
 
 
-def _read_rates(
-    arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock_at: list[str] | None
-) -> dict[str | int, float]:
+def _read_rates(arm: Arm, failure_rate: list[str] | None, after_lock: bool, lock: list[str] | None) -> dict[str | int, float]:
     """--failure-rate, each of a joint whose lock is asked for."""
     from holdfast.assessment.assessment import check_rates
 
     rates = read_by_joint(arm, failure_rate, "--failure-rate")
-    locks = read_by_joint(arm, lock_at, "--lock-at") if rates else {}
+    locks = read_by_joint(arm, lock, "--lock") if rates else {}
     if rates:
         check_rates(arm, rates)
     for name in rates:
         if not after_lock and name not in locks:
-            raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock-at {name}=ANGLE")
+            raise InputError(f"--failure-rate of '{name}' needs its lock; add --after-lock, or --lock {name}=VALUE")
     return rates
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.laws import AtDegreesOption, LawOption, LockOption, TargetOption, law_of, read_locked
+from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -17,6 +17,7 @@ from holdfast.cli.options import (
     SeedOption,
     TaskOption,
     TipOption,
+    read_by_joint,
     read_target,
 )
 from holdfast.present.results import drawn, printed
@@ -25,14 +26,13 @@ from holdfast.present.results import drawn, printed
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    lock: LockOption,
-    at: Annotated[str, typer.Option("--at", help="Where each joint is locked, rad or m.", show_default=False)],
+    lock: Annotated[list[str], typer.Option("--lock", help="JOINT=VALUE, rad or m; may be given again.", show_default=False)],
     starts: Annotated[int, typer.Option("--starts", help="How many random starts.")] = 2000,
     grid: Annotated[
         int | None,
         typer.Option("--grid", help="Two healthy joints: a map of so many by so many starts instead.", show_default=False),
     ] = None,
-    degrees: AtDegreesOption = False,
+    degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     seed: SeedOption = 0,
@@ -44,9 +44,9 @@ def command(
 ) -> None:
     """Find from where an arm with locked joints still reaches its target, and where it ends if not.
 
-    Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2 --at 45 --degrees --grid 80 --plot basins.png
+    Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """
     made = law_of(law, arm, task, base, tip, hold)
-    joints, values = read_locked(made.arm, lock, at, degrees)
-    result = hf.basins(made, read_target(made.arm, made.task, target), joints, at=values, starts=starts, grid=grid, seed=seed)
+    locked = read_by_joint(made.arm, lock, "--lock", degrees)
+    result = hf.basins(made, read_target(made.arm, made.task, target), locked, starts=starts, grid=grid, seed=seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])

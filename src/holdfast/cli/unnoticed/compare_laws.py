@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -18,7 +18,7 @@ from holdfast.cli.options import (
     TipOption,
     read_arm,
     read_configuration,
-    read_joint,
+    read_failures,
     read_numbers,
     read_target,
 )
@@ -46,11 +46,10 @@ def command(
         typer.Option("--distance", help="Of random motions, m: least,greatest, for example 0.2,0.8.", show_default=False),
     ] = None,
     reachable_after: Annotated[
-        list[str] | None,
+        str | None,
         typer.Option(
             "--reachable-after",
-            help="Random motions whose target is still within reach with this JOINT locked at the start, or 'each'. May be "
-            "given again.",
+            help="Random motions whose target is still within reach after these failures, as --failures takes them.",
             show_default=False,
         ),
     ] = None,
@@ -61,14 +60,12 @@ def command(
     target: Annotated[
         str | None, typer.Option("--target", help="... to here, as 'holdfast simulate' takes it.", show_default=False)
     ] = None,
-    lock: Annotated[
-        list[str] | None,
+    failures: Annotated[
+        str,
         typer.Option(
-            "--lock",
-            help="JOINT that locks, alone and from the start; may be given again. Or 'each', or 'none'.",
-            show_default="each",
+            "--failures", help="Joints that lock from the start, each alone: single (all of them), 'joint2; joint3', or none."
         ),
-    ] = None,
+    ] = "single",
     task: TaskOption = None,
     gain: GainOption = 1.0,
     speed_limit: SpeedLimitOption = None,
@@ -102,35 +99,17 @@ def command(
     else:
         q0, goal = read_configuration(model, start, degrees, "--start"), read_target(model, laws[0].task, target)
         about = f"one motion of '{model.name}'"
-    result = hf.compare_laws(
-        laws, q0, goal, locked=_locks(model, lock), cycles=cycles, time_limit=time_limit, seed=seed, about=about
-    )
+    chosen = None if failures == "none" else read_failures(model, failures)
+    result = hf.compare_laws(laws, q0, goal, failures=chosen, cycles=cycles, time_limit=time_limit, seed=seed, about=about)
     printed(result, json_, [] if out is None else result.save(out, command=said()))
 
 
-def _locks(arm: Arm, given: list[str] | None) -> Literal["each"] | list[int] | None:
-    if given is None or given == ["each"]:
-        return "each"
-    if given == ["none"]:
-        return None
-    for text in given:
-        if text in ("each", "none"):
-            raise InputError(f"--lock {text} stands alone; leave out the other --lock")
-        if "@" in text and text not in arm.joint_names:
-            raise InputError(f"--lock '{text}': in a comparison joints lock at the start; give {text.partition('@')[0]} alone")
-    return [read_joint(arm, text) for text in given]
-
-
-def _drawn(
-    arm: Arm, task: Task, motions: int, seed: int, distance: str | None, reachable_after: list[str] | None
-) -> PointToPoint:
+def _drawn(arm: Arm, task: Task, motions: int, seed: int, distance: str | None, reachable_after: str | None) -> PointToPoint:
     span: tuple[float, float] | None = None
     if distance is not None:
         numbers = read_numbers("--distance", distance, "least,greatest")
         if numbers.size != 2:
             raise InputError(f"--distance has {numbers.size} numbers; give the least and the greatest distance, m")
         span = float(numbers[0]), float(numbers[1])
-    joints: Literal["each"] | list[int] | None = None
-    if reachable_after:
-        joints = "each" if reachable_after == ["each"] else [read_joint(arm, text) for text in reachable_after]
-    return hf.point_to_point(arm, motions, seed, distance=span, reachable_after=joints, task=task)
+    failures = None if reachable_after is None else read_failures(arm, reachable_after)
+    return hf.point_to_point(arm, motions, seed, distance=span, failures=failures, task=task)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import holdfast as hf
-from holdfast.cli.laws import AtDegreesOption, LawOption, LockOption, TargetOption, law_of, read_locked
+from holdfast.cli.laws import LawOption, LockDegreesOption, TargetOption, law_of
 from holdfast.cli.options import (
     ArmArgument,
     BaseOption,
@@ -17,6 +17,7 @@ from holdfast.cli.options import (
     SeedOption,
     TaskOption,
     TipOption,
+    read_by_joint,
     read_target,
 )
 from holdfast.errors import InputError
@@ -29,12 +30,15 @@ if TYPE_CHECKING:
 def command(
     arm: ArmArgument,
     target: TargetOption,
-    lock: LockOption,
-    at: Annotated[
-        str | None,
-        typer.Option("--at", help="Where each is locked, rad or m. Default: curves over all values.", show_default=False),
-    ] = None,
-    degrees: AtDegreesOption = False,
+    lock: Annotated[
+        list[str],
+        typer.Option(
+            "--lock",
+            help="JOINT=VALUE (rad or m), which may be given again; or one JOINT: curves over all its values.",
+            show_default=False,
+        ),
+    ],
+    degrees: LockDegreesOption = False,
     law: LawOption = "pseudoinverse",
     task: TaskOption = None,
     seed: SeedOption = 0,
@@ -46,12 +50,12 @@ def command(
 ) -> None:
     """Find where an arm can stop when joints have locked and its controller does not know.
 
-    Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2 --at 140 --degrees
+    Example: holdfast stationary-points planar-3r --target 1.5,1.5 --lock 2=140 --degrees
     """
-    if at is not None and plot is not None:
-        raise InputError("--plot draws curves over the locked value; leave out --at, or see 'holdfast basins --plot'")
     made = law_of(law, arm, task, base, tip, hold)
     goal = read_target(made.arm, made.task, target)
-    locked, values = read_locked(made.arm, lock, at, degrees)
-    result: Result = hf.stationary_points(made, goal, locked, at=values, seed=seed)
+    locked = read_by_joint(made.arm, lock, "--lock", degrees, alone=True)
+    if plot is not None and None not in locked.values():
+        raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
+    result: Result = hf.stationary_points(made, goal, locked, seed=seed)
     printed(result, json_, [] if plot is None else [drawn(result, plot)])

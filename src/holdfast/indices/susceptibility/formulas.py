@@ -25,7 +25,7 @@ DEGENERATE = 1e-9
 
 @dataclass(frozen=True)
 class Formula:
-    """A measure: its symbols, its derivatives as the paper prints them, and how to speak of it.
+    """A measure: its symbols, its derivatives as the paper prints them, and its words.
 
     Attributes:
         name: For people.

@@ -27,7 +27,7 @@ Rows = dict[str, NDArray[Any]]
 
 def space_of(plan: dict[str, Any]) -> DesignSpace:
     """The designs of a plan."""
-    return DesignSpace(from_dict(plan["arm"]), tuple(Parameter(*p) for p in plan["vary"]))
+    return DesignSpace(from_dict(plan["arm"]), tuple(Parameter(*p[:3], unit=p[3]) for p in plan["vary"]))
 
 
 def designs_of(space: DesignSpace, count: int, seed: int) -> Array:

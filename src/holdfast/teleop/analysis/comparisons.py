@@ -54,7 +54,7 @@ def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Pai
         confidence: Of the intervals.
 
     Raises:
-        InputError: Not two lists of the same length, or a confidence that is none.
+        InputError: Not two lists of the same length, or a confidence that is not between 0 and 1.
 
     Source: Goel et al. 2003, section 7, for the t-test; Cumming and Finch 2001 for the interval of dz; Kerby 2014.
     """

@@ -54,13 +54,13 @@ def analyse(
 
     With the scenarios in which the arm has failed: a within-subjects ANOVA of CPM (law x difficulty), paired comparisons of the
     laws in each group of tasks, and how anticipated, actual and perceived difficulty go together. With those in which it is
-    healthy: what each law costs before a failure. Training trials do not belong into the table.
+    healthy: what each law costs before a failure. Training trials do not belong in the table.
 
     Args:
         table: One row for each trial. Columns ``subject``, ``task``, ``scenario``, ``law``, ``failed``, ``end`` (``arrived``,
             ``still``, ``time``, ``aborted``, ``broken_off``) and ``M1`` to ``M11`` as ``measures`` gives them
-            (NaN unless arrived); if there are, ``M12`` (the rating, NaN for none), ``kind`` (``person`` or ``simulated``) and
-            ``number`` (the order of subjects).
+            (NaN unless the target was reached); if there are, ``M12`` (the rating, NaN for none), ``kind`` (``person`` or
+            ``simulated``) and ``number`` (the order of subjects).
         computer: The same of the computer operator, one row for each task and scenario.
         missing: What to do if a subject has no trial at all of a law in a group of tasks: ``refuse``; ``complete`` leaves such
             subjects out of everything, and lists them; ``mixed`` fits a linear mixed model of single trials in place of the
@@ -176,7 +176,7 @@ def analyse(
 
 
 def _laws(observed: Observed, reference: int | None) -> list[int]:
-    """Where the scenarios with the failed arm stand, the reference first."""
+    """The positions of the scenarios with the failed arm, the reference first."""
     failed = observed.with_arm(failed=True)
     if len(failed) < 2:
         raise InputError(

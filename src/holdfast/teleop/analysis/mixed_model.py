@@ -79,7 +79,7 @@ def mixed(observed: Observed, conditions: list[int], group: NDArray[np.int64]) -
 
     Args:
         observed: The trials.
-        conditions: (A,) where the scenarios stand whose laws are compared.
+        conditions: (A,) positions of the scenarios whose laws are compared.
         group: (T,) difficulty of each task, from 0.
 
     Raises:

@@ -25,7 +25,7 @@ ENDS = tuple(e.name.lower() for e in End)
 UNRATED, ABSENT = "no rating", "not recorded"
 CAUSES = {
     **{e.name.lower(): e.sentence for e in End if e != End.ARRIVED},
-    UNRATED: "the end effector arrived, and the operator did not rate the trial",
+    UNRATED: "the end effector reached the target, but the operator did not rate the trial",
     ABSENT: "the table has no such trial",
 }
 """Why a trial has no CPM."""
@@ -62,7 +62,7 @@ class Observed:
         tasks: (T,) numbers.
         conditions: (S,) the scenarios.
         measures: (P, T, S, 12) M1 to M12, NaN in trials without a CPM.
-        ratings: (P, T, S) M12 of every trial that was rated, whether the end effector arrived or not.
+        ratings: (P, T, S) M12 of every trial that was rated, whether or not the end effector reached the target.
         cause: (P, T, S) why there is no CPM; empty where there is one.
         rated: Operators rated trials at all. If not, CPM is made of eleven measures.
         cpm: (P, T, S) combined performance measures.
@@ -132,7 +132,7 @@ class Observed:
         return replace(self, cpm=cpm(used, normalisers).values, normalisers=normalisers)
 
     def index(self, scenario: int) -> int:
-        """Where a scenario stands.
+        """The position of a scenario in ``conditions``.
 
         Raises:
             InputError: There is no such scenario.
@@ -144,7 +144,7 @@ class Observed:
         raise InputError(f"there is no scenario {scenario}; there are {numbers}")
 
     def with_arm(self, failed: bool) -> list[int]:
-        """Where the scenarios with the failed, or the healthy arm stand."""
+        """The positions of the scenarios with the failed or the healthy arm."""
         return [k for k, c in enumerate(self.conditions) if c.failed == failed]
 
     def keep(self, rows: Sequence[int]) -> Observed:

@@ -42,7 +42,7 @@ def f_power(effect: float, df: float, subjects: int, limit: float = 0.05, epsilo
     """Power of a within-subjects F test with noncentrality ``effect * subjects``.
 
     Args:
-        effect: Noncentrality for each subject: of an observed F, ``F df / subjects`` of that study.
+        effect: Noncentrality for each subject: of an observed F, ``F df / subjects`` of that experiment.
         df: Degrees of freedom of the effect.
         subjects: 2 or more.
         limit: p below which an effect is called significant.
@@ -71,8 +71,8 @@ def subjects_for_f(effect: float, df: float, power: float = 0.8, *, limit: float
 def resampled(values: Array, subjects: int, limit: float = 0.05, draws: int = 2000, seed: int = 0) -> Array:
     """(3,) how often so many of the subjects, drawn at random, would have shown each effect of the ANOVA.
 
-    They are drawn without replacement, so this tells of the study at hand and assumes no distribution; close to the number of
-    all subjects the draws hardly differ.
+    They are drawn without replacement, so this holds for this experiment only and assumes no distribution; close to the number
+    of all subjects the draws hardly differ.
 
     Args:
         values: (n, A, B) as :func:`holdfast.teleop.analysis.anova`.

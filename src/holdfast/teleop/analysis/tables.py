@@ -164,7 +164,7 @@ def tasks(observed: Observed, machine: Observed | None, conditions: Sequence[int
 
 
 def median_operator(observed: Observed, task: int, reference: int) -> int | None:
-    """The subject, by place, whose CPM of a task is nearest to the median of all; None if nobody arrived."""
+    """The subject, by place, whose CPM of a task is nearest to the median of all; None if nobody reached the target."""
     cpm, middle = observed.cpm[:, task, reference], observed.middle()[task, reference]
     if not np.isfinite(cpm).any():
         return None
@@ -242,7 +242,7 @@ def _values(observed: Observed, scenario: int, measure: int) -> Array:
 
 
 def ends(observed: Observed, machine: Observed | None) -> DataFrame:
-    """How the trials of each scenario ended: arrived and rated, or why they have no CPM."""
+    """How the trials of each scenario ended: target reached and rated, or why they have no CPM."""
     from pandas import DataFrame
 
     out = []

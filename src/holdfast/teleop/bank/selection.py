@@ -163,7 +163,7 @@ def most_disorienting(bank: TaskBank, besides: Indices) -> int:
 def trapped(bank: TaskBank, arm: Arm, task: str | Task | Sequence[str] = "planar", *, seed: int = 0) -> int | None:
     """A task in which the failed arm under the pseudoinverse is drawn to a stationary point, but which can be done.
 
-    The computer, steering straight, must come to a standstill in scenario 3; and some other way of steering, by one of 64
+    The computer, steering straight, must stop short of the target in scenario 3; and some other way of steering, by one of 64
     random points on the way, must bring the end effector into the circle.
 
     Returns:

@@ -138,8 +138,8 @@ def run(
         InputError, TaskError: As the laws and :func:`holdfast.teleop.drive`.
     """
     plants = [Plant(s.make_law(arm, task)) for s in scenarios]
-    hand = Stick() if stick is None else stick
-    return in_every_scenario(plants, scenarios, tasks, Computer() if operator is None else operator, hand, rules)
+    stick = Stick() if stick is None else stick
+    return in_every_scenario(plants, scenarios, tasks, Computer() if operator is None else operator, stick, rules)
 
 
 def in_every_scenario(
@@ -240,7 +240,7 @@ class TaskBank:
         return np.asarray(self.cpm[self.scenario("failure-tolerant", failed=True)] / self.difficulty)
 
     def completed(self) -> NDArray[np.bool_]:
-        """(N,) True where the end effector arrived in every scenario."""
+        """(N,) True where the end effector reached the target in every scenario."""
         return np.asarray((self.end == End.ARRIVED).all(axis=0))
 
 

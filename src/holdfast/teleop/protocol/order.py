@@ -18,7 +18,7 @@ Indices = NDArray[np.int64]
 def williams(n: int) -> Indices:
     """A Latin square balanced for what comes before: Williams' construction.
 
-    In each column every task stands equally often, and every ordered pair of neighbours occurs equally often in the rows:
+    In each column every task comes equally often, and every ordered pair of neighbours occurs equally often in the rows:
     once for even n, in n rows; twice for odd n, which takes 2 n rows (the square and its mirror image).
 
     Args:
@@ -42,7 +42,7 @@ def williams(n: int) -> Indices:
 def next_row(completed: Sequence[int], open_: Sequence[int], rows: int) -> int:
     """The row of the square for the next subject: one that the fewest have finished, then one that the fewest are busy with.
 
-    Rows of subjects who dropped out come up again, so that a study ends balanced.
+    Rows of subjects who dropped out come up again, so that an experiment ends balanced.
 
     Args:
         completed: Rows of subjects who finished their session.

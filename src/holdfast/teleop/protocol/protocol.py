@@ -147,7 +147,7 @@ class Protocol:
 
     @property
     def rules(self) -> Rules:
-        """When a person's trial is over: inside the circle and at rest, or by abort. Standing still ends nothing."""
+        """When a person's trial is over: inside the circle with no command, or by abort. Being stuck ends nothing."""
         limit = _NEVER if self.cycle_limit is None else self.cycle_limit
         return Rules(radius=self.radius, at_rest=True, cycle_limit=limit, patience=_NEVER)
 

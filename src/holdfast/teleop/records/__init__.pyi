@@ -14,5 +14,5 @@ from holdfast.teleop.records.tables import computer_table as computer_table
 from holdfast.teleop.records.tables import cycle_table as cycle_table
 from holdfast.teleop.records.tables import dictionary as dictionary
 from holdfast.teleop.records.tables import export as export
-from holdfast.teleop.records.tables import hand_paths as hand_paths
+from holdfast.teleop.records.tables import tool_paths as tool_paths
 from holdfast.teleop.records.tables import trial_table as trial_table

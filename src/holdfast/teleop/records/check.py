@@ -27,7 +27,7 @@ class Replay(Result):
         entries: The N trials.
         trials: What was recorded of them.
         difference: (N,) largest difference of a joint, in any cycle, from what was recorded, rad and m; infinite where the
-            hand was told to stand inside the target circle and the trial went on.
+            end effector was in the target circle without a command and the trial continued.
     """
 
     entries: list[Entry]

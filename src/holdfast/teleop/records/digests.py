@@ -80,7 +80,7 @@ def of_trial(db: sqlite3.Connection, trial: int) -> bytes | None:
 
 
 def of_content(db: sqlite3.Connection, kind: str, subject: str | None, item: int | None) -> bytes | None:
-    """The digest of what a link of a chain stands for, from what is stored; None if it is not there."""
+    """The digest of what a link of a chain covers, from what is stored; None if it is not there."""
     if kind == "experiment":
         rows = [*db.execute(_ABOUT).fetchall(), *db.execute(_SCHEMA).fetchall()]
         return sha(*(packed(row) for row in rows))

@@ -1,4 +1,4 @@
-"""What stands in the rows of the records: subjects and trials."""
+"""What the rows of the records hold: subjects and trials."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Kind(StrEnum):
 
 
 class State(StrEnum):
-    """Where a subject's session stands."""
+    """The state of a subject's session."""
 
     OPEN = "open"
     COMPLETED = "completed"
@@ -71,7 +71,7 @@ class Subject:
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """One trial as it stands in the records, without its cycles.
+    """One trial as recorded, without its cycles.
 
     Attributes:
         id: Its number in the records.

@@ -296,7 +296,7 @@ class Records:
                 raise InputError(f"trial {trial} {'has ended' if found else 'does not exist'}; nothing was recorded")
             there = int(self._value("SELECT COALESCE(MAX(k) + 1, 0) FROM cycles WHERE trial = ?", trial))
             if first != there:
-                raise InputError(f"trial {trial} goes on with cycle {there}, not {first}; nothing was recorded")
+                raise InputError(f"trial {trial} continues with cycle {there}, not {first}; nothing was recorded")
             last = self._value("SELECT COALESCE((SELECT time FROM cycles WHERE trial = ? AND k = ?), 0)", trial, there - 1)
             if (np.diff(time, prepend=last) < 0).any():
                 raise InputError("the times of the cycles run backwards, or begin before the trial; nothing was recorded")
@@ -304,7 +304,7 @@ class Records:
             self._chain.go_on(trial, [row[1:] for row in rows])
 
     def finish(self, trial: int, end: End, q_end: Array) -> None:
-        """A trial is over: how, and in which configuration (n,) the arm stands.
+        """A trial is over: how, and in which configuration (n,) the arm is left.
 
         Raises:
             InputError: There is no such trial, or it has ended already.
@@ -316,7 +316,7 @@ class Records:
             if changed != 1:
                 raise InputError(f"trial {trial} does not exist or has ended already")
             count = int(self._value("SELECT COUNT(*) FROM cycles WHERE trial = ?", trial))
-            # The last row has no command: it is where the arm stands at the end.
+            # The last row has no command: it is where the arm is at the end.
             row = (count, -1.0, blob(np.zeros(self.protocol.rows.m)), blob(q_end))
             self._db.execute("INSERT INTO cycles VALUES (?, ?, ?, ?, ?)", (trial, *row))
             self._chain.go_on(trial, [row])
@@ -432,7 +432,7 @@ class Records:
         time: list[float] = []
         velocity, q, first = bytearray(), bytearray(), [0]
         for e in entries:
-            # The last row is where the arm stood at the end; of a trial that was broken off, that before the last command.
+            # The last row is where the arm was at the end; of a trial that was broken off, that before the last command.
             rows = self._db.execute("SELECT time, velocity, q FROM cycles WHERE trial = ? ORDER BY k", (e.id,)).fetchall()
             times, velocities, configurations = zip(
                 *(rows or [(np.nan, blob(np.zeros(self.protocol.rows.m)), blob(e.q0))]), strict=True

@@ -47,14 +47,14 @@ _COLUMNS = {
     "joint": ("", "joint that the task has fail; empty for none"),
     "end": ("", "arrived, still, time, aborted or broken_off"),
     "cycles": ("1", "control cycles from start to end"),
-    **{m.name: (m.unit, m.about + "; empty where the end effector did not reach it") for m in MEASURES[:RECORDED]},
+    **{m.name: (m.unit, m.about + "; empty where the end effector did not reach the target") for m in MEASURES[:RECORDED]},
     MEASURES[RECORDED].name: ("1", "step of the rating, from 0; empty where there is none"),
     "began": ("", "UTC, ISO 8601"),
     "ended": ("", "UTC, ISO 8601; empty for a trial that was broken off"),
 }
 _CYCLE_COLUMNS = {
     "trial": ("1", "number of the trial in the records"),
-    "k": ("1", "cycle, from 0; the last row of a trial is where the arm stands at the end, without a command"),
+    "k": ("1", "cycle, from 0; the last row of a trial is where the arm is at the end, without a command"),
     "time": ("s", "since the trial began, by the clock of who held the stick"),
 }
 
@@ -89,9 +89,8 @@ def computer_table(protocol: Protocol) -> pd.DataFrame:
 def computer_trials(protocol: Protocol) -> Trials:
     """The protocol's tasks under computer control: scenario by scenario, in each all tasks.
 
-    A trial is over after a way of 50 m at full speed, or when the end effector has stood still for 2.5 m of it: 1000
-    and 50 of the
-    paper's cycles.
+    A trial is over after the time of 50 m at full speed, or when the end effector has been still for that of 2.5 m: 1000 and 50
+    of the paper's cycles.
     """
     limit = protocol.stick.limit
     rules = Rules(
@@ -170,7 +169,7 @@ def bank_table(bank: TaskBank, arm: Arm, cells: Binning | None = None) -> pd.Dat
     return pd.DataFrame(columns)
 
 
-def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
+def tool_paths(records: Records) -> Callable[[str | None, int, int], Array | None]:
     """Where the end effector was in a trial, as a function that :meth:`holdfast.teleop.analysis.Analysis.write` takes.
 
     Returns:
@@ -193,7 +192,7 @@ def hand_paths(records: Records) -> Callable[[str | None, int, int], Array | Non
 
 @says("reading the records")
 def cycle_table(records: Records) -> pd.DataFrame:
-    """One row for each cycle of every trial, with one more for where the arm stood at the end."""
+    """One row for each cycle of every trial, with one more for where the arm was at the end."""
     import pandas as pd
 
     protocol = records.protocol

@@ -23,7 +23,7 @@ from holdfast.teleop.protocol.protocol import Protocol, read_protocol
 from holdfast.teleop.records.file import FILE, alone
 from holdfast.teleop.records.records import Records
 from holdfast.teleop.serve import bounded, experimenter
-from holdfast.teleop.serve.briefing import study
+from holdfast.teleop.serve.briefing import experiment
 from holdfast.teleop.serve.connection import session
 from holdfast.teleop.serve.control import Control
 from holdfast.teleop.serve.guard import LOOPBACK, Guard, Guarded
@@ -107,7 +107,7 @@ def make_app(options: Options, ready: Callable[[], None] | None = None) -> ASGIA
     experimenters = files.pop("/experimenter.html", None)
     with Records.open(options.folder) as records:
         protocol = records.protocol
-    files["/study.json"] = _file(json.dumps(study(protocol, words, options.tlx)).encode(), ".json")
+    files["/experiment.json"] = _file(json.dumps(experiment(protocol, words, options.tlx)).encode(), ".json")
     files["/arm.js"] = _file(arm_module(protocol).encode(), ".js")
 
     @asynccontextmanager

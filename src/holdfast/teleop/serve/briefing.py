@@ -1,4 +1,4 @@
-"""What the page must know of the experiment: ``/study.json``."""
+"""What the page must know of the experiment: ``/experiment.json``."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FORMAT = 1
 _PARALLEL = 1e-9
 
 
-def study(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
+def experiment(protocol: Protocol, texts: Texts, tlx: bool = False) -> dict[str, Any]:
     """The experiment as JSON takes it; nothing in it tells the subject what is compared, not even the protocol's name.
 
     Args:

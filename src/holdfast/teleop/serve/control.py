@@ -39,7 +39,7 @@ class _Page(Protocol):
 
 
 class Control:
-    """The server's state and the experimenter's hands; for use inside the event loop only.
+    """The server's state and what the experimenter can do; for use inside the event loop only.
 
     Args:
         folder: Of the experiment.
@@ -116,7 +116,7 @@ class Control:
         self._pages[code] = page
         page.code = code
         if before is not None and before is not page:
-            before.bye("the session goes on in another page")
+            before.bye("the session has moved to another page")
         subject = await self.writer.do(lambda records: records.subject(code))
         # Not in the writer: it takes a while, and the others should not wait for it.
         await asyncio.to_thread(training_tasks, self.protocol, subject.number)
@@ -144,7 +144,7 @@ class Control:
             self.changed()
 
     def _fault(self, fault: str | None) -> None:
-        """The records cannot be written, or can again: nobody goes on as if nothing had happened."""
+        """The records cannot be written, or can again: nobody continues as if nothing had happened."""
         if fault is not None:
             for page in list(self._pages.values()):
                 page.unstored()
@@ -205,10 +205,10 @@ class Control:
         return self._all_paused or code in self._paused
 
     async def pause(self, subject: str | None, paused: bool) -> None:
-        """Let a session, or all of them, wait after the trial under way, or go on.
+        """Let a session, or all of them, wait after the trial under way, or resume.
 
         Raises:
-            InputError: There is no such subject, or it shall go on while all are paused.
+            InputError: There is no such subject, or it is to resume while all are paused.
         """
         if subject is None:
             self._all_paused = paused
@@ -217,7 +217,7 @@ class Control:
         else:
             await self.writer.do(lambda records: records.subject(subject))
             if self._all_paused and not paused:
-                raise InputError(f"all sessions are paused; {subject} goes on when all do")
+                raise InputError(f"all sessions are paused; {subject} resumes when all do")
             (self._paused.add if paused else self._paused.discard)(subject)
         kind = _PAUSED if paused else _GOES_ON
         await self.writer.do(lambda records: records.event(kind, subject, None, k=None, data=_EXPERIMENTER))
@@ -249,7 +249,7 @@ class Control:
         self.changed()
 
     async def new_key(self, subject: str) -> str:
-        """A key with which another page goes on with a session; the key before it is worth nothing from now on.
+        """A key with which another page resumes a session; the earlier key is void.
 
         Raises:
             InputError: There is no such subject, or the session is over.
@@ -257,21 +257,21 @@ class Control:
 
         def give(records: Records) -> str:
             if records.subject(subject).state == State.DROPPED:
-                raise InputError(f"the session of {subject} was ended; it cannot go on")
+                raise InputError(f"the session of {subject} was ended; it cannot be resumed")
             return records.give_key(subject)
 
         key = await self.writer.do(give)
         if (page := self._pages.get(subject)) is not None:
-            page.bye("the session goes on in another page")
+            page.bye("the session has moved to another page")
         self.changed()
         return key
 
     async def state(self) -> dict[str, Any]:
-        """Whether all sessions are paused, and where every one stands, as JSON takes it."""
+        """Whether all sessions are paused, and the state of each, as JSON takes it."""
         return {"paused": self._all_paused, "fault": self.writer.fault, "subjects": await self.subjects()}
 
     async def subjects(self) -> list[dict[str, Any]]:
-        """Where every subject's session stands, as JSON takes it."""
+        """The state of every subject's session, as JSON takes it."""
         rows = await self.reader.do(lambda records: (records.subjects(), records.progress(), _flagged(records)))
         subjects, progress, flagged = rows
         total = len(self.protocol.tasks) * len(self.protocol.scenarios)

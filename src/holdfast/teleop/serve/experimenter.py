@@ -129,12 +129,12 @@ class _Served:
         return JSONResponse({})
 
     async def resume(self, request: Request) -> Response:
-        """An address that goes on with a session in another page."""
+        """An address that resumes a session in another page."""
         asked = await _posted(request, Chosen)
         control = _control(request)
         key = await control.new_key(asked.subject)
         subject = await control.reader.do(lambda records: records.subject(asked.subject))
-        # A dry run goes on as one.
+        # A dry run stays one.
         robot = {"robot": str(subject.number)} if subject.kind == Who.SIMULATED else {}
         return JSONResponse({"url": self._station(request, session=key, **robot)})
 

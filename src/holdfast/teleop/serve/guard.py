@@ -24,7 +24,7 @@ _TOKEN = re.compile("[A-Za-z0-9_-]{12,128}")
 _GUESSED = ("password", "passwort", "qwerty", "letmein", "holdfast", "secret", "token", "study", "admin")
 _WRONG, _AGAIN = 200.0, 1.0  # wrong tokens and keys of one address at once, and a second after that
 _ADDRESSES = 1024
-_STATION = ("/", "/study.json", "/arm.js", "/session")
+_STATION = ("/", "/experiment.json", "/arm.js", "/session")
 _EXPERIMENTER = ("/experimenter", "/live")
 
 

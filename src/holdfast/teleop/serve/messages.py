@@ -40,9 +40,9 @@ class Message(BaseModel):
 
 
 class Hello(Message):
-    """The first message of a connection: a new session, or one that goes on.
+    """The first message of a connection: a new session, or one that is resumed.
 
-    A new session may bring its key, ``fresh``: said again where the answer was lost, it goes on with what was begun then.
+    A new session may bring its key, ``fresh``: said again where the answer was lost, it resumes what was begun then.
     """
 
     type: Literal["hello"]
@@ -89,7 +89,7 @@ class Cycles(Message):
 
 
 class EndMessage(Message):
-    """The trial under way is over; ``q`` is where the arm stands."""
+    """The trial under way is over; ``q`` is where the arm is."""
 
     type: Literal["end"]
     seq: Seq
@@ -137,7 +137,7 @@ class PlannedTrial(Message):
 
 
 class Plan(Message):
-    """The whole session, so that the page can go on without the network."""
+    """The whole session, so that the page can continue without the network."""
 
     training: list[TrainingTask]
     trials: list[PlannedTrial]
@@ -182,7 +182,7 @@ class Refused(Message):
 
 
 class Pause(Message):
-    """The experimenter stops the session after the trial under way, or lets it go on."""
+    """The experimenter stops the session after the trial under way, or resumes it."""
 
     type: Literal["pause"] = "pause"
     paused: bool
@@ -219,7 +219,7 @@ def read(text: str | bytes) -> Hello | Sequenced:
         return _FROM_PAGE.validate_json(text)
     except ValidationError as error:
         raise InputError(sentence(error)) from None
-    except ValueError as error:  # text that is no Unicode
+    except ValueError as error:  # not Unicode
         raise InputError(f"the message is malformed: {error}") from None
 
 

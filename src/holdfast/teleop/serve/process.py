@@ -36,7 +36,7 @@ async def apart(job: str, *arguments: str) -> None:
         raise InputError(done.stdout.decode().strip())
     if done.returncode:
         _log.error("%s failed:\n%s", job, done.stderr.decode(errors="replace"))
-        raise HoldfastError(f"the {job} failed; the reason stands where the server was started")
+        raise HoldfastError(f"the {job} failed; the terminal in which the server was started shows why")
 
 
 def _export(folder: Path, out: Path) -> None:
@@ -53,11 +53,11 @@ def _export(folder: Path, out: Path) -> None:
 def _report(folder: Path, out: Path, missing: str) -> None:
     """``OUT/report.html``, with its tables."""
     from holdfast.teleop.analysis.eligibility import analyse_records
-    from holdfast.teleop.records.tables import hand_paths
+    from holdfast.teleop.records.tables import tool_paths
 
     with Records.open(folder) as records, records.reading():
         result = analyse_records(records, missing)  # type: ignore[arg-type]
-        result.save(out, records.protocol, hand_paths(records))
+        result.save(out, records.protocol, tool_paths(records))
 
 
 _JOBS: dict[str, Callable[..., None]] = {"export": _export, "report": _report}

@@ -57,7 +57,7 @@ class Entered:
 
 
 def enter(records: Records, hello: Hello) -> Entered | Refused | Bye:
-    """A page says hello: a new subject, or a session that goes on.
+    """A page says hello: a new subject, or a session that is resumed.
 
     A code that is taken may be given again as long as nothing is on record of it: the page never saw the answer to its hello.
     """
@@ -90,7 +90,7 @@ def _new(records: Records, hello: Hello) -> Entered:
         known = records.add_subject(hello.code, Who(hello.kind))
     elif known.state != State.OPEN or known.kind != hello.kind or known.answers or records.last_seq(known.code):
         raise InputError(
-            f"the session of {known.code} has begun already; give another code, or let the experimenter hand it to this page"
+            f"the session of {known.code} has begun already; give another code, or ask the experimenter to move it to this page"
         )
     return Entered(known.code, records.give_key(known.code, hello.fresh))
 
@@ -164,7 +164,7 @@ class Station:
 
     @_apply.register
     def _(self, message: messages.AnswersMessage, entry: Entry | None) -> int | None:
-        # The newest answers stand with the subject; the events keep all of them, also where a form is filled in twice.
+        # The newest answers are the subject's; the events keep all of them, also where a form is filled in twice.
         subject = self.records.subject(self.code)
         said = {f"{message.form}.{key}": value for key, value in message.answers.items()}
         earlier = {key: value for key, value in subject.answers.items() if key.split(".")[0] != message.form}
@@ -233,7 +233,7 @@ class Station:
 
 
 def _finished(entry: Entry) -> bool:
-    """Whether a trial is over and stands: one that was broken off is done again."""
+    """Whether a trial is over and counts: one that was broken off is done again."""
     return entry.ended is not None and entry.end != End.BROKEN_OFF
 
 

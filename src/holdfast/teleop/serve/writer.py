@@ -134,7 +134,7 @@ class Keeper:
         try:
             with records.together() if self._writes else nullcontext():
                 results = [_result(job, records) for job, _ in jobs]
-        # A full disk, a folder that was deleted, a lock that somebody else does not let go of: none of it happened.
+        # A full disk, a folder that was deleted, a lock that somebody else keeps: none of it happened.
         except (sqlite3.Error, StoreError) as error:
             self._turn(str(error))
             return [StoreError(f"the records cannot be written ({error}); nothing was recorded")] * len(jobs)

@@ -26,7 +26,7 @@ class Rules:
 
     Attributes:
         radius: Of the target circle, m.
-        at_rest: The end effector must also be told to stand, as people must; the computer need not.
+        at_rest: The end effector must also get no command there: so with people, not with the computer.
         cycle_limit: Cycles allowed.
         still: m per cycle; an end effector that is commanded but moves less ...
         patience: ... for so many cycles one after the other is still, and the trial is over.
@@ -95,7 +95,7 @@ class Computer(Operator):
 
 
 class Recorded(Operator):
-    """The commands of recorded trials again, cycle by cycle, and standing when they are over."""
+    """The commands of recorded trials again, cycle by cycle, and no command when they are over."""
 
     def __init__(self, trials: Trials) -> None:
         self._trials = trials
@@ -190,8 +190,8 @@ def drive(
                 q_next[mine], actual[mine] = plant.cycles(q[mine], velocity[mine], mask[rows[mine]])
         recorded.append((rows, velocity, q, x, actual))
         x_next = plants[0].position(q_next)
-        stands = (np.linalg.norm(x_next - x, axis=1) < rule.still) & ~at_rest
-        still[rows] = np.where(stands, still[rows] + 1, 0)
+        is_still = (np.linalg.norm(x_next - x, axis=1) < rule.still) & ~at_rest
+        still[rows] = np.where(is_still, still[rows] + 1, 0)
         q, x = q_next, x_next
     return _gathered(recorded, count, n, m, q_end, x_end, goal, end)
 

@@ -18,7 +18,7 @@ from holdfast.teleop.trials.stick import Stick
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_STOPS, _STARTS_AGAIN = 0.6, 0.9  # of the circle's radius: where the stick is let go, and where it is taken up again
+_STOPS, _STARTS_AGAIN = 0.6, 0.9  # of the circle's radius: where the stick is released, and where it is used again
 _NOISE_MEMORY = 0.2  # s
 _HELD = 1.5  # s: how long another direction is tried
 _LOST = 0.05  # m: farther from the target by so much than one look-back ago is "moving away"
@@ -30,14 +30,14 @@ class Person:
 
     Attributes:
         delay: From what is seen to what the end effector begins to do, s. About 0.24 s for a simple reaction: Card,
-        Moran, Newell
-            1983, the model human processor.
+            Moran, Newell 1983, the model human processor.
         lag: Time constant of hand and stick, s: a first-order lag; 0.1 to 0.2 s: McRuer and Jex 1967.
-        noise: Standard deviation of the command, as a share of its size: Harris and Wolpert 1998, noise grows with the signal.
+        noise: Standard deviation of the command, as a fraction of its size: Harris and Wolpert 1998, noise grows with the
+            signal.
         bias: The direction is misjudged by this angle throughout a trial, rad; drawn anew, with its sign, for each trial.
         slowing: The speed is the distance to go divided by this time, s, within the limit of the stick.
-        look_back: If the end effector is farther from the target than so long ago, s, or stood still, the straight way
-        is given up ...
+        look_back: If the end effector is farther from the target than this long ago, s, or was still, the straight way is
+            given up ...
         turn: ... for a while, for one turned away by this angle, rad; left and right by turns, farther each time.
         gives_up: Time after which the trial is aborted, s.
     """
@@ -152,10 +152,10 @@ class SimulatedPeople(Operator):
         """What was to be seen at a time (K,), cycles; from before the start only the start."""
         past = np.maximum(time, 0.0)
         low = np.floor(past).astype(np.int64)
-        share = (past - low)[:, None]
+        fraction = (past - low)[:, None]
         length = len(self._seen)
-        # The share is 0 where there is no later cycle yet.
-        return np.asarray((1 - share) * self._seen[low % length, rows] + share * self._seen[(low + 1) % length, rows])
+        # The fraction is 0 where there is no later cycle yet.
+        return np.asarray((1 - fraction) * self._seen[low % length, rows] + fraction * self._seen[(low + 1) % length, rows])
 
     def _shake(self) -> None:
         """Noise of unit variance that lasts for a while, for all trials, whether they are over or not."""

@@ -49,7 +49,7 @@ MEASURES = (
     Measure("M12", "subjective operator assessment", "1"),
 )
 RECORDED = 11  # of them: all but the rating
-_STANDS = 1e-12  # of the command: below it the end effector has no direction
+_STILL = 1e-12  # of the command: below it the end effector has no direction
 
 
 def measures(trials: Trials) -> Array:
@@ -59,7 +59,7 @@ def measures(trials: Trials) -> Array:
     segment from the start to the target:
 
     * M1 number of cycles; M2 length of the polygon through the x; M3, M4 largest and mean distance of the x from the segment;
-      M5 sum of all increases of the distance to the target; M6 sum of all changes of all joints (rad; and m, of sliding
+      M5 sum of all increases of the distance to the target; M6 sum of all changes of all joints (rad; and m, of prismatic
       joints);
     * M7, M8 mean and largest ``|v - a| / |v|`` over the cycles with a command; M9, M10 mean and largest angle between v and a
       over those in which the end effector moved as well; M11 sum of the changes of v.
@@ -109,7 +109,7 @@ def measures(trials: Trials) -> Array:
     v, a = trials.velocity, trials.actual
     speed, done = np.linalg.norm(v, axis=1), np.linalg.norm(a, axis=1)
     commanded = speed > 0
-    moved = commanded & (done > _STANDS * speed)
+    moved = commanded & (done > _STILL * speed)
     with np.errstate(divide="ignore", invalid="ignore"):
         error = np.where(commanded, np.linalg.norm(v - a, axis=1) / speed, 0.0)
         unit, done_unit = v / speed[:, None], a / done[:, None]
@@ -178,5 +178,5 @@ def _distance(x: Array, start: Array, end: Array) -> Array:
     """(K,) distances of points (K, m) from segments."""
     along = end - start
     size = np.einsum("ij,ij->i", along, along)
-    share = np.einsum("ij,ij->i", x - start, along) / np.where(size > 0, size, 1.0)
-    return np.asarray(np.linalg.norm(x - start - np.clip(share, 0.0, 1.0)[:, None] * along, axis=1))
+    fraction = np.einsum("ij,ij->i", x - start, along) / np.where(size > 0, size, 1.0)
+    return np.asarray(np.linalg.norm(x - start - np.clip(fraction, 0.0, 1.0)[:, None] * along, axis=1))

@@ -26,7 +26,7 @@ class Plant:
     """An arm under a control law that knows of no failure, driven cycle by cycle.
 
     A commanded velocity is held for a cycle; the law is evaluated anew in each of the explicit Euler sub-steps of the cycle,
-    and joints that are locked do not follow. Where the law has no answer, at a singular configuration, the arm stands.
+    and joints that are locked do not follow. Where the law has no answer, at a singular configuration, the arm is still.
 
     The same row gives the same bits whatever the batch, so that a recorded trial can be replayed exactly.
 
@@ -121,7 +121,7 @@ def substep(law: Law, substeps: int = SUBSTEPS) -> ca.Function:
     q, v, healthy = kinematics.joint_symbols(arm), ca.SX.sym("v", law.task.m), ca.SX.sym("healthy", n)
     rates = healthy * law.rates(q, v)
     moved = q + rates / substeps
-    # A singular configuration makes the rates NaN, and the comparison false: the arm stands.
+    # A singular configuration makes the rates NaN, and the comparison false: the arm is still.
     moving = ca.sumsqr(moved) < 1e30
     actual = ca.DM(law.task.rows) @ kinematics.jacobian(arm, q) @ rates
     return ca.Function(

@@ -28,8 +28,8 @@ class End(IntEnum):
 
 
 _SENTENCES = {
-    End.ARRIVED: "the end effector came into the target circle",
-    End.STILL: "the end effector stood still although it was commanded to move",
+    End.ARRIVED: "the end effector reached the target circle",
+    End.STILL: "the end effector was still although it was commanded to move",
     End.TIME: "the cycles allowed were over",
     End.ABORTED: "the operator gave up",
     End.BROKEN_OFF: "the recording stops before the trial was over",
@@ -89,7 +89,7 @@ class Trials:
 
     @property
     def arrived(self) -> NDArray[np.bool_]:
-        """(N,) True where the end effector came into the target circle."""
+        """(N,) True where the end effector reached the target circle."""
         return np.asarray(self.end == End.ARRIVED)
 
     def of_cycle(self) -> NDArray[np.int64]:

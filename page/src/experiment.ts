@@ -39,7 +39,7 @@ export interface Form {
   decline?: string;
 }
 
-export interface Study {
+export interface Experiment {
   format: 1;
   joints: number;
   axes: number;
@@ -63,8 +63,8 @@ export interface Study {
   tlx: boolean;
 }
 
-export async function loadStudy(address: string): Promise<Study> {
+export async function loadExperiment(address: string): Promise<Experiment> {
   const answer = await fetch(address);
   if (!answer.ok) throw new Error(`${address}: ${answer.status} ${answer.statusText}`);
-  return (await answer.json()) as Study;
+  return (await answer.json()) as Experiment;
 }

@@ -13,13 +13,13 @@ from holdfast.registry import LAWS
 from holdfast.teleop.protocol.printed_arm import arm_module, law_of
 from holdfast.teleop.protocol.protocol import read_protocol
 from holdfast.teleop.serve import texts
-from holdfast.teleop.serve.briefing import study, views, workspace
+from holdfast.teleop.serve.briefing import experiment, views, workspace
 from holdfast.teleop.serve.messages import PlannedTrial
 
 
-def test_study_of_the_paper(built):
+def test_experiment_of_the_paper(built):
     whole = read_protocol()
-    told = study(whole, texts.read(None, built[1]), tlx=True)
+    told = experiment(whole, texts.read(None, built[1]), tlx=True)
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     assert told["stick"] == {"limit": 0.05, "dead_zone": 0.005}
     assert told["training_law"] == law_of(whole)[0]
@@ -76,7 +76,7 @@ def test_translations_have_the_same_keys(built, tmp_path):
         (english + "title: again\n", "given twice"),
         (english + english.split("forms:\n")[1], "two of them have the same name"),
         ("[1, 2]", "keys and values"),
-        ("a: [", "not sound YAML"),
+        ("a: [", "not valid YAML"),
         ("title: x\n", "forms"),
     ]:
         file.write_text(text)
@@ -94,6 +94,6 @@ def test_the_page_is_blind(built):
     order = whole.session(0, 0)
     laws = law_of(whole)
     plan = [PlannedTrial(task=t, law=laws[s], q0=[0.0], target=[0.0], joint=-1).model_dump() for t, s in order.tolist()]
-    words = json.dumps(study(whole, texts.read()) | {"texts": ""}) + arm_module(whole) + json.dumps(plan)
+    words = json.dumps(experiment(whole, texts.read()) | {"texts": ""}) + arm_module(whole) + json.dumps(plan)
     for name in (*LAWS, "pseudo", "tolerant", "inverse", "scenario", "law_of", whole.name):
         assert name not in words.lower()
