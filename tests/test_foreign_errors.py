@@ -225,7 +225,7 @@ def calls(folder: Path) -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "runs.path": (g["runs"].path, {"k": 0, "samples": 3, "until": None}),
         "runs.least_error": (g["runs"].least_error, {"restarts": 1, "seed": 0}),
         "run.report": (run.report, {"path": folder / "r.html", "threshold": 0.1}),
-        "run.save": (run.save, {"path": folder / "saved"}),
+        "run.save": (run.save, {"folder": folder / "saved"}),
         "run.interval": (run.interval, {"at_least": 0.1, "at_most": None, "optimised": False, "confidence": 0.95}),
         "run.cdf": (run.cdf, {"h": 0.1}),
         "run.survival": (run.survival, {"joint": None, "confidence": 0.95}),

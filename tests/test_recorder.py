@@ -41,6 +41,10 @@ def compared(tmp_path, capsys):
             "of one thread  a chunk  size\n40    3       0.89 s         0.3 s   6 kB\n",
             "of one thread  a chunk   size\n40    3       0.021 s        0.0069 s  6 kB\n",
         ),
+        (
+            '<g id="p2b45f8a14d"/><path clip-path="url(#p2b45f8a14d)"/>',
+            '<g id="pfeedc54e41"/><path clip-path="url(#pfeedc54e41)"/>',
+        ),
         ("seconds=1.25, kept", "seconds=3e-05, kept"),
         ('"seconds": 1.25', '"seconds": 0'),
         ('"numpy": "2.3.1"', '"numpy": "2.4.0.dev1"'),

@@ -43,7 +43,7 @@ class Result:
 
     def to_dict(self, *args: Any, **options: Any) -> dict[str, Any]:
         """Its numbers by name, in types that JSON has, as ``--json`` prints them; infinity and NaN are None."""
-        data: dict[str, Any] = self._presented("numbers", *args, **options)
+        data: dict[str, Any] = self._presented("as_json", *args, **options)
         return data
 
     def describe(self) -> list[str]:

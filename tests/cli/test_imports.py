@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -126,10 +127,10 @@ def test_the_library_waits_for_what_is_asked():
 
 
 def test_the_help_lists_every_command_in_its_order_and_panel(cli):
-    lines = [line.strip("│╭╮─ ") for line in cli("--help")[1].splitlines()]
-    shown = [line.split()[0] for line in lines if line.split()[:1] and line.split()[0] in COMMANDS]
+    lines = cli("--help")[1].splitlines()
+    shown = [found[1] for line in lines if (found := re.match("│ ([a-z][a-z-]+) ", line))]
     assert shown == list(COMMANDS)
-    panels = [line for line in lines if line in PANELS.values()]
+    panels = [words for line in lines if (words := line.strip("╭╮─ ")) in PANELS.values()]
     assert panels == list(PANELS.values())
     folders = [place.partition(".")[0] for place in COMMANDS.values()]
     assert folders == sorted(folders, key=list(PANELS).index)

@@ -39,6 +39,7 @@ VARIES = tuple(
         (r"^holdfast: (?!nothing|missing)[a-z]+ing\b(.*, (about \d+ (s|min)|so far \d).*|[^,;:]*)\n", ""),
         (r"^\d+ of \d+ chunks, about .*\n", ""),  # only of what takes half a minute
         (r" at 0x[0-9a-f]+", ""),
+        (r"(\"|#)([pmh])[0-9a-f]{10}\b", r"\1\2<digest>"),  # names in a drawing, of all digits of its places
         (r"^exit code 0\n", ""),
         (r"^(\d+ [0-9a-f]{32} \d+) [\d.e-]+ (\d+) [0-9a-f]{8}$", r"\1 <seconds> \2 <digest>"),  # chunks of studies
         (r"(digests; all together) [0-9a-f]{64}", r"\1 <digest>"),

@@ -36,7 +36,7 @@ PRESENTERS = {
     "WhatIsLeft": ("recovery.left", "recovery.left"),
     "Workspace": ("convergence.origins", "convergence.origins"),
 }
-_WORDS = {"to_dict", "show", "tables"}
+_WORDS = {"as_json", "to_dict", "show", "tables"}
 
 
 def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:

@@ -48,7 +48,7 @@ def drawn(result: Result, file: Path) -> Path:
     return save_png(next(iter(result.figures().values())), file)
 
 
-def numbers(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
+def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
     """Its numbers in types that JSON has."""
     data: dict[str, Any] = plain(result._presented("to_dict", *args, **options))
     return data
