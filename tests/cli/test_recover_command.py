@@ -80,7 +80,7 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
         ([*CALL, "--lock", "joint2=3"], "twice"),
         ([*CALL, "--lock", "3=up"], "not joint=number"),
         ([*CALL, "--goal", "pose:1,1,0", "--task", "planar-pose"], "no orientation"),
-        ([*CALL, "--margin", "0.1"], "nothing to keep"),
+        ([*CALL, "--margin", "0.1"], "--margin has no effect"),
     ],
     ids=["at", "lock", "ambiguous", "kind", "twice", "word", "task", "margin"],
 )

@@ -57,7 +57,7 @@ def test_a_hand_off_its_path_is_the_first_thing_said(stopped):
     page = build(stopped)
     assert page.warnings[0].tone == "bad"
     assert "LEAVES ITS PATH" in page.warnings[0].text
-    assert page.headline.startswith("The hand does not stay on its path")
+    assert page.headline.startswith("The end effector does not stay on its path")
 
 
 def test_slowness_by_joint(calm):

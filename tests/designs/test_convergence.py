@@ -250,7 +250,7 @@ def test_arrivals_of_designs_by_runs_of_scipy():
     [
         ({"vary": {"a1": (0.0, 2.0)}}, "length 0"),
         ({"vary": {"upper1": (3.0, 4.0)}, "exact": False}, "joint limit"),
-        ({"vary": {"alpha1": (-0.1, 0.1)}, "exact": True}, "no link length"),
+        ({"vary": {"alpha1": (-0.1, 0.1)}, "exact": True}, "not a link length"),
         ({"vary": LENGTHS, "objective": "speed"}, "not known"),
         ({"vary": LENGTHS, "targets": (2.0, 1.0)}, "targets are"),
         ({"vary": {"a1": (0.5, 2.0)}, "keep_reach": True}, "two or more"),

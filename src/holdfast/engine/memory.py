@@ -70,7 +70,7 @@ class Memory:
     def _read(self, formerly: Mapping[str, Any] | None) -> None:
         try:
             first, *lines = [json.loads(text) for text, sound in self._lines.read() if sound or self._before]
-            plan = taken_for(self._plan, first["search"], formerly)
+            plan = taken_for(self._plan, dict(first["search"]), formerly)
             for line in lines:
                 self._parts[line["part"]] = {
                     key: _array(kind, values).reshape(shape) for key, (kind, shape, values) in line["arrays"].items()
