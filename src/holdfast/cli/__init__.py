@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from contextlib import suppress
 
@@ -12,6 +13,7 @@ __all__ = ["main"]
 
 def main() -> None:
     """Run the program; Ctrl-C ends it within a second, with exit code 130 and one line on stderr."""
+    gc.set_threshold(50_000)  # of 700, which looks for circles again and again while modules are imported
     interrupt = Interrupt()
     try:
         from holdfast.cli.program import main as run
