@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import rotation_vectors
 from holdfast.notice import each
-from holdfast.paths.path import Path
 from holdfast.recovery.goals import RowsGivenUp, configurations_of
 from holdfast.recovery.routes import Metric, Space
 from holdfast.recovery.rows import RowSolver, preferred, subsets
+
+if TYPE_CHECKING:
+    from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

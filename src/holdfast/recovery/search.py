@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,6 @@ from holdfast.clearance.clearance import Clearance, too_close
 from holdfast.errors import InputError
 from holdfast.failures import Locked, locks_at
 from holdfast.notice import says
-from holdfast.paths.path import Path
 from holdfast.recovery.bounds import out_of_reach
 from holdfast.recovery.continuation import RestOfPath, rest_of_path
 from holdfast.recovery.goals import Relaxed, RowsGivenUp, configurations_of, rows_to_give_up
@@ -29,6 +28,9 @@ from holdfast.recovery.routes import Metric, MetricName, Route, Space, find_rout
 from holdfast.recovery.rows import RowSolver, row_solver
 from holdfast.regions.region import Region
 from holdfast.solvers import joint_space
+
+if TYPE_CHECKING:
+    from holdfast.paths.path import Path
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
