@@ -17,6 +17,7 @@ from inspect import getattr_static
 from pathlib import Path
 from types import FunctionType
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -25,6 +26,9 @@ from holdfast.provenance import versions
 
 _PACKAGE = Path(__file__).parents[1]
 _DRAWING = {"cli", "present", "report", "__pycache__"}  # no expression is built there, and nothing below imports them
+
+
+_known: WeakKeyDictionary[object, tuple[bytes, ...]] = WeakKeyDictionary()
 
 
 class _Unknown(Exception):
@@ -92,9 +96,23 @@ def _pieces(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
         yield from _pieces(x.made_of, inside)
     elif isinstance(x, Path):
         yield str(x).encode()
+    elif _identical(kind):  # an arm: a part of all that is made for it
+        if x not in _known:
+            _known[x] = tuple(_of_ours(x, inside))
+        yield from _known[x]
     else:
-        _ours(kind)
-        yield from _several([part for pair in _state(x) for part in pair], inside)
+        yield from _of_ours(x, inside)
+
+
+def _identical(kind: Any) -> bool:
+    """A frozen dataclass that is equal to nothing but itself."""
+    settings = getattr(kind, "__dataclass_params__", None)
+    return settings is not None and settings.frozen and not settings.eq
+
+
+def _of_ours(x: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
+    _ours(type(x))
+    yield from _several([part for pair in _state(x) for part in pair], inside)
 
 
 def _several(items: Any, inside: tuple[int, ...]) -> Iterator[bytes]:
