@@ -104,7 +104,7 @@ def readme(checkout: Path) -> list[str]:
 def examples(checkout: Path) -> list[str]:
     """The examples of every command's help, which is the docstring of its function."""
     found = []
-    for file in sorted((checkout / "src/holdfast/cli").glob("*.py")):
+    for file in sorted((checkout / "src/holdfast/cli").rglob("*.py")):
         for node in ast.walk(ast.parse(file.read_text())):
             if isinstance(node, ast.FunctionDef):
                 found += re.findall(r"^Example: (holdfast .+)$", ast.get_docstring(node) or "", re.MULTILINE)
