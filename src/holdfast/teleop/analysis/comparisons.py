@@ -67,40 +67,14 @@ def paired(first: ArrayLike, second: ArrayLike, confidence: float = 0.95) -> Pai
         raise InputError(f"confidence is {confidence:g}; it must be between 0 and 1, for example 0.95")
     d = (x - y)[np.isfinite(x) & np.isfinite(y)]
     n, nan = len(d), float("nan")
+    untold = dict.fromkeys(("t", "p", "dz", "dz_low", "dz_high", "wilcoxon", "rank_biserial"), nan)
     if n < 2:
-        return Paired(
-            n=n,
-            difference=float(d.mean()) if n else nan,
-            low=nan,
-            high=nan,
-            t=nan,
-            df=n - 1,
-            p=nan,
-            dz=nan,
-            dz_low=nan,
-            dz_high=nan,
-            median_difference=nan,
-            wilcoxon=nan,
-            rank_biserial=nan,
-        )
+        difference = float(d.mean()) if n else nan
+        return Paired(n=n, difference=difference, low=nan, high=nan, df=n - 1, median_difference=nan, **untold)
     mean, spread = float(d.mean()), float(d.std(ddof=1))
     median = float(np.median(d))
     if spread <= 1e-14 * np.abs(d).max():
-        return Paired(
-            n=n,
-            difference=mean,
-            low=mean,
-            high=mean,
-            t=nan,
-            df=n - 1,
-            p=nan,
-            dz=nan,
-            dz_low=nan,
-            dz_high=nan,
-            median_difference=median,
-            wilcoxon=nan,
-            rank_biserial=nan,
-        )
+        return Paired(n=n, difference=mean, low=mean, high=mean, df=n - 1, median_difference=median, **untold)
     t = float(mean / (spread / np.sqrt(n)))
     half = float(stats.t.ppf(0.5 + confidence / 2, n - 1) * spread / np.sqrt(n))
     limits = [z / float(np.sqrt(n)) for z in noncentrality_interval(t, n - 1, confidence)]
