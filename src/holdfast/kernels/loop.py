@@ -151,9 +151,11 @@ class Loop:
             result.done[rows] = small[done]
             result.steps[rows] = now - begun[done]
             batch.ended(done.size)
-            batch.stepped((now - told) * self.times)
+            if batch.stepped is not unheard:
+                batch.stepped((now - told) * self.times)
+            if batch.over is not unheard:
+                batch.over(int(np.count_nonzero(small[done])))
             told = now
-            batch.over(int(np.count_nonzero(small[done])))
             state[...] = after
             fresh = batch.take(done.size)
             places, gone = done[: fresh.size], done[fresh.size :]

@@ -239,7 +239,7 @@ class InverseKinematics:
         found = self._search(self._loop_with_locks, parameters, np.flatnonzero(finite), seed, restarts, tolerance, lock)
         kept = found.q[rows, locked] == angles
         position_error, rotation_error = self.errors(found.q, poses)
-        reached = self.verdict(found.q, poses, tolerance) & kept
+        reached = self._reached(found.q, position_error, rotation_error, tolerance) & kept
         status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(
@@ -331,7 +331,9 @@ class InverseKinematics:
 
     def verdict(self, q: Array, poses: Array, tolerance: float) -> NDArray[np.bool_]:
         """(N,) True where q is on the pose and within the limits."""
-        position_error, rotation_error = self.errors(q, poses)
+        return self._reached(q, *self.errors(q, poses), tolerance)
+
+    def _reached(self, q: Array, position_error: Array, rotation_error: Array, tolerance: float) -> NDArray[np.bool_]:
         inside = ((q >= self.arm.lower) & (q <= self.arm.upper)).all(axis=1)
         return np.asarray(inside & (position_error <= tolerance * self._unit) & (rotation_error <= tolerance))
 
@@ -352,7 +354,8 @@ class InverseKinematics:
         q = joint_space.wrapped(self.arm, q)
         # The verdict comes from the configuration handed out, not from the solver's own residual.
         position_error, rotation_error = self.errors(q, poses)
-        status = np.where(self.verdict(q, poses, tolerance), Status.OK, Status.NOT_FOUND).astype(np.uint8)
+        reached = self._reached(q, position_error, rotation_error, tolerance)
+        status = np.where(reached, Status.OK, Status.NOT_FOUND).astype(np.uint8)
         status[~finite] = Status.BAD_INPUT
         return Reach(q=q, status=status, position_error=position_error, rotation_error=rotation_error, restarts=used)
 
