@@ -1,4 +1,7 @@
-"""Notices on stderr of work that takes a while: what it is, and how long it will take or how far it has come."""
+"""Notices of work that takes a while: what it is, and how long it will take or how far it has come.
+
+They go to stderr; in a notebook to a line below the cell, which changes in place.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,8 @@ import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from typing import Any, ParamSpec, TypeVar
+
+from holdfast.notebook import Bar, publisher
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -27,9 +32,15 @@ _lock = threading.Lock()
 @contextmanager
 def long(what: str, seconds: float) -> Iterator[None]:
     """Say what is being done if it is expected to take more than a second, and for how long."""
-    if seconds > _LONG:
+    bar = _bar() if seconds > _LONG else None
+    if bar is not None:
+        bar.show(f"{what}, about {_shown(seconds)}")
+    elif seconds > _LONG:
         _say(f"{what}, about {_shown(seconds)}")
+    begun = _clock()
     yield
+    if bar is not None:
+        bar.show(f"{what}: {_shown(_clock() - begun)}", last=True)
 
 
 @contextmanager
@@ -63,6 +74,11 @@ def working(what: str, progress: Progress | None = None) -> Iterator[Progress]:
             _watch()
         work.silent = progress is not None
         yield progress or work.advance
+    except BaseException:
+        work.end("stopped after ")
+        raise
+    else:
+        work.end("")
     finally:
         _outer = None
 
@@ -169,6 +185,8 @@ class _Work:
         self.share = 0.0
         self.left: float | None = None
         self.silent = False  # somebody else tells of it
+        self.bar = _bar()
+        self.shown = 0.0  # when the bar was told
 
     def advance(self, done: int, total: int, left: float | None = None) -> None:
         """So much is done; ``left`` seconds are left, if that is known better here than there."""
@@ -188,8 +206,31 @@ class _Work:
     def look(self) -> None:
         """Say something if it is time."""
         passed = _clock() - self.begun
-        if passed < self.next or self.silent:
+        if passed < _LONG or self.silent:
             return
+        if self.bar is not None:
+            self._show(self.bar, passed)
+        elif passed >= self.next:
+            self._tell(passed)
+
+    def end(self, how: str) -> None:
+        """It is over; a notebook keeps how long it took."""
+        if self.bar is not None and self.shown:
+            self.bar.show(f"{self.what}: {how}{_shown(_clock() - self.begun)}", last=True)
+
+    def _show(self, bar: Bar, passed: float) -> None:
+        """In a notebook, where nothing piles up."""
+        if passed < self.shown + _SOON:
+            return
+        self.shown = passed
+        rest, count = self._rest(), next((c for c in tuple(self.counts) if c.done), None)
+        if rest is not None:
+            bar.show(f"{self.what}, about {_shown(rest)} more", self.share)
+        else:
+            bar.show(self.what if count is None else count.text(self.what))
+
+    def _tell(self, passed: float) -> None:
+        """On stderr, ever more rarely."""
         named, self.next = self.next > _LONG, min(_AGAIN * max(passed, _LONG), passed + _AT_MOST)
         rest, count = self._rest(), next((c for c in tuple(self.counts) if c.done), None)
         if rest is not None:
@@ -240,6 +281,12 @@ def told(done: int, total: int, left: float | None = None) -> None:
 
 def _shown(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def _bar() -> Bar | None:
+    """In a notebook."""
+    found = None if os.environ.get("HOLDFAST_NOTICES") == "off" else publisher()
+    return None if found is None else Bar(found)
 
 
 def _say(text: str) -> None:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked_class, real_numbers
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
@@ -170,7 +171,7 @@ class Chain:
 
 
 @dataclass(frozen=True, eq=False)
-class Machine:
+class Machine(Shown):
     """What is known about a serial arm.
 
     Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 from holdfast.solvers.joint_space import turning
 
 if TYPE_CHECKING:
@@ -42,6 +42,22 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
         ],
         **({} if motion.bounds is None else {"bounds": dict(zip(names, motion.bounds, strict=True))}),
     }
+
+
+def key_table(motion: SelfMotion) -> Rows:
+    """The curves; of a manifold of more dimensions how many points were found."""
+    if not motion.components:
+        return Rows(["", ""], [["configurations found", f"{len(motion.q):,}"], ["dimension", str(motion.redundancy)]])
+    each = enumerate(motion.components)
+    return Rows(
+        ["curve", "length, rad", "points", ""], [[str(k + 1), number(c.length), str(len(c.q)), motion.ends(k)] for k, c in each]
+    )
+
+
+def next_steps(motion: SelfMotion, name: str) -> list[str]:
+    """Where each joint may lock."""
+    del motion
+    return [f"hf.joint_bounds({name}.arm, {name}.pose, {name}.task)  # where each joint may lock without losing the pose"]
 
 
 def show(motion: SelfMotion, out: Console) -> None:
