@@ -11,11 +11,11 @@ import os
 import sys
 import threading
 import time
+import uuid
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from html import escape
 from typing import Any, ParamSpec, TypeVar
-
-from holdfast.notebook import Bar, publisher
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -218,7 +218,7 @@ class _Work:
         if self.bar is not None and self.shown:
             self.bar.show(f"{self.what}: {how}{_shown(_clock() - self.begun)}", last=True)
 
-    def _show(self, bar: Bar, passed: float) -> None:
+    def _show(self, bar: _Bar, passed: float) -> None:
         """In a notebook, where nothing piles up."""
         if passed < self.shown + _SOON:
             return
@@ -247,6 +247,35 @@ class _Work:
         if self.left is not None or self.share <= before:
             return self.left
         return (_clock() - when) * (1 - self.share) / (self.share - before)
+
+
+class _Bar:
+    """How far work is, in a line below the cell that waits for it; told from any thread. Plain HTML, no widgets.
+
+    Args:
+        publish: The kernel's, which displays in the cell that runs.
+    """
+
+    def __init__(self, publish: Any) -> None:
+        self._publish, self._id = publish, uuid.uuid4().hex
+        self._lock, self._said, self._ended = threading.Lock(), "", False
+
+    def show(self, text: str, share: float | None = None, last: bool = False) -> None:
+        """Say so in place of what was said before; with a bar if the share that is done is known.
+
+        Args:
+            text: For people.
+            share: 0 to 1.
+            last: Nothing more is said after this, whoever tries.
+        """
+        bar = "" if share is None else f'<progress style="width:12em;margin-right:.8em" max="1" value="{share:.3f}"></progress>'
+        html = f'<div style="opacity:.75">{bar}{escape(text)}</div>'
+        with self._lock:
+            if self._ended or html == self._said:
+                return
+            data = {"text/html": html, "text/plain": f"holdfast: {text}"}
+            self._publish.publish(data, transient={"display_id": self._id}, update=bool(self._said))
+            self._said, self._ended = html, last
 
 
 _outer: _Work | None = None
@@ -283,10 +312,11 @@ def _shown(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
-def _bar() -> Bar | None:
-    """In a notebook."""
-    found = None if os.environ.get("HOLDFAST_NOTICES") == "off" else publisher()
-    return None if found is None else Bar(found)
+def _bar() -> _Bar | None:
+    """Where this is the kernel of a notebook."""
+    shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    known = getattr(shell, "kernel", None) is not None and os.environ.get("HOLDFAST_NOTICES") != "off"
+    return _Bar(shell.display_pub) if known else None
 
 
 def _say(text: str) -> None:

@@ -86,6 +86,10 @@ class Result(Shown):
         """A few sentences for people."""
         raise NotImplementedError
 
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls._repr_pretty_ = cls._repr_pretty_  # type: ignore[method-assign]  # IPython looks for it beside the dataclass's own repr
+
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         """What IPython prints: the sentences, and not all the arrays."""
         del cycle

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 from holdfast.arguments import checked_class, real_numbers
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
-from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 JointType = Literal["revolute", "continuous", "prismatic"]
@@ -171,7 +170,7 @@ class Chain:
 
 
 @dataclass(frozen=True, eq=False)
-class Machine(Shown):
+class Machine:
     """What is known about a serial arm.
 
     Poses are 4x4 arrays in the *world* frame, in which ``base`` is given. Joints are indexed from 0 in Python.

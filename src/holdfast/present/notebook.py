@@ -32,7 +32,7 @@ def card(thing: Shown) -> str:
     parts += [f"<p>{escape(capitalised(line))}</p>" for line in others[: _SENTENCES - 1]]
     parts.append(_table(thing._presented("key_table")))
     if isinstance(thing, Result):
-        parts += [_picture(figure, f"{about}: {first}") for about, figure in list(thing.figures().items())[:1]]
+        parts += [_picture(figure, f"{about}: {first}") for about, figure in thing._presented("main_figure").items()]
     if steps := thing._presented("next_steps", name):
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre>{escape(chr(10).join(steps))}</pre>')
     return f'<div class="holdfast" style="max-width:60em">{"".join(parts)}</div>'
@@ -40,8 +40,12 @@ def card(thing: Shown) -> str:
 
 def _called(thing: Shown) -> str:
     """The variable that holds it, so that what is suggested runs as it is; else ``_``, the last output of a notebook."""
-    known = list(vars(sys.modules["__main__"]).items())
-    return next((name for name, value in known if value is thing and not name.startswith("_")), "_")
+    return next((name for name, value in variables() if value is thing), "_")
+
+
+def variables() -> list[tuple[str, Any]]:
+    """Those of the notebook, with what they hold."""
+    return [(name, value) for name, value in list(vars(sys.modules["__main__"]).items()) if not name.startswith("_")]
 
 
 def _table(table: Rows) -> str:

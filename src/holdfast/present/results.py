@@ -118,7 +118,7 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
     """One of its figures, the first if none is named, which a notebook shows whether or not pyplot was imported."""
     from holdfast.present.notebook import shown_alone
 
-    found = result.figures(**options)
+    found = result.figures(**options) if name or options else result._presented("main_figure")
     if not found:
         steps = " or ".join(step.partition("  #")[0] for step in result._presented("next_steps", "result"))
         raise InputError(f"{type(result).__name__} has no figure; ask {steps} instead")
@@ -127,10 +127,15 @@ def plot(result: Result, name: str = "", **options: Any) -> Figure:
     return shown_alone(found[name] if name else next(iter(found.values())))
 
 
-def sentences(thing: Result) -> list[str]:
-    """What it says of itself."""
+def main_figure(result: Result) -> dict[str, Figure]:
+    """The first of its figures with its name; nothing where it has none. What is quicker alone says so."""
+    return dict(list(result.figures().items())[:1])
+
+
+def sentences(thing: Any) -> list[str]:
+    """What it says of itself: of a result several, of anything else one."""
     said = thing.describe()
-    return [said] if isinstance(said, str) else said
+    return [said] if isinstance(said, str) else list(said)
 
 
 def key_table(result: Result) -> Rows:

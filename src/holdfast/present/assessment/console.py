@@ -43,7 +43,7 @@ def next_steps(result: Assessment, name: str) -> list[str]:
     """What would help most, and the whole report."""
     steps = [f"{name}.upgrades()[0]  # the joint that deserves a redundant motor or brake"] if result.kept else []
     if result.optimised is None and result.region.kind != "joints":
-        again = f"hf.assess({name}.arm, {name}.region, {name}.index, poses={min(result.poses, 200)}, optimise=True)"
+        again = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
         steps.append(f"{again}  # what choosing configurations gains")
     return [*steps, f'{name}.report("report.html")']
 

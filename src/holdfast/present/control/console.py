@@ -40,7 +40,7 @@ def key_table(curve: TradeOff) -> Rows:
 def next_steps(curve: TradeOff, name: str) -> list[str]:
     """The law that spends such an error."""
     allowed = float(curve.allowed[len(curve.allowed) // 2])
-    return [f"law = hf.control.failure_tolerant({name}.arm, {allowed:.2g}, {name}.task)"]
+    return [f"law = hf.control.failure_tolerant({name}.arm, {name}.task, {allowed:.2g})  # spends that much"]
 
 
 def show(curve: TradeOff, out: Console) -> None:

@@ -124,6 +124,11 @@ def figures(m: ConvergenceMap) -> dict[str, Figure]:
     return {"outcomes": outcomes_figure([m]), **{f"map{view}": figure for view, figure in maps.items()}}
 
 
+def main_figure(m: ConvergenceMap) -> dict[str, Figure]:
+    """How the motions ended."""
+    return {"outcomes": outcomes_figure([m])}
+
+
 def _told(m: ConvergenceMap, laws: int = 1) -> str:
     motions, places = int(m.known.sum()), len(m.places)
     law = f"{laws} laws" if laws > 1 else m.law.name

@@ -60,9 +60,9 @@ def tables(points: StationaryPoints) -> list[Rows]:
 
 
 def next_steps(points: StationaryPoints, name: str) -> list[str]:
-    """From where the arm ends at them."""
+    """Which starts end at them."""
     locked = dict(zip(points.locked, points.at.tolist(), strict=True))
-    return [f"hf.basins({name}.law, {name}.target, {locked!r}).plot()  # from where the arm ends at which"]
+    return [f"hf.basins({name}.law, {name}.target, {locked!r}, starts=64).plot()  # which starts end at which point"]
 
 
 def show(points: StationaryPoints, out: Console) -> None:

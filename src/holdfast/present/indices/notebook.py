@@ -12,8 +12,8 @@ from holdfast.present.printing import Rows, number
 
 def sentences(objective: Objective) -> list[str]:
     """What it is."""
-    named = isinstance(objective, (Index, Susceptibility))
-    return [f"{objective.describe() if named else objective.name}, arm {objective.arm.title}"]
+    said = objective.describe() if isinstance(objective, (Index, Susceptibility)) else objective.name
+    return [f"{said}, arm {objective.arm.title}"]
 
 
 def key_table(objective: Objective) -> Rows:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast import arms
+from holdfast.arm.model import Arm
+from holdfast.present.arm.console import redundant_task
+from holdfast.present.notebook import variables
 from holdfast.present.printing import Rows
 from holdfast.regions.region import Region
 
@@ -32,7 +35,11 @@ def key_table(region: Region) -> Rows:
 
 
 def next_steps(region: Region, name: str) -> list[str]:
-    """An arm over it."""
-    joints = len(region.center) if region.kind == "joints" else 9
-    arm = next((each for each in arms.names() if arms.about(each).n == joints), None)
-    return [] if arm is None else [f"hf.assess(hf.arms.load({arm!r}), {name}, poses=200)  # or your own arm"]
+    """An arm over it: the notebook's own where there is one, else one that comes with holdfast."""
+    joints = len(region.center) if region.kind == "joints" else None
+    known = next((each for each in arms.names() if arms.about(each).n == (joints or 9)), None)
+    mine = [(each, arm) for each, arm in variables() if isinstance(arm, Arm) and arm.n == (joints or arm.n)]
+    for text, arm in [*mine, *([] if known is None else [(f"hf.arms.load({known!r})", arms.load(known))])]:
+        if (task := redundant_task(arm)) is not None:
+            return [f"hf.assess({text}, {name}, task={task!r}, poses=200)"]
+    return []

@@ -93,13 +93,23 @@ def _short(value: float) -> str:
 
 def figures(motion: SelfMotion) -> dict[str, Figure]:
     """Joint values along the curves with where each joint may lock, and the arm in a few of the configurations."""
+    from holdfast.reach.bounds import joint_bounds
+
+    arcs = joint_bounds(motion.arm, motion.pose, motion.task) if motion.bounds is None else motion.bounds
+    return {"self-motion": _figure(motion, arcs)}
+
+
+def main_figure(motion: SelfMotion) -> dict[str, Figure]:
+    """The same, and where each joint may lock only if that is known: looking for it takes longer than all the rest."""
+    return {"self-motion": _figure(motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
+
+
+def _figure(motion: SelfMotion, arcs: Sequence[Sequence[tuple[float, float]]]) -> Figure:
     from holdfast.arm.configurations import finite_limits
     from holdfast.present.stick_figure import views_of
-    from holdfast.reach.bounds import joint_bounds
     from holdfast.report.manifolds import JointPanel, self_motion_figure
 
     arm = motion.arm
-    arcs = joint_bounds(arm, motion.pose, motion.task) if motion.bounds is None else motion.bounds
     low, high = finite_limits(arm)
     factors = np.array([j.shown[0] for j in arm.joints])
     panels = [
@@ -116,8 +126,5 @@ def figures(motion: SelfMotion) -> dict[str, Figure]:
     chains = arm.frames(q[some] if len(q) else q)[..., :3, 3]
     views = views_of(arm, chains) if len(q) else []
     drawn = f"; the {_CURVES} longest curves are drawn" if len(motion.components) > _CURVES else ""
-    return {
-        "self-motion": self_motion_figure(
-            panels, curves, chains, views, motion.describe()[0].replace(arm.title, arm.name, 1) + drawn
-        )
-    }
+    caption = motion.describe()[0].replace(arm.title, arm.name, 1) + drawn
+    return self_motion_figure(panels, curves, chains, views, caption)
