@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from holdfast.arm.postures import generic_configuration
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
 from holdfast.indices.susceptibility.measure import Susceptibility
@@ -29,17 +30,10 @@ def key_table(objective: Objective) -> Rows:
 
 def next_steps(objective: Objective, name: str) -> list[str]:
     """Its value at one configuration, joint by joint, and a better configuration of the same pose."""
-    q = _somewhere(objective)
+    q = np.round(generic_configuration(objective.arm), 2).tolist()
     several = isinstance(objective, (Index, Susceptibility))
     value = f"{name}.by_joint({q})  # whichever joint fails" if several else f"{name}({q})"
     return [
         value,
         f"hf.optimise({name}.arm, {name}.arm.forward_kinematics({q}), {name})  # the same pose, a better configuration",
     ]
-
-
-def _somewhere(objective: Objective) -> list[float]:
-    """A configuration within the limits that is not the zero one, where many arms are singular."""
-    low, high = (np.where(np.isfinite(x), x, end) for x, end in ((objective.arm.lower, -1.0), (objective.arm.upper, 1.0)))
-    found: list[float] = np.round(low + 0.4 * (high - low), 2).tolist()
-    return found
