@@ -61,7 +61,12 @@ class Result:
 
     def _presented(self, function: str, *arguments: Any, **options: Any) -> Any:
         """What a function of the modules that present this class makes of it; they are imported only now."""
-        from holdfast.present import presenter
+        return presented(self, function, *arguments, **options)
 
-        names = [each.__name__ for each in type(self).__mro__]
-        return presenter(names, function)(self, *arguments, **options)
+
+def presented(thing: Any, function: str, *arguments: Any, **options: Any) -> Any:
+    """What a function of the modules that present a thing's class makes of it; they are imported only now."""
+    from holdfast.present import presenter
+
+    names = [each.__name__ for each in type(thing).__mro__]
+    return presenter(names, function)(thing, *arguments, **options)

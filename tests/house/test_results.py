@@ -143,7 +143,7 @@ def test_a_result_says_what_it_holds(name):
         presenter([result.__name__], "to_dict")
 
 
-@pytest.mark.parametrize("name", PRESENTERS)
+@pytest.mark.parametrize("name", sorted(PRESENTERS.keys() - {"Arm"}))  # an arm is shown, and is no result
 def test_a_presenter_is_there_and_its_class_is_a_result(name):
     for module in filter(None, PRESENTERS[name]):
         import_module(f"holdfast.present.{module}")

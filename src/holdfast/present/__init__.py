@@ -10,6 +10,7 @@ from typing import Any
 # nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
 PRESENTERS = {
     "Analysis": ("teleop.numbers", "teleop.page"),
+    "Arm": ("arm.console", "arm.view"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),

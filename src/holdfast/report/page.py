@@ -12,6 +12,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.files.output import replaced
+from holdfast.report.viewer import with_library
 
 Cell = str | Markup
 _LONG = 15  # letters of a cell that is broken where need be
@@ -135,7 +136,7 @@ def environment() -> Environment:
 
 def render(page: Page) -> str:
     """The page as HTML that needs nothing else: no files, no network, and no scripts but those of an animation in it."""
-    return environment().get_template("page.html").render(page=page)
+    return with_library(environment().get_template("page.html").render(page=page))
 
 
 def write(page: Page, path: str | Path) -> Path:
