@@ -1,4 +1,4 @@
-"""The page of wheels names every package of the locks, at its version, and says what is missing where."""
+"""The page of wheels names every package of the locks, at its version for each system, and says what is missing where."""
 
 from __future__ import annotations
 
@@ -9,36 +9,42 @@ from tools import wheels
 PAGE = wheels.PAGE.read_text(encoding="utf-8")
 
 
-def rows(part: str) -> dict[str, list[str]]:
-    """The cells of a table, by package and version."""
-    lines = [line.strip("|").split("|") for line in part.splitlines() if line.startswith("|")]
-    assert [cell.strip() for cell in lines[0]] == ["package", *wheels.SYSTEMS]
-    return {row[0].strip(): [cell.strip() for cell in row[1:]] for row in lines[2:]}
+def told(part: str) -> wheels.Packages:
+    """The versions that a table of the page names, by system; every cell is one that can be read."""
+    head, _, *lines = [line for line in part.splitlines() if line.startswith("|")]
+    assert head == wheels.HEAD
+    found: wheels.Packages = {system: {} for system in wheels.SYSTEMS}
+    for line in lines:
+        label, *cells = [cell.strip() for cell in line.strip("|").split("|")]
+        name, version = label.split()
+        for system, cell in zip(wheels.SYSTEMS, cells, strict=True):
+            said, other = re.fullmatch(r"(.*?)(?: \((.+)\))?", cell).groups()
+            assert said in (wheels.ALL, wheels.NONE, wheels.NOT_NEEDED) or set(said.split(", ")) < set(wheels.PYTHONS)
+            if said != wheels.NOT_NEEDED:
+                found[system][name] = other or version
+    return found
 
 
 def test_the_page_names_what_is_locked_and_every_system():
     needed, more = PAGE.split("## What every command needs")[1].split("## What the extras add")
-    for part, packages in ((needed, wheels.locked("requirements.lock")), (more, wheels.extras())):
-        table = rows(part)
-        assert table.keys() == {f"{name} {version}" for name, version in packages.items()}
-        for cells in table.values():
-            assert len(cells) == len(wheels.SYSTEMS)
-            for cell in cells:
-                assert cell in (wheels.ALL, wheels.NONE) or set(cell.split(", ")) < set(wheels.PYTHONS)
+    assert told(needed) == wheels.locked()
+    assert told(more) == wheels.extras()
 
 
-def test_every_dependency_is_in_the_lock():
+def test_every_dependency_is_locked_for_every_system():
     text = (wheels.ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    named = re.findall(r'"([a-z0-9-]+)>=', text.split("dependencies = [")[1].split("]")[0])
+    named = set(re.findall(r'"([a-z0-9-]+)>=', text.split("dependencies = [")[1].split("]")[0]))
     assert len(named) > 10
-    assert set(named) <= wheels.locked("requirements.lock").keys()
+    assert all(named <= versions.keys() for versions in wheels.locked().values())
 
 
 def test_a_cell_says_yes_no_or_which_versions():
-    one = {"a": "1", "b": "2", "c": "3"}
-    found = {
-        name: dict.fromkeys(wheels.SYSTEMS, pythons)
-        for name, pythons in zip("abc", ([], ["3.11"], list(wheels.PYTHONS)), strict=True)
-    }
-    _, _, *lines = wheels.table(one, found)
-    assert [line.split("|")[2].strip() for line in lines] == ["**no**", "3.11", "yes"]
+    packages = {system: {"a": "1", "b": "2", "c": "3"} for system in wheels.SYSTEMS}
+    packages["Linux x86-64"] = {"a": "1", "b": "2"}
+    packages["macOS x86-64"] = {"a": "1", "b": "1.9", "c": "3"}
+    made = {system: {"a": [], "b": ["3.11"], "c": list(wheels.PYTHONS)} for system in wheels.SYSTEMS}
+    _, _, *lines = wheels.table(packages, made)
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    assert [row[0] for row in cells] == ["a 1", "b 2", "c 3"]
+    assert [row[1] for row in cells] == ["**no**", "3.11", "not needed"]
+    assert [row[3] for row in cells] == ["**no**", "3.11 (1.9)", "yes"]

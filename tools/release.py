@@ -20,6 +20,8 @@ import venv
 import zipfile
 from pathlib import Path
 
+from packaging.requirements import Requirement
+
 ROOT = Path(__file__).parents[1]
 MAIN_JOB = "assess pa10-9dof --poses 2000 --seed 1 --out demo"
 _DATE = r"\d{4}-\d{2}-\d{2}"
@@ -102,9 +104,9 @@ def amiss(root: Path, wheel: Path) -> list[str]:
     ]
     said += [f"{wheel.name}: {wrong} is damaged"] if wrong else []
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    required = set(re.findall(r"^Requires-Dist: ([^;\n]+)$", metadata, re.M))
-    if required != set(project["dependencies"]):
-        said.append(f"{wheel.name} requires {sorted(required)}")
+    required = {Requirement(line) for line in re.findall(r"^Requires-Dist: (.+)$", metadata, re.M) if "extra ==" not in line}
+    if required != {Requirement(line) for line in project["dependencies"]}:
+        said.append(f"{wheel.name} requires {', '.join(sorted(map(str, required)))}")
     return said
 
 

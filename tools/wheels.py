@@ -16,6 +16,8 @@ import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
 
+from packaging.requirements import Requirement
+
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "platforms.md"
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
@@ -30,8 +32,20 @@ SYSTEMS = {
     "Windows x86-64": ["win_amd64"],
     "Windows arm64": ["win_arm64"],
 }
+# What decides in a lock whether a system gets a line of it.
+_MARKERS = {
+    system: {"sys_platform": platform, "platform_machine": machine}
+    for system, platform, machine in (
+        ("Linux x86-64", "linux", "x86_64"),
+        ("Linux arm64", "linux", "aarch64"),
+        ("macOS x86-64", "darwin", "x86_64"),
+        ("macOS arm64", "darwin", "arm64"),
+        ("Windows x86-64", "win32", "AMD64"),
+        ("Windows arm64", "win32", "ARM64"),
+    )
+}
 HEAD = f"| package | {' | '.join(SYSTEMS)} |"
-ALL, NONE = "yes", "**no**"
+ALL, NONE, NOT_NEEDED = "yes", "**no**", "not needed"
 
 _TEXT = """\
 <!-- Written by `python -m tools.wheels`: change that, not this page. -->
@@ -47,8 +61,8 @@ for all these versions of Python; otherwise those for which there is one. A whee
 
 {needed}
 
-`hatchling`, `editables`, `pathspec`, `pluggy`, `tomlkit` and `trove-classifiers` only build holdfast itself; `colorama` is for
-Windows alone.
+`hatchling`, `editables`, `pathspec`, `pluggy`, `tomlkit` and `trove-classifiers` only build holdfast itself. A version in
+parentheses is what that system gets instead.
 
 ## What the extras add
 
@@ -57,24 +71,26 @@ The packages that the extras name, at the versions of `requirements-test.lock`; 
 {more}
 """
 
-Wheels = dict[str, dict[str, list[str]]]  # by package and system, the Pythons for which there is one
+Packages = dict[str, dict[str, str]]  # by system and name, the version
+Wheels = dict[str, dict[str, list[str]]]  # by system and name, the Pythons for which there is a wheel
 
 
-def locked(*names: str) -> dict[str, str]:
-    """The versions of the packages in the locks ``names``, without those for one system only."""
-    found = {}
-    for name in names:
-        for package, version in re.findall(r"^([a-z0-9._-]+)==(\S+)", (ROOT / name).read_text(encoding="utf-8"), re.MULTILINE):
-            found[package] = version
-    return found
+def locked(name: str = "requirements.lock") -> Packages:
+    """What each system gets by a lock."""
+    lines = re.findall(r"^[a-z0-9._-]+==.*?(?= *\\?$)", (ROOT / name).read_text(encoding="utf-8"), re.MULTILINE)
+    wanted = [Requirement(line) for line in lines]
+    return {
+        system: {one.name: str(one.specifier)[2:] for one in wanted if one.marker is None or one.marker.evaluate(markers)}
+        for system, markers in _MARKERS.items()
+    }
 
 
-def extras() -> dict[str, str]:
-    """The versions of what the extras name, beyond what the main job needs."""
+def extras() -> Packages:
+    """What the extras name, beyond what every command needs."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    named = {re.match(r"[a-z0-9._-]+", line)[0] for lines in project["optional-dependencies"].values() for line in lines}
-    versions = locked("requirements-test.lock")
-    return {name: versions[name] for name in sorted(named - locked("requirements.lock").keys())}
+    named = {Requirement(line).name for lines in project["optional-dependencies"].values() for line in lines}
+    every, tests = locked(), locked("requirements-test.lock")
+    return {system: {name: tests[system][name] for name in sorted(named - every[system].keys())} for system in SYSTEMS}
 
 
 def there(packages: dict[str, str], system: str, python: str) -> set[str]:
@@ -84,24 +100,11 @@ def there(packages: dict[str, str], system: str, python: str) -> set[str]:
     while wanted:
         with tempfile.TemporaryDirectory() as folder:
             report = Path(folder) / "report.json"
-            command = [
-                sys.executable,
-                "-m",
-                "pip",
-                "install",
-                "--dry-run",
-                "--ignore-installed",
-                "--no-deps",
-                "--quiet",
-                "--only-binary",
-            ]
-            command += [":all:", "--target", folder, "--report", str(report), "--python-version", python, *target]
-            done = subprocess.run(
-                [*command, *(f"{name}=={version}" for name, version in wanted.items())],
-                capture_output=True,
-                text=True,
-                check=False,
-            )
+            options = ["--dry-run", "--ignore-installed", "--no-deps", "--quiet", "--only-binary", ":all:"]
+            options += ["--target", folder, "--report", str(report), "--python-version", python, *target]
+            names = [f"{name}=={version}" for name, version in wanted.items()]
+            command = [sys.executable, "-m", "pip", "install", *options, *names]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
             if done.returncode == 0:
                 found = {item["metadata"]["name"] for item in json.loads(report.read_text(encoding="utf-8"))["install"]}
                 return {re.sub(r"[-_.]+", "-", name).lower() for name in found}
@@ -112,34 +115,38 @@ def there(packages: dict[str, str], system: str, python: str) -> set[str]:
     return set()
 
 
-def asked(packages: dict[str, str]) -> Wheels:
-    """For each package and system, the Pythons with a wheel."""
-    wheels: Wheels = {name: {system: [] for system in SYSTEMS} for name in packages}
-    for system in SYSTEMS:
-        for python in PYTHONS:
-            for name in there(packages, system, python):
-                wheels[name][system].append(python)
-            print(f"{system}, Python {python}", flush=True)
+def asked(packages: Packages) -> Wheels:
+    """For each system and package, the Pythons with a wheel."""
+    wheels: Wheels = {}
+    for system, versions in packages.items():
+        found = {python: there(versions, system, python) for python in PYTHONS}
+        wheels[system] = {name: [python for python in PYTHONS if name in found[python]] for name in versions}
+        print(system, flush=True)
     return wheels
 
 
-def table(packages: dict[str, str], wheels: Wheels) -> list[str]:
-    """The rows of a table: yes, no, or the Pythons with a wheel."""
+def table(packages: Packages, wheels: Wheels) -> list[str]:
+    """The rows of a table: yes, no, or the Pythons with a wheel; with the version where it is another."""
+    versions = {name: version for system in reversed(SYSTEMS) for name, version in packages[system].items()}
 
-    def cell(pythons: list[str]) -> str:
-        return ALL if pythons == list(PYTHONS) else ", ".join(pythons) or NONE
+    def cell(name: str, system: str) -> str:
+        version = packages[system].get(name)
+        if version is None:
+            return NOT_NEEDED
+        pythons = wheels[system][name]
+        said = ALL if pythons == list(PYTHONS) else ", ".join(pythons) or NONE
+        return said if version == versions[name] else f"{said} ({version})"
 
     rows = [
-        f"| {name} {version} | {' | '.join(cell(wheels[name][system]) for system in SYSTEMS)} |"
-        for name, version in packages.items()
+        f"| {name} {versions[name]} | {' | '.join(cell(name, system) for system in SYSTEMS)} |" for name in sorted(versions)
     ]
     return [HEAD, "|---" * (len(SYSTEMS) + 1) + "|", *rows]
 
 
 def main() -> None:
     """Ask, and write the page."""
-    needed, more = locked("requirements.lock"), extras()
-    wheels = asked({**needed, **more})
+    needed, more = locked(), extras()
+    wheels = asked({system: {**needed[system], **more[system]} for system in SYSTEMS})
     page = _TEXT.format(
         day=f"{datetime.now(UTC):%d %B %Y}",
         first=PYTHONS[0],
