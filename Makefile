@@ -99,7 +99,7 @@ MORE = $(LOCK) --constraint $(VENV)-lock/all $$(sed -nE 's/^([a-z0-9.-]+)==.*/--
 
 lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock
-	$(VENV)-lock/bin/python -m pip install --quiet uv
+	$(VENV)-lock/bin/python -m pip install --quiet uv packaging
 	$(LOCK) --group build --group test --group docs --output-file $(VENV)-lock/all
 	$(LOCK) --constraint $(VENV)-lock/all --group build --output-file requirements.lock
 	$(MORE) --group test --output-file requirements-test.lock

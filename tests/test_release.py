@@ -91,7 +91,7 @@ def test_what_is_ready_is_ready_and_every_fault_is_told(checkout):
         right = (checkout / name).read_text(encoding="utf-8")
         (checkout / name).write_text(right.replace(old, new, 1), encoding="utf-8")
         assert any(told in line for line in release.disagreements(checkout)), told
-        assert release.unready(checkout) == [f"not committed: M {name}"]
+        assert release.unready(checkout) == [f"not committed: {name}"]
         (checkout / name).write_text(right, encoding="utf-8")
     again = ["git", "-c", "user.name=test", "-c", "user.email=test@example.org", "commit", "-qm", "more", "--allow-empty"]
     subprocess.run(again, cwd=checkout, check=True)

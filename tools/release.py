@@ -57,12 +57,12 @@ def disagreements(root: Path) -> list[str]:
 
 
 def _git(root: Path, *arguments: str) -> str:
-    return subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True, check=True).stdout.strip()
+    return subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True, check=True).stdout.rstrip()
 
 
 def unready(root: Path) -> list[str]:
     """What in the checkout is not committed, and a tag of this version that is already at another commit."""
-    said = [f"not committed: {line}" for line in _git(root, "status", "--porcelain").splitlines()]
+    said = [f"not committed: {line[3:]}" for line in _git(root, "status", "--porcelain").splitlines()]
     tag = f"v{version(root)}"
     if tag in _git(root, "tag").split() and _git(root, "rev-list", "-1", tag) != _git(root, "rev-parse", "HEAD"):
         said.append(f"the tag {tag} is at another commit; a version is released once")

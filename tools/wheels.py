@@ -48,6 +48,10 @@ HEAD = f"| package | {' | '.join(SYSTEMS)} |"
 ALL, NONE, NOT_NEEDED = "yes", "**no**", "not needed"
 
 _TEXT = """\
+---
+orphan: true
+---
+
 <!-- Written by `python -m tools.wheels`: change that, not this page. -->
 
 # Systems and wheels
