@@ -57,7 +57,7 @@ def test_a_claim_is_computed_by_a_command_and_stands_in_a_file(row):
     quoted = re.findall(r"`([^`]+)`", computed)
     assert quoted
     for part in quoted:
-        assert part in text
+        assert part in text, f"{file} does not say '{part}' (any more): paper/claims.md and paper/paper.md are to follow"
     words = shlex.split(command.strip("`"))
     match words:
         case ["holdfast", "--help"]:

@@ -38,6 +38,11 @@ def test_every_dependency_is_locked_for_every_system():
     assert all(named <= versions.keys() for versions in wheels.locked().values())
 
 
+def test_the_summary_says_where_everything_can_be_installed():
+    short = wheels.summary({"here": {"a": list(wheels.PYTHONS), "b": ["3.11"]}, "there": {"a": list(wheels.PYTHONS), "b": []}})
+    assert short[2:] == ["| here | 3.11 | b |", "| there | **no** | b |"]
+
+
 def test_a_cell_says_yes_no_or_which_versions():
     packages = {system: {"a": "1", "b": "2", "c": "3"} for system in wheels.SYSTEMS}
     packages["Linux x86-64"] = {"a": "1", "b": "2"}

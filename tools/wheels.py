@@ -61,6 +61,8 @@ Which of the packages that holdfast needs can be installed without a compiler, a
 for all these versions of Python; otherwise those for which there is one. A wheel does not mean that holdfast has run there:
 [](limits.md) says where it has.
 
+{summary}
+
 ## What every command needs
 
 {needed}
@@ -147,6 +149,16 @@ def table(packages: Packages, wheels: Wheels) -> list[str]:
     return [HEAD, "|---" * (len(SYSTEMS) + 1) + "|", *rows]
 
 
+def summary(wheels: Wheels) -> list[str]:
+    """The rows of a table: for which Pythons everything that a system needs has a wheel, and what has not."""
+    rows = ["| system | everything has a wheel for Python | what has not |", "|---|---|---|"]
+    for system, found in wheels.items():
+        complete = [python for python in PYTHONS if all(python in pythons for pythons in found.values())]
+        lacking = [name for name, pythons in found.items() if pythons != list(PYTHONS)]
+        rows.append(f"| {system} | {', '.join(complete) or NONE} | {', '.join(lacking)} |")
+    return rows
+
+
 def main() -> None:
     """Ask, and write the page."""
     needed, more = locked(), extras()
@@ -155,6 +167,7 @@ def main() -> None:
         day=f"{datetime.now(UTC):%d %B %Y}",
         first=PYTHONS[0],
         last=PYTHONS[-1],
+        summary="\n".join(summary({system: {name: wheels[system][name] for name in needed[system]} for system in SYSTEMS})),
         needed="\n".join(table(needed, wheels)),
         more="\n".join(table(more, wheels)),
     )
