@@ -18,14 +18,14 @@ from holdfast.files.html import Html
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
-from holdfast.result import presented
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 
 
 @checked_class
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Arm(Machine):
+class Arm(Shown, Machine):
     """A serial arm: the data of a :class:`~holdfast.arm.machine.Machine`, which it is made of, and what can be asked of it."""
 
     # ---- builders ----------------------------------------------------------------------------------------------
@@ -160,7 +160,7 @@ class Arm(Machine):
         Raises:
             InputError: Options that do not fit the arm or each other.
         """
-        page: Html = presented(self, "page", q, **options)
+        page: Html = self._presented("page", q, **options)
         return page
 
     # ---- kinematics --------------------------------------------------------------------------------------------
