@@ -82,7 +82,8 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
 def show(optima: Optima, out: Console, asked: str = "") -> None:
     """One pose joint by joint, or a line for each."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     found = optima.rows
     value_before = found.value_before
@@ -93,7 +94,7 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
     if len(found.poses) == 1:
         _show_one(found, out, first, unit)
     else:
-        table = Table("pose", f"before{unit}", f"after{unit}", "starts agreeing", "", box=None, pad_edge=False)
+        table = Grid("pose", f"before{unit}", f"after{unit}", "starts agreeing", "")
         for k, status in enumerate(found.status):
             agreeing = "" if np.isnan(found.agreeing[k]) else f"{found.agreeing[k]:.0%} of {found.starts[k]}"
             ended = "" if status == Status.OK else _name(status).replace("_", " ")
@@ -110,7 +111,8 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
 
 def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     before = found.before[0]
     out.print(
@@ -120,7 +122,7 @@ def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
     )
     measures = list(_measures(found))
     columns = [f"{escape(label)} before" if k == 0 else "after" for label, *_ in measures for k in (0, 1)]
-    table = Table("joint", "before", "after", *columns, box=None, pad_edge=False)
+    table = Grid("joint", "before", "after", *columns)
     for i, joint in enumerate(found.arm.joints):
         cells = [shown_position(x[i], joint.unit) for x in (before, found.q[0])]
         cells += [_measure(x[0, i], units[i]) for _, units, *both in measures for x in both]
@@ -137,7 +139,7 @@ def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
 
 
 def _show_clearance(found: Optima, out: Console) -> None:
-    """What keeps the arm from running through itself, and where it would have."""
+    """What keeps the arm from colliding with itself, and where it would have."""
     from rich.markup import escape
 
     from holdfast.clearance.clearance import too_close

@@ -13,6 +13,7 @@ from holdfast.assessment.plan import Plan
 from holdfast.assessment.single_points import Structure, explain, structure
 from holdfast.engine.study import Study
 from holdfast.errors import StoreError
+from holdfast.files.output import made
 from holdfast.notice import says
 from holdfast.present.studies.answer import headline
 from holdfast.present.studies.designs import sentence, sweep
@@ -40,6 +41,11 @@ def write(study: Study, path: str | Path) -> Path:
         StoreError: Nothing is computed, a chunk is damaged, or the file cannot be written.
     """
     return page.write(build(study), path)
+
+
+def save(study: Study, folder: Path) -> list[Path]:
+    """The report alone."""
+    return [study.report(made(folder) / "report.html")]
 
 
 def build(study: Study) -> Page:
@@ -322,9 +328,9 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         first = next(x for x in laws if x.labels["arm"] == d.labels["arm"] and x.labels["task"] == d.labels["task"])
         better = None if d is first else results.gain(first, d)
         more = "–" if better is None else f"{better.value:+.3f} ({better.low:+.3f} to {better.high:+.3f})".replace("-", "−")
-        k = int(np.argmin([p.value for p in d.arrives[:-1]]))
-        worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.arrives[k].value:.3f}"
-        cells: list[Cell] = [_share(d.any), more, worst, _share(d.arrives[-1]), percent(d.in_reach)]
+        k = int(np.argmin([p.value for p in d.reaches[:-1]]))
+        worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.reaches[k].value:.3f}"
+        cells: list[Cell] = [_share(d.any), more, worst, _share(d.reaches[-1]), percent(d.in_reach)]
         rows.append([_whole(d.labels["arm"]), _whole(d.labels["law"]), d.labels["task"], *cells])
     head = ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
     caption = (
