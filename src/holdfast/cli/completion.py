@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import partial
 from typing import Any
 
 from typer import core
@@ -22,9 +23,12 @@ def offer(parameters: list[Any]) -> None:
     for each in parameters:
         what = (each.metavar or "").strip("[].") if each.param_type_name == "argument" else each.opts[0]
         if what in _NAMES:
-            each.shell_complete = lambda ctx, word, kinds=_NAMES[what].split(): [
-                core.CompletionItem(name)  # type: ignore[attr-defined] for kind in kinds for name in _names(kind) if name.startswith(word)
-            ]
+            each.shell_complete = partial(_completed, _NAMES[what].split())
+
+
+def _completed(kinds: list[str], context: Any, word: str) -> list[Any]:
+    item: Any = core.CompletionItem  # type: ignore[attr-defined]
+    return [item(name) for kind in kinds for name in _names(kind) if name.startswith(word)]
 
 
 _NAMES = {

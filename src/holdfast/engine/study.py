@@ -12,8 +12,8 @@ from holdfast.engine.folder import held, is_plain, too_many
 from holdfast.engine.job import Cell
 from holdfast.engine.journal import Entry, Journal
 from holdfast.engine.makers import Made
-from holdfast.engine.state import CellStatus, Damage
 from holdfast.engine.runner import Runner, Stop
+from holdfast.engine.state import CellStatus, Damage
 from holdfast.engine.store import Store
 from holdfast.engine.work import Progress, Work
 from holdfast.errors import HoldfastError, StoreError

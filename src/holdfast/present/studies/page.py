@@ -13,7 +13,6 @@ from holdfast.assessment.plan import Plan
 from holdfast.assessment.single_points import Structure, explain, structure
 from holdfast.engine.study import Study
 from holdfast.errors import StoreError
-from holdfast.files.output import made
 from holdfast.notice import says
 from holdfast.present.studies.answer import headline
 from holdfast.present.studies.designs import sentence, sweep
@@ -26,7 +25,7 @@ from holdfast.studies import results
 from holdfast.studies.ranking import Ended, Key, Standing, counted_range, place, row_of, said, standings
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.study_file import thresholds
-from holdfast.words import as_given, counted, either, number, percent
+from holdfast.words import as_given, counted, duration, either, number, percent
 
 T = TypeVar("T")
 
@@ -34,18 +33,14 @@ _ENDS = ("reaches the target", "stops elsewhere", "keeps moving", "undecided")
 
 
 @says("drawing the report")
-def write(study: Study, path: str | Path) -> Path:
-    """Write the report of a study, also of one that is not complete.
+def write(study: Study, path: str | Path, command: str = "") -> Path:
+    """Write the report of a study, also of one that is not complete; it says itself how it is made again.
 
     Raises:
         StoreError: Nothing is computed, a chunk is damaged, or the file cannot be written.
     """
+    del command
     return page.write(build(study), path)
-
-
-def save(study: Study, folder: Path) -> list[Path]:
-    """The report alone."""
-    return [study.report(made(folder) / "report.html")]
 
 
 def build(study: Study) -> Page:
@@ -369,11 +364,11 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
         ("Study", f"{study.name}, seed {study.seed}, digest {study.digest}"),
         ("Cells", f"{len(cells):,}, {sum(s.chunks_done for s in cells):,} of {sum(s.chunks for s in cells):,} chunks"),
         ("Samples", f"{samples:,} rows (poses, motions, starts) in all"),
-        ("Time", f"{_hours(spent)} of one thread; runs that ended took {_hours(wall)}"),
+        ("Time", f"{duration(spent)} of one thread; runs that ended took {duration(wall)}"),
         ("On the disk", f"{size / 1e6:.3g} MB"),
     ]
     for n, run in enumerate(study.runs[-5:]):
-        when = f"{run['started']}: {run['chunks']:,} chunks in {_hours(run['seconds'])} on {run['on']}"
+        when = f"{run['started']}: {run['chunks']:,} chunks in {duration(run['seconds'])} on {run['on']}"
         facts.append(("Runs" if not n else "", when))
     for n, maker in enumerate(study.makers):
         versions = ", ".join(f"{k} {v}" for k, v in maker["versions"].items())
@@ -398,9 +393,3 @@ def _again(study: Study) -> list[Block]:
         ]
         return [*files, *blocks]
     return blocks
-
-
-def _hours(seconds: float) -> str:
-    if seconds < 120:
-        return f"{seconds:.3g} s"
-    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
