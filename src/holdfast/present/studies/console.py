@@ -38,6 +38,12 @@ def to_dict(study: Study) -> dict[str, Any]:
     }
 
 
+def next_steps(found: Study | Merged, name: str) -> list[str]:
+    """Whether what is there is sound."""
+    study = f"{name}.study" if isinstance(found, Merged) else name
+    return [f"{study}.verify()  # an empty list: everything that was computed is sound"]
+
+
 def tables(found: Study | Merged) -> list[Rows]:
     """A row for each cell; of many cells those that are not complete."""
     cells = (found.study if isinstance(found, Merged) else found).status()
