@@ -53,7 +53,7 @@ def key_table(t: Trajectory) -> Rows:
     rows = [
         [f"{t.objective.name}: {', '.join(facts)}", ", ".join(map(number, facts.values()))],
         ["largest norm of the joint rates", f"{number(t.peak_rate)} rad/s at {number(t.peak_time)} s"],
-        ["end effector off its path by at most", t.hand_error],
+        ["end effector off its path by at most", t.tool_error],
     ]
     return Rows(["", ""], rows)
 
