@@ -97,4 +97,4 @@ lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock
 
 clean:  ## Remove what the commands made.
-	rm -rf $(VENV) $(VENV)-bench page/node_modules demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache
+	rm -rf $(VENV) $(VENV)-bench page/node_modules demo docs/_build docs/gallery docs/commands docs/api/classes .mypy_cache .ruff_cache .pytest_cache

@@ -23,6 +23,11 @@ extensions = [
     "docstrings",
     "mathsvg",
     "live",
+    "commands",
+    "classes",
+    "equations",
+    "moved",
+    "sidebar",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
@@ -54,6 +59,37 @@ html_css_files = ["holdfast.css"]
 html_math_renderer = "svg"
 html_show_sourcelink = False
 html_copy_source = False
+html_use_index = False  # every equation has a dozen entries for the search; nobody reads them as a list
+python_maximum_signature_line_length = 60  # longer ones have a line for each parameter
+moved = {
+    f"guide/{old}": new
+    for old, new in {
+        "first-report": "how-to/assess-a-region",
+        "reading-a-report": "how-to/read-a-report",
+        "tasks-and-failures": "how-to/tasks-and-failures",
+        "your-poses": "how-to/poses-and-weights",
+        "choose-configurations": "how-to/choose-configurations",
+        "configure-and-follow": "how-to/follow-a-path",
+        "control-laws": "how-to/control-laws",
+        "closed-loop": "how-to/unnoticed-lock",
+        "where-it-ends": "how-to/where-it-ends",
+        "workspace": "how-to/workspace",
+        "after-a-lock": "how-to/what-a-lock-leaves",
+        "reachable-after-a-lock": "how-to/what-a-lock-leaves",
+        "recover": "how-to/recover",
+        "before-a-joint-swings-free": "how-to/free-swinging-joints",
+        "which-measure": "how-to/which-measure",
+        "what-really-happens": "how-to/simulate-a-fall",
+        "own-arm": "how-to/bring-your-arm",
+        "compare": "how-to/compare",
+        "design-an-arm": "how-to/design-an-arm",
+        "long-runs": "how-to/long-runs",
+        "laptop-to-cluster": "how-to/laptop-to-cluster",
+        "run-your-own-experiment": "how-to/run-your-own-experiment",
+        "teleoperation": "tutorials/experiment",
+        "studio": "how-to/studio",
+    }.items()
+}
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},
     "dark_css_variables": {"color-brand-primary": "#6bb8e8", "color-brand-content": "#6bb8e8"},

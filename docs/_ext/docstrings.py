@@ -79,6 +79,12 @@ def thing(name: str) -> Any:
     return None
 
 
+@cache
+def described(names: tuple[str, ...]) -> dict[int, str]:
+    """The first name under which each thing is described."""
+    return {id(found): name for name in reversed(names) if (found := thing(name)) is not None}
+
+
 def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
     """What is described under another of its names, or in the base class that it comes from."""
     if node.get("refdomain") != "py":
@@ -87,9 +93,10 @@ def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
     names = [".".join([*before[:k], node["reftarget"]]) for k in range(len(before) + 1)]
     wanted = [found for found in map(thing, names) if found is not None]
     domain = env.get_domain("py")
-    for name in domain.objects if wanted else ():
-        if any(thing(name) is each for each in wanted):
-            return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", name, node, shown)
+    known = described(tuple(domain.objects)) if wanted else {}
+    for each in wanted:
+        if id(each) in known:
+            return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", known[id(each)], node, shown)
     return None
 
 
