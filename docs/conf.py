@@ -104,7 +104,7 @@ _picture = HERE / "_static" / "assess-pa10.png"
 myst_substitutions = {
     "picture": (
         "```{image} _static/assess-pa10.png\n:alt: Probability that the nine-joint PA10 keeps a given relative manipulability "
-        "when any one joint locks\n:width: 100%\n```"
+        "when any one joint locks\n:width: 100%\n:class: drawn\n```"
         if _picture.exists()
         else ""
     )
@@ -119,6 +119,7 @@ python_use_unqualified_type_names = True
 napoleon_google_docstring = True
 napoleon_numpy_docstring = False
 napoleon_use_ivar = True
+napoleon_attr_annotations = False  # the signature has the types
 napoleon_custom_sections = [("Source", "Notes")]
 
 sphinx_gallery_conf = {

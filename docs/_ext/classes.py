@@ -31,7 +31,9 @@ def summary(name: str) -> str:
 
 class ClassPage(SphinxDirective):
     required_arguments = 1
-    option_spec: ClassVar = dict.fromkeys(["members", "inherited-members", "undoc-members", "show-inheritance"], directives.unchanged)
+    option_spec: ClassVar = dict.fromkeys(
+        ["members", "inherited-members", "undoc-members", "show-inheritance"], directives.unchanged
+    )
 
     def run(self) -> list[nodes.Node]:
         name = self.arguments[0]

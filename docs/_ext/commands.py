@@ -1,7 +1,7 @@
 """The command reference: a page for each command, written from the program itself before the pages are read.
 
 Nothing in ``docs/commands`` is written by hand or kept in git. A page has the command's help, its examples and every option
-with its default, under the panel in which ``--help`` has it; the role ``option`` refers to one: ``{option}`holdfast-assess --poses```.
+with its default, under the panel in which ``--help`` has it; the role ``option`` refers to one, ``holdfast-assess --poses``.
 ``command-examples`` is the first example of each.
 """
 
@@ -44,7 +44,7 @@ def default(parameter: Any, context: Any) -> str:
     if parameter.required:
         return "Required."
     value = parameter.get_default(context)
-    if "Default:" in (parameter.help or "") or value is None or value == () or parameter.is_flag and not value:
+    if "Default:" in (parameter.help or "") or value is None or value == () or (parameter.is_flag and not value):
         return "May be given again." if parameter.multiple and "again" not in (parameter.help or "") else ""
     return f"Default: ``{value}``."
 
@@ -115,13 +115,13 @@ class Examples(SphinxDirective):
         program = typer.main.get_command(assembled())
         lines = []
         for folder, title in PANELS.items():
-            lines += [f"**{title}**", "", ".. code-block:: console", ""]
+            lines += [f"**{title}**", "", ".. code-block:: sh", ""]
             for name in (name for name in COMMANDS if COMMANDS[name].startswith(f"{folder}.")):
                 command = program.commands[name]
                 for each in getattr(command, "commands", {name: command}).values():
                     example = EXAMPLE.split(each.help or "")[1:2]
                     shown = " ".join(example[0].split("\n\n")[0].split()) if example else ""
-                    lines += [f"   # {first(each.help, plain=True)}", f"   $ {shown}"] if shown else []
+                    lines += [f"   # {first(each.help, plain=True)}", f"   {shown}"] if shown else []
             lines.append("")
         return self.parse_text_to_nodes("\n".join(lines))
 

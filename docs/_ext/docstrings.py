@@ -13,6 +13,7 @@ from sphinx.ext.napoleon import GoogleDocstring
 _VALUES = ("property", "attribute", "data")
 _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 _SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.registry\.Parameter\(.*?\)\]")
+_ARRAY = re.compile(r"[~\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]")
 _QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
 
@@ -58,7 +59,7 @@ def plain_names(
     app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
 ) -> tuple[str | None, str | None]:
     """Sphinx 9 shows an alias as ``TypeAliasForwardRef('ArrayLike')``, and a full name where it cannot parse a default."""
-    shown = [x and _SETTING.sub(kind_of, _ALIAS.sub(r"\1", x)) for x in (signature, returns)]
+    shown = [x and _ARRAY.sub("ArrayLike", _SETTING.sub(kind_of, _ALIAS.sub(r"\1", x))) for x in (signature, returns)]
     if shown[0] and "<factory>" in shown[0]:
         shown[0] = _QUALIFIED.sub(r"\1", shown[0])
     return shown[0], shown[1]

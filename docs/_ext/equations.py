@@ -7,16 +7,19 @@ its class or module names one paper. Each equation is in the search index as som
 from __future__ import annotations
 
 import inspect
+import json
 import re
 import sys
 from collections import defaultdict
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from docstrings import thing
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
 from sphinx.util.docutils import SphinxDirective
 
 import holdfast
@@ -68,6 +71,7 @@ def public() -> Iterator[str]:
                 yield from (f"{package}.{name}.{key}" for key in vars(found) if not key.startswith("_"))
 
 
+@cache
 def table() -> dict[str, dict[int, dict[str, str]]]:
     """For each paper and equation the names of what computes it, with the first sentence of each."""
     out: dict[str, dict[int, dict[str, str]]] = {paper: defaultdict(dict) for paper in PAPERS}
@@ -102,13 +106,31 @@ class Equations(SphinxDirective):
             title = PAPERS[paper][1]
             lines += [title, "-" * len(title), "", ".. list-table::", "   :widths: 12 88", "   :class: equations", ""]
             for number, names in sorted(found.items()):
-                lines += [f"   * - ({number})", ""]
-                lines += ["       .. index::", *(f"          ! {text}" for text in spellings(paper, number)), ""]
-                lines += [f"     - | :py:obj:`{name}`: {text}" if k == 0 else f"       | :py:obj:`{name}`: {text}" for k, (name, text) in enumerate(sorted(names.items()))]
+                lines += [
+                    "   * - .. index::",
+                    *(f"          ! {text}" for text in spellings(paper, number)),
+                    "",
+                    f"       \\({number})",
+                ]
+                about = [f":py:obj:`{name}`: {text}" for name, text in sorted(names.items())]
+                lines += [f"     - {about[0]}", *(line for text in about[1:] for line in ("", f"       {text}"))]
             lines.append("")
         return self.parse_text_to_nodes("\n".join(lines), allow_section_headings=True)
 
 
+def check(app: Sphinx, exception: Exception | None) -> None:
+    """The search finds every equation, however it is typed."""
+    index = Path(app.outdir) / "searchindex.js"
+    if exception is not None or not index.exists():
+        return
+    entries = json.loads(index.read_text(encoding="utf-8").removeprefix("Search.setIndex(").removesuffix(")"))["indexentries"]
+    for paper, found in table().items():
+        missing = [text for number in found for text in spellings(paper, number) if text.lower() not in entries]
+        if missing:
+            raise ExtensionError(f"the search does not find {missing[:3]}")
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("equations", Equations)
+    app.connect("build-finished", check)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -16,9 +16,9 @@ from sphinx.application import Sphinx
 
 LEVELS = 2
 TOGGLE = (
-    '<input aria-label="Toggle navigation of {1}" class="toctree-checkbox" id="toctree-checkbox-{0}" name="toctree-checkbox-{0}" '
-    'role="switch" type="checkbox"{2}/><label for="toctree-checkbox-{0}"><span class="icon"><svg><use href="#svg-arrow-right">'
-    "</use></svg></span></label>"
+    '<input aria-label="Toggle navigation of {1}" class="toctree-checkbox" id="toctree-checkbox-{0}" '
+    'name="toctree-checkbox-{0}" role="switch" type="checkbox"{2}/><label for="toctree-checkbox-{0}"><span class="icon"><svg>'
+    '<use href="#svg-arrow-right"></use></svg></span></label>'
 )
 
 
