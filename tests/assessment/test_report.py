@@ -124,6 +124,16 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
     best = facts.Facts(case("optimised"), 0.47).headline
     median = np.nanquantile(case("optimised").dataset["optimised_index"].values, 0.5, method="inverted_cdf")
     assert f"at the best configuration of each pose it is {median:.3f}, and the probability" in best
+    data = case("weighted").dataset
+    left = np.average(data["survives"].values == 1, axis=0, weights=data["weight"].values)
+    name = NINE.joint_names[left.argmin()]
+    assert (
+        f"Once {name} has locked, {100 * left.min():.1f} % of the poses are still reached."
+        in facts.Facts(case("weighted"), 0.57).headline
+    )
+    assert headline(text("panda")).startswith(
+        "Hardly any pose" if case("panda").probability(0.19) else "None of the 250 poses drawn keeps"
+    )
 
 
 def test_a_headline_that_is_zero_by_structure_names_the_joint():
@@ -174,7 +184,7 @@ def test_bound_and_threshold_are_those_of_the_arm(tmp_path: Path) -> None:
 def test_structural_failure_is_said_first() -> None:
     html = text("structural")
     assert "No pose of the region tolerates every failure" in headline(html)
-    assert html.index('class="callout bad"') < html.index("Key numbers")
+    assert html.index('class="callout bad"') < html.index("<h2>Key numbers")
     assert "once joint4 (joint 4) locks" in html
     rows = re.findall(r"<tr><th[^>]*>([\w() ]+)</th>(.*?)</tr>", html)
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}

@@ -20,6 +20,7 @@ from holdfast.errors import HoldfastError, StoreError
 from holdfast.files import reading
 from holdfast.files.output import guarded, replaced
 from holdfast.notice import says
+from holdfast.result import Shown
 
 _FORMAT, _VERSION = "holdfast-study", 1
 _FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
@@ -63,7 +64,7 @@ class Damage:
     what: str
 
 
-class Study:
+class Study(Shown):
     """A study's folder; see :meth:`create` and :meth:`open`.
 
     Attributes:
@@ -130,8 +131,8 @@ class Study:
                 f"'{folder}' is not a study: it has no {_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
-            data = json.loads(reading.text(file))
-        except (OSError, ValueError, RecursionError) as error:
+            data = reading.parsed(file)
+        except (OSError, ValueError) as error:
             raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
         if not isinstance(data, dict) or data.get("format") != _FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")
