@@ -43,7 +43,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(optional|default.*)"),
     (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
     (r"py:.*", r"holdfast\.engine\..*"),
-    (r"py:.*", r"holdfast\.studio\.scene\.(machine|body)\..*"),
+    (r"py:.*", r"holdfast\.(studio\.scene|present\.arm)\.(machine|body)\..*"),
     (r"py:class", r"holdfast\.probability\.intervals\.Sums"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
     (r"py:class", r"_?Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again

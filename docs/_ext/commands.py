@@ -112,6 +112,7 @@ class Examples(SphinxDirective):
     """The first example of every command, with what the command does."""
 
     def run(self) -> list[nodes.Node]:
+        self.env.note_reread()  # what it shows is not in this page
         program = typer.main.get_command(assembled())
         lines = []
         for folder, title in PANELS.items():

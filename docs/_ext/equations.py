@@ -101,6 +101,7 @@ def spellings(paper: str, number: int) -> Iterator[str]:
 
 class Equations(SphinxDirective):
     def run(self) -> list[nodes.Node]:
+        self.env.note_reread()  # what it shows is not in this page
         lines = []
         for paper, found in table().items():
             title = PAPERS[paper][1]
