@@ -94,9 +94,9 @@ def table() -> dict[str, dict[int, dict[str, str]]]:
 
 def spellings(paper: str, number: int) -> Iterator[str]:
     """What somebody may type who looks for an equation."""
-    forms = [f"eq. ({number})", f"eq. {number}", f"equation {number}", f"({number})"]
+    forms = [f"eq. ({number})", f"eq. {number}", f"equation ({number})", f"equation {number}", f"({number})"]
     yield from (f"{who} {form}" for who in PAPERS[paper] for form in forms)
-    yield from forms[:3]
+    yield from forms[:-1]
 
 
 class Equations(SphinxDirective):
