@@ -44,7 +44,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
     (r"py:.*", r"holdfast\.engine\..*"),
     (r"py:.*", r"holdfast\.(studio\.scene|present\.arm)\.(machine|body)\..*"),
-    (r"py:class", r"holdfast\.probability\.intervals\.Sums"),
+    (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
     (r"py:class", r"_?Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
