@@ -43,4 +43,3 @@ def test_its_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
     exec(compile(code, "README.md", "exec"), {})
     assert "95%" in capsys.readouterr().out
     assert (tmp_path / "report.html").stat().st_size > 10_000
-
