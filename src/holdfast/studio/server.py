@@ -17,7 +17,9 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
 from holdfast.arms.catalogue import URDF_ENDINGS
 from holdfast.errors import HoldfastError, InputError
+from holdfast.studio import upload
 from holdfast.studio.aside import Aside
+from holdfast.studio.entrance import Entrance
 from holdfast.studio.scene.body import Part, stick_parts
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
@@ -42,27 +44,55 @@ class Studio:
     def __init__(self, server: Any, machine: Machine, state: State, *, parts: list[Part], note: str) -> None:
         from holdfast.studio.window import Window
 
-        self._server = server
+        self._server, self._window = server, Window
         self.host, self.port = server.get_host(), server.get_port()
         self.url = address(server)
         self.windows: dict[int, Window] = {}
         self.machine = machine
         self._aside = Aside(machine.arm, machine.task)
+        self._own: dict[int, Aside] = {}  # of windows with an arm of their own
         self._stopped = threading.Event()
 
         def come(client: Any) -> None:
-            window = self.windows[client.client_id] = Window(client, machine, self._aside, state, parts, note)
-            if client.client_id not in server.get_clients():  # gone before it was there
-                window.close()
-                self.windows.pop(client.client_id, None)
+            if _is_tall(client):
+                client.camera.position, client.camera.look_at = _camera(machine, np.array(state.q), tall=True)
+            upload.limit(client.gui, lambda text: self.windows[client.client_id].refuse(text))
+            self._open(client, machine, self._aside, state, parts, note)
 
         def go(client: Any) -> None:
-            window = self.windows.pop(client.client_id, None)
-            if window is not None:
-                window.close()
+            self._close(client.client_id)
 
         server.on_client_connect(come)
         server.on_client_disconnect(go)
+
+    def _open(self, client: Any, machine: Machine, aside: Aside, state: State, parts: list[Part], note: str) -> None:
+        self.windows[client.client_id] = self._window(client, machine, aside, state, parts=parts, note=note, load=self._load)
+        if client.client_id not in self._server.get_clients():  # gone before it was there
+            self._close(client.client_id)
+
+    def _close(self, number: int) -> None:
+        window, aside = self.windows.pop(number, None), self._own.pop(number, None)
+        if window is not None:
+            window.close()
+        if aside is not None:
+            aside.stop()
+
+    def _load(self, client: Any, name: str, content: bytes) -> None:
+        """Open the arm of a file that was sent, in place of a client's window; what is wrong with it is raised before that."""
+        from holdfast.arms.spec import default_task
+
+        arm, shapes, missing = upload.read_arm(name, content)
+        task = default_task("", arm)
+        machine, q = Machine(arm, as_task(arm, task)), middle(arm)
+        state = State(upload.tidy(name), arm.joint_names, tuple(float(x) for x in q), task=task)
+        machine.read(q, (), state.index, state.susceptibility)
+        self._close(client.client_id)
+        client.gui.reset()
+        client.scene.reset()
+        client.camera.position, client.camera.look_at = _camera(machine, q, _is_tall(client))
+        parts, note = dressed(arm, machine, shapes, missing)
+        aside = self._own[client.client_id] = Aside(arm, machine.task)
+        self._open(client, machine, aside, state, parts, note)
 
     def wait(self) -> None:
         """Until :meth:`stop` is called, or the program is interrupted."""
@@ -70,9 +100,8 @@ class Studio:
 
     def stop(self) -> None:
         """Close all windows and the server."""
-        for window in list(self.windows.values()):
-            window.close()
-        self.windows.clear()
+        for number in list(self.windows):
+            self._close(number)
         self._aside.stop()
         with redirect_stdout(io.StringIO()):
             self._server.stop()
@@ -146,7 +175,7 @@ def _private_server(viser: Any, host: str, port: int) -> Any:
         def request_share_url(self, verbose: bool = True) -> None:
             del verbose
 
-    with redirect_stdout(io.StringIO()):  # it prints a box with the address, whatever it is told
+    with Entrance(host).before(), redirect_stdout(io.StringIO()):  # it prints a box with the address, whatever it is told
         return Private(host=host, port=port, label="holdfast", verbose=False)
 
 
@@ -180,12 +209,16 @@ def middle(arm: Arm) -> np.ndarray[Any, np.dtype[np.float64]]:
 
 def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> tuple[list[Part], str]:
     """What the arm is made of, and a note for people where meshes are not there."""
-    sticks = stick_parts(arm, machine.size)
     if file is None or not Path(file).is_file():
-        return sticks, ""
+        return stick_parts(arm, machine.size), ""
     from holdfast.studio.scene.visuals import urdf_parts
 
-    shapes, missing = urdf_parts(file, arm, base)
+    return dressed(arm, machine, *urdf_parts(file, arm, base))
+
+
+def dressed(arm: Arm, machine: Machine, shapes: list[Part], missing: list[str]) -> tuple[list[Part], str]:
+    """The shapes of a file with sticks for what has none, and a note for people."""
+    sticks = stick_parts(arm, machine.size)
     if not shapes:
         return sticks, f"no mesh was found ({missing[0]}), so the arm is drawn as sticks" if missing else ""
     if missing:
@@ -195,17 +228,23 @@ def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> t
     return shapes, ""
 
 
-def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _is_tall(client: Any) -> bool:
+    """Whether a client's picture is higher than it is wide, as on a phone: there the controls cover its lower half."""
+    return bool(client.camera.image_height > client.camera.image_width)
+
+
+def _camera(machine: Machine, q: Any, tall: bool = False) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """The first view of a window: from where, and at what."""
     places = machine.arm.frames(q)[:, :3, 3]
     centre = 0.5 * (places.min(axis=0) + places.max(axis=0))
     flat = machine.task.rows[:, :3]
     up = len(machine.task.rows) <= 3 and float(np.abs(flat[:, 2]).max()) < 1e-9 and not machine.task.rows[:, 3:5].any()
     way = np.array([0.0, -0.5, 1.4]) if up else np.array([0.95, -0.8, 0.45])
-    # The controls cover the right side.
+    # The controls cover the right side, or the lower half.
     beside = np.cross(-way, [0.0, 0.0, 1.0])
-    centre = centre + 0.22 * machine.size * beside / np.linalg.norm(beside)
-    eye = centre + 0.85 * machine.size * way
+    aside = np.cross(beside, way) if tall else beside
+    centre = centre + (-0.5 if tall else 0.22) * machine.size * aside / np.linalg.norm(aside)
+    eye = centre + (1.5 if tall else 0.85) * machine.size * way
     return tuple(eye.tolist()), tuple(centre.tolist())
 
 
