@@ -8,19 +8,19 @@ import threading
 from collections.abc import Callable
 from contextlib import redirect_stdout, suppress
 from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.arm.model import Arm
+from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task
-from holdfast.arms.catalogue import URDF_ENDINGS
 from holdfast.errors import HoldfastError, InputError
+from holdfast.present.arm.body import Part
+from holdfast.present.arm.visuals import body_of
 from holdfast.studio import upload
 from holdfast.studio.aside import Aside
 from holdfast.studio.entrance import Entrance
-from holdfast.studio.scene.body import Part, stick_parts
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
@@ -79,19 +79,14 @@ class Studio:
 
     def _load(self, client: Any, name: str, content: bytes) -> None:
         """Open the arm of a file that was sent, in place of a client's window; what is wrong with it is raised before that."""
-        from holdfast.arms.spec import default_task
-
-        arm, shapes, missing = upload.read_arm(name, content)
-        task = default_task("", arm)
-        machine, q = Machine(arm, as_task(arm, task)), middle(arm)
-        state = State(upload.tidy(name), arm.joint_names, tuple(float(x) for x in q), task=task)
-        machine.read(q, (), state.index, state.susceptibility)
+        machine, state, parts, note = upload.read_machine(name, content)
+        q = np.array(state.q)
+        machine.read(q, (), state.index, state.susceptibility)  # nothing is given up for an arm that cannot be shown
         self._close(client.client_id)
         client.gui.reset()
         client.scene.reset()
         client.camera.position, client.camera.look_at = _camera(machine, q, _is_tall(client))
-        parts, note = dressed(arm, machine, shapes, missing)
-        aside = self._own[client.client_id] = Aside(arm, machine.task)
+        aside = self._own[client.client_id] = Aside(machine.arm, machine.task)
         self._open(client, machine, aside, state, parts, note)
 
     def wait(self) -> None:
@@ -129,7 +124,7 @@ def serve(
 
     Args:
         arm: The arm.
-        state: What is shown at first; all joints healthy in the middle of their range if not given.
+        state: What is shown at first; all joints healthy, in a generic configuration, if not given.
         host: The address to listen on. Who can reach it can read the motions and results that the page opens: other than
             the loopback address only in a network where all are trusted.
         port: The port; 0: any that is free.
@@ -144,7 +139,7 @@ def serve(
     if find_spec("viser") is None:
         raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'")
     if state is None:
-        state = State(arm.name, arm.joint_names, tuple(middle(arm)), task="pose")
+        state = State(arm.name, arm.joint_names, tuple(float(x) for x in generic_configuration(arm)), task="pose")
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
     # Before anybody can come: a page that is open already keeps the view that it began with.
@@ -159,7 +154,7 @@ def serve(
     server.scene.add_light_ambient("/ambient", intensity=1.6)
     ready(address(server))
     threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
-    parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
+    parts, note = body_of(arm, machine.size)
     return Studio(server, machine, state, parts=parts, note=note)
 
 
@@ -198,34 +193,6 @@ def free_port(host: str, port: int) -> int:
                 f"port {port} of {host} cannot be used ({error.strerror or error}); choose another with --port, or 0 for any"
             ) from error
         return int(probe.getsockname()[1])
-
-
-def middle(arm: Arm) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """A configuration (n,) between the limits, joints a little apart from special places."""
-    low, high = (np.where(np.isfinite(x), x, s * 1.0) for x, s in ((arm.lower, -1), (arm.upper, 1)))
-    share = 0.5 + 0.13 * np.sin(1.0 + 2.0 * np.arange(arm.n))
-    return np.asarray(low + share * (high - low))
-
-
-def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> tuple[list[Part], str]:
-    """What the arm is made of, and a note for people where meshes are not there."""
-    if file is None or not Path(file).is_file():
-        return stick_parts(arm, machine.size), ""
-    from holdfast.studio.scene.visuals import urdf_parts
-
-    return dressed(arm, machine, *urdf_parts(file, arm, base))
-
-
-def dressed(arm: Arm, machine: Machine, shapes: list[Part], missing: list[str]) -> tuple[list[Part], str]:
-    """The shapes of a file with sticks for what has none, and a note for people."""
-    sticks = stick_parts(arm, machine.size)
-    if not shapes:
-        return sticks, f"no mesh was found ({missing[0]}), so the arm is drawn as sticks" if missing else ""
-    if missing:
-        clad = {p.frame for p in shapes}
-        shapes += [p for p in sticks if p.frame not in clad]
-        return shapes, f"{len(missing)} of the file's meshes not found, such as {missing[0]}; such links are drawn as sticks"
-    return shapes, ""
 
 
 def _is_tall(client: Any) -> bool:

@@ -10,9 +10,15 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from holdfast.arm.model import Arm
+from holdfast.arm.postures import generic_configuration
+from holdfast.arm.task import as_task
+from holdfast.arms.spec import default_task
 from holdfast.errors import HoldfastError, InputError
+from holdfast.present.arm.body import Part
+from holdfast.present.arm.visuals import body_of
 from holdfast.studio.motions import Motion, read_motion
-from holdfast.studio.scene.body import Part
+from holdfast.studio.scene.machine import Machine
+from holdfast.studio.state import State
 
 LARGEST = 4 << 20  # bytes
 JOINTS = 40  # more take minutes to compile
@@ -45,14 +51,12 @@ def tidy(name: str) -> str:
     return found or "file"
 
 
-def read_arm(name: str, content: bytes) -> tuple[Arm, list[Part], list[str]]:
-    """The arm in a URDF file or a DH table that was sent, its shapes, and the meshes that were not sent with it.
+def read_machine(name: str, content: bytes) -> tuple[Machine, State, list[Part], str]:
+    """The arm in a URDF file or a DH table that was sent, how it is shown first, its parts, and a note on missing meshes.
 
     Raises:
         HoldfastError: The file is too large, or wrong, or its arm has more than 40 joints.
     """
-    shapes: list[Part] = []
-    missing: list[str] = []
     with _alone(name, content) as file:
         if file.suffix.lower() in (".yaml", ".yml"):
             from holdfast.arms import dh_file
@@ -62,11 +66,10 @@ def read_arm(name: str, content: bytes) -> tuple[Arm, list[Part], list[str]]:
             arm = Arm.from_urdf(file)  # never MJCF: that may name other files, to be opened
         if arm.n > JOINTS:
             raise InputError(f"'{tidy(name)}' has {arm.n} joints; the page takes arms of at most {JOINTS}")
-        if arm.chain is not None:
-            from holdfast.studio.scene.visuals import urdf_parts
-
-            shapes, missing = urdf_parts(file, arm, meshes=False)
-    return arm, shapes, missing
+        task = default_task("", arm)
+        machine, q = Machine(arm, as_task(arm, task)), generic_configuration(arm)
+        state = State(file.name, arm.joint_names, tuple(float(x) for x in q), task=task)
+        return machine, state, *body_of(arm, machine.size, meshes=False)
 
 
 def read_sent_motion(arm: Arm, name: str, content: bytes) -> Motion:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_numbers, pose_of
 from holdfast.errors import HoldfastError
+from holdfast.present.arm.body import Part
 from holdfast.studio import upload
 from holdfast.studio.aside import Aside
 from holdfast.studio.compute import Extremes
@@ -21,7 +22,6 @@ from holdfast.studio.motions import Motion, read_motion
 from holdfast.studio.panel import Panel
 from holdfast.studio.player import Player
 from holdfast.studio.saving import Saver
-from holdfast.studio.scene.body import Part
 from holdfast.studio.scene.cloud import Cloud
 from holdfast.studio.scene.machine import TOLERANCE, Machine, Reading, sentence
 from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE, Stage
