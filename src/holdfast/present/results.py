@@ -87,7 +87,7 @@ def write(result: Result, path: Path, command: str = "") -> Path:
             page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=len(rows[0]) > _NARROW)
         )
     title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
-    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, command)])]), path)
+    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result)])], again=command), path)
 
 
 def _beside(cell: str) -> str:
@@ -96,13 +96,12 @@ def _beside(cell: str) -> str:
     return f"{value} ({_HARD.join(below.split())})" if below else value
 
 
-def shown(result: Result, command: str = "") -> list[Any]:
-    """The figures as blocks of a page, and the command that makes it again."""
+def shown(result: Result) -> list[Any]:
+    """The figures as blocks of a page."""
     from holdfast.report.figures import svg
-    from holdfast.report.page import Code, Picture
+    from holdfast.report.page import Picture
 
-    drawn = [Picture(svg(figure, name, name), "") for name, figure in result.figures().items()]
-    return [*drawn, *([Code(command, "The same again:")] if command else [])]
+    return [Picture(svg(figure, name, name), "") for name, figure in result.figures().items()]
 
 
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:

@@ -462,14 +462,17 @@ def builtin_region(arm: str) -> Region | None:
     return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
 
 
-def default_region(spec: str, arm: Arm) -> Region:
+def default_region(arm: Arm, spec: str | None = None) -> Region:
     """The region of an arm for which none is given: the paper's for the paper's arm, else around its home.
 
     Args:
-        spec: What the arm was called: a built-in name, or a file.
         arm: The arm.
+        spec: What it was called: a built-in name, or a file. If not given, an arm that equals a built-in one is that one.
     """
     from holdfast import arms
 
-    known = builtin_region(spec)
-    return Region.around(arm, arms.about(spec).home if spec in arms.names() else None) if known is None else known
+    if spec is None and arm.name in arms.names() and arms.load(arm.name).fingerprint == arm.fingerprint:
+        spec = arm.name
+    if spec is None or spec not in arms.names():
+        return Region.around(arm)
+    return builtin_region(spec) or Region.around(arm, arms.about(spec).home)
