@@ -15,6 +15,7 @@ import numpy as np
 from holdfast.arm.model import Arm
 from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task
+from holdfast.arms.spec import default_task
 from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.present.arm.visuals import body_of
@@ -139,7 +140,8 @@ def serve(
     if find_spec("viser") is None:
         raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'")
     if state is None:
-        state = State(arm.name, arm.joint_names, tuple(float(x) for x in generic_configuration(arm)), task="pose")
+        q = tuple(float(x) for x in generic_configuration(arm))
+        state = State(arm.name, arm.joint_names, q, task=default_task(arm.name, arm))
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
     # Before anybody can come: a page that is open already keeps the view that it began with.
@@ -207,10 +209,14 @@ def _camera(machine: Machine, q: Any, tall: bool = False) -> tuple[tuple[float, 
     flat = machine.task.rows[:, :3]
     up = len(machine.task.rows) <= 3 and float(np.abs(flat[:, 2]).max()) < 1e-9 and not machine.task.rows[:, 3:5].any()
     way = np.array([0.0, -0.5, 1.4]) if up else np.array([0.95, -0.8, 0.45])
+    out = places[-1, :2] - places[0, :2]
+    if not up and np.linalg.norm(out) > 0.1 * machine.size:  # more from the side than from the front
+        ahead = out / np.linalg.norm(out)
+        way[:2] = 0.6 * ahead + 1.1 * np.array([ahead[1], -ahead[0]])
     # The controls cover the right side, or the lower half.
     beside = np.cross(-way, [0.0, 0.0, 1.0])
-    aside = np.cross(beside, way) if tall else beside
-    centre = centre + (-0.5 if tall else 0.22) * machine.size * aside / np.linalg.norm(aside)
+    away = np.cross(beside, way) if tall else beside
+    centre = centre + (0.45 if tall else 0.22) * machine.size * away / np.linalg.norm(away)
     eye = centre + (1.5 if tall else 0.85) * machine.size * way
     return tuple(eye.tolist()), tuple(centre.tolist())
 

@@ -105,7 +105,7 @@ def limit(gui: Any, refused: Any) -> None:
 
     def checked(client: Any, message: Any) -> None:
         waiting = gui._current_file_upload_states
-        if message.size_bytes <= LARGEST and 0 <= message.part_count <= LARGEST // _PART and len(waiting) < 2:
+        if 0 <= message.size_bytes <= LARGEST and 0 <= message.part_count <= LARGEST // _PART and len(waiting) < 2:
             begin(client, message)
             return
         refused(f"'{tidy(message.filename)}': {_TOO_LARGE}")

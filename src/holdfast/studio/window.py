@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_numbers, pose_of
-from holdfast.errors import HoldfastError
+from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.studio import upload
 from holdfast.studio.aside import Aside
@@ -313,7 +313,14 @@ class Window:
             self._open_motion(upload.read_sent_motion(self.machine.arm, name, content), upload.tidy(name))
             return
         self.panel.say(f"Opening {upload.tidy(name)} ...")
-        self.work.ask(lambda check: self._load(self.client, name, content))
+
+        def load(_: Check) -> None:
+            try:
+                self._load(self.client, name, content)
+            except HoldfastError as error:
+                raise InputError(f"nothing was opened, and nothing has changed: {error}") from error
+
+        self.work.ask(load)
 
     def _open_motion(self, motion: Motion, file: str) -> None:
         self._cancel()

@@ -27,7 +27,10 @@
 
   function open(file, tries = 100) {
     if (input() === null && tries > 0) {
-      if (tries === 100) tab("File")?.click();
+      if (tries === 100) {
+        tab("File")?.click(); // on a phone; else tabs hear keys
+        tab("File")?.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+      }
       setTimeout(() => open(file, tries - 1), 30);
       return;
     }
@@ -73,16 +76,31 @@
     }
   }
 
+  function fold() { // of the controls of a phone, which viser folds when their head is pressed, and does not say so
+    const head = document.querySelector(".mantine-Paper-root[style*='bottom: 0'] div[style*='cursor: pointer']");
+    if (head === null) return;
+    let button = head.querySelector(".hf-fold");
+    if (button === null) {
+      button = document.createElement("button");
+      button.className = "hf-fold";
+      head.append(button);
+    }
+    const open = head.nextElementSibling?.getAttribute("aria-hidden") !== "true", text = open ? "Hide controls" : "Show controls";
+    if (button.textContent !== text) button.textContent = text;
+    button.setAttribute("aria-expanded", String(open));
+  }
+
   let waiting = false;
   function changed() {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; mark(); });
+    requestAnimationFrame(() => { waiting = false; mark(); fold(); });
   }
 
   addEventListener("DOMContentLoaded", () => {
     document.body.append(document.getElementById("holdfast-legend").content);
     document.getElementById("holdfast-legend-box").open = innerWidth > 768;
-    new MutationObserver(changed).observe(document.body, { subtree: true, childList: true, characterData: true });
+    const what = { subtree: true, childList: true, characterData: true, attributeFilter: ["aria-hidden"] };
+    new MutationObserver(changed).observe(document.body, what);
   });
 })();
