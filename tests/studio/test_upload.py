@@ -34,7 +34,8 @@ def test_an_arm_is_read_as_from_its_file():
 def test_no_path_of_a_file_is_followed(tmp_path):
     secret = tmp_path / "secret.stl"
     secret.write_text("solid x\nendsolid x\n")
-    text = f"""<robot name="r"><link name="a"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+    text = f"""<robot name="r"><link name="a"/><joint name="j" type="continuous">
+        <parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
         </joint><link name="b"><visual><geometry><mesh filename="file://{secret}"/></geometry></visual>
         <visual><geometry><mesh filename="{secret}"/></geometry></visual></link></robot>"""
     opened, watching = [], True
@@ -78,7 +79,9 @@ def test_what_a_file_is(name, found):
     assert upload.kind(name) == found
 
 
-@pytest.mark.parametrize(("name", "sentence"), [("a.xacro", "expanded first"), ("a.mjcf", "cannot be opened here"), ("", "'file'")])
+@pytest.mark.parametrize(
+    ("name", "sentence"), [("a.xacro", "expanded first"), ("a.mjcf", "cannot be opened here"), ("", "'file'")]
+)
 def test_what_a_file_is_not(name, sentence):
     with pytest.raises(hf.InputError, match=sentence):
         upload.kind(name)
@@ -86,7 +89,13 @@ def test_what_a_file_is_not(name, sentence):
 
 @pytest.mark.parametrize(
     ("name", "tidied"),
-    [("../../etc/passwd", "passwd"), ("C:\\x\\y.urdf", "y.urdf"), ("..", "file"), ("-rf", "rf"), ("a b<c>.urdf", "a_b_c_.urdf")],
+    [
+        ("../../etc/passwd", "passwd"),
+        ("C:\\x\\y.urdf", "y.urdf"),
+        ("..", "file"),
+        ("-rf", "rf"),
+        ("a b<c>.urdf", "a_b_c_.urdf"),
+    ],
 )
 def test_names_are_tidied(name, tidied):
     assert upload.tidy(name) == tidied

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
+from holdfast.indices.lost_directions import manipulability_kept
 from holdfast.studio.scene.bars import percent
 from holdfast.studio.scene.machine import Reading
-from holdfast.studio.scene.measures import manipulability_kept
 
 Ask = tuple[str, Any]
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.indices.lost_directions import Loss, manipulability_kept
 from holdfast.studio.scene.machine import Bars, Reading
-from holdfast.studio.scene.measures import Loss, manipulability_kept
 
 Array = NDArray[np.float64]
 
