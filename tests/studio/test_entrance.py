@@ -9,7 +9,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.studio import serve
-from holdfast.studio.entrance import Entrance, welcome
+from holdfast.studio.page.entrance import Entrance, welcome
 
 viser = pytest.importorskip("viser")
 

@@ -12,7 +12,7 @@ import pytest
 import holdfast as hf
 from holdfast.arms import dh_file
 from holdfast.arms.dh_rows import dh_table
-from holdfast.studio import upload
+from holdfast.studio.page import upload
 
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
 

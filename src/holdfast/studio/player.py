@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.studio.motions import Motion
-from holdfast.studio.panel import Panel
+from holdfast.studio.page.panel import Panel
 from holdfast.studio.scene.stage import GHOSTS, Stage
 from holdfast.studio.work import TICK, Clock
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 class Player:
-    """What stands or moves beside the arm of one window.
+    """The ghosts beside the arm of one window, and what moves them.
 
     Args:
         stage: The scene.
@@ -34,7 +34,7 @@ class Player:
         self.playing = False
         self._now = 0.0
 
-    def stand(self, configurations: list[Array], labels: Sequence[str]) -> None:
+    def place(self, configurations: list[Array], labels: Sequence[str]) -> None:
         """Put ghosts at configurations (n,)."""
         self.stop()
         self.ghosts = configurations
@@ -91,7 +91,7 @@ class Player:
             self._panel.play.label = "Play"
 
     def play(self) -> None:
-        """Play on, or from the start if it has come to its end; stop if it plays."""
+        """Play on, or from the start if it has ended; stop if it plays."""
         if self.playing or not self._motions:
             self.pause()
             return

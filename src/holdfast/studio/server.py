@@ -19,9 +19,9 @@ from holdfast.arms.spec import default_task
 from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.present.arm.visuals import body_of
-from holdfast.studio import upload
 from holdfast.studio.aside import Aside
-from holdfast.studio.entrance import Entrance
+from holdfast.studio.page import upload
+from holdfast.studio.page.entrance import Entrance
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.studio.panel import Panel
+from holdfast.studio.page.panel import Panel
 from holdfast.studio.scene.machine import SLIDE, Machine
 from holdfast.studio.work import TICK, Clock
 

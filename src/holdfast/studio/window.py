@@ -14,20 +14,18 @@ from numpy.typing import NDArray
 from holdfast.arm.poses import pose_numbers, pose_of
 from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
-from holdfast.studio import upload
 from holdfast.studio.aside import Aside
 from holdfast.studio.compute import Extremes
-from holdfast.studio.guide import Guide
 from holdfast.studio.motions import Motion, read_motion
-from holdfast.studio.panel import Panel
-from holdfast.studio.player import Player
+from holdfast.studio.page import upload
 from holdfast.studio.saving import Saver
 from holdfast.studio.scene.cloud import Cloud
-from holdfast.studio.scene.machine import TOLERANCE, Machine, Reading, sentence
-from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE, Stage
+from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE
 from holdfast.studio.sliding import Sliding
 from holdfast.studio.state import State
-from holdfast.studio.work import TICK, Clock, Latest, Worker
+from holdfast.studio.view import View
+from holdfast.studio.work import Worker
 
 Array = NDArray[np.float64]
 Check = Callable[[], None]
@@ -37,7 +35,7 @@ OF_HERE = ("best-worst", "laws", "swing")  # what is of where the arm is, and of
 ROUNDING = 1e-9  # of an index: below it a number says nothing
 
 
-class Window:
+class Window(View):
     """One client of the studio, with an arm of its own.
 
     All changes of the state happen on one thread (``live``), in the order in which people ask, the newest of a kind only; what
@@ -56,24 +54,10 @@ class Window:
     def __init__(
         self, client: Any, machine: Machine, aside: Aside, state: State, *, parts: list[Part], note: str, load: Load
     ) -> None:
-        self.client, self.machine, self.state = client, machine, state
+        super().__init__(client, machine, state, parts, self.ask)
         self._aside, self._load = aside, load
-        self._start = state
-        self.updates = 0  # pictures sent
-        self.held: str | int | None = None  # what a person holds: the end effector, or a slider
-        self.cloud: Cloud | None = None
-        self._reading: Reading | None = None
-        self._busy = self._closed = False
-        self.live = Latest(self._complain)
         self.work = Worker(self._complain)
-        self._clock = Clock(self.live, TICK)
-        with client.atomic():
-            self.stage = Stage(client.scene, machine, parts)
-            self.stage.move(machine.arm.frames(self.q), gizmo=True)
-            self.panel = Panel(client.gui, machine, state, self.ask)
-        self.player = Player(self.stage, self.panel, self._clock, self._moved)
         self._sliding = Sliding(machine, self.panel, self._clock, where=lambda: (self.q, self.state.failed), place=self._place)
-        self._guide = Guide(self.ask, self.panel.guide)
         self._saver = Saver(client, machine, self.stage, self._saved, self._complain)
         for k, handles in self.stage.figure.joints.items():
             for handle in handles:
@@ -83,11 +67,6 @@ class Window:
         if note:
             self.panel.say(note)
         self.live.put("begin", self._begin)
-
-    @property
-    def q(self) -> Array:
-        """(n,) where the arm is, rad and m."""
-        return np.array(self.state.q)
 
     def close(self) -> None:
         """Stop all work for this window."""
@@ -268,7 +247,7 @@ class Window:
         def show(found: Extremes) -> None:
             best, worst, here = ("0" if abs(x) < ROUNDING else f"{x:.4g}" for x in found.values)
             words = [f"best: {best}", f"worst: {worst}"]
-            self.player.stand(list(found.q), words)
+            self.player.place(list(found.q), words)
             self.panel.say(f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here.")
             self._refresh()
 
@@ -292,11 +271,6 @@ class Window:
             self._show_motions(motions, (GREEN, ORANGE), "  |  ".join(m.label for m in motions))
 
         self._start_work("Simulating the motion under both laws", "laws", show)
-
-    def _arrived(self) -> bool:
-        """The end effector is where the target says, as far as the task looks."""
-        target = self.state.target
-        return target is not None and self.machine.apart(self.q, pose_of(target[:3], target[3:])) < TOLERANCE
 
     def _on_swing(self, _: Any) -> None:
         self._start_work(
@@ -373,12 +347,6 @@ class Window:
         self.panel.say("Drag the second handle to where the end effector should go, or take it as it is.")
         self._refresh()
 
-    def _show_target(self) -> None:
-        numbers = self.state.target or ()
-        self.stage.target.position = numbers[:3]
-        self.stage.target.wxyz = (numbers[6], *numbers[3:6])
-        self.stage.target.visible = True
-
     def _on_goal(self, value: tuple[str, Array, Array]) -> None:
         phase, position, quaternion = value
         self.state = replace(self.state, target=(*position.tolist(), *quaternion.tolist()))
@@ -389,13 +357,6 @@ class Window:
     def _show_motions(self, motions: list[Motion], colors: tuple[Any, ...], text: str) -> None:
         self.panel.say(text)
         self.player.show(motions, colors, self.state.time)
-
-    def _moved(self, time: float, q: Array | None) -> None:
-        self.state = replace(self.state, time=time)
-        if q is None:
-            self._refresh()
-        else:
-            self._place(q)
 
     def _on_time(self, value: float) -> None:
         self.player.pause()  # who takes the slider stops what plays
@@ -436,66 +397,3 @@ class Window:
     def _on_losses(self, value: bool) -> None:
         self.stage.show_losses(value)
         self._refresh()
-
-    def _place(self, q: Array) -> None:
-        self.state = replace(self.state, q=tuple(float(x) for x in q))
-        self._refresh()
-
-    def _refresh(self) -> None:
-        """Show the state: the arm at once, and what a failure takes."""
-        q, state = self.q, self.state
-        frames = self.machine.arm.frames(q)
-        with self.client.atomic():
-            self.stage.move(frames, gizmo=self.held != "hand")
-            self.panel.follow(q, self.held if isinstance(self.held, int) else None)
-        reading = self._reading = self.machine.read(q, state.failed, state.index, state.susceptibility)
-        with self.client.atomic():
-            self.stage.read(reading, frames[-1])
-            self.panel.read(reading, state)
-            self.panel.enable(self._possible(reading))
-            self._guide.tell(reading, self.machine.arm.name, state.names, redundant=self._redundant, busy=self._busy)
-        self.updates += 1
-
-    @property
-    def _redundant(self) -> bool:
-        return self.machine.arm.n > self.machine.task.m
-
-    def _possible(self, reading: Reading) -> dict[str, bool]:
-        """Which buttons can do something now."""
-        state, machine = self.state, self.machine
-        ghosts = len(self.player.ghosts) if state.show in ("best-worst", "laws") else 0
-        beside = state.show != "arm" or state.target is not None or bool(self.player.ghosts) or self.cloud is not None
-        return {
-            "home": state.q != self._start.q,
-            "heal": bool(state.failed),
-            "swing": bool(state.free) and machine.swings,
-            "best-worst": not isinstance(machine.objectives(state.objective), str),
-            "take0": ghosts > 0,
-            "take1": ghosts > 1,
-            "target": state.target is None,
-            "laws": state.target is not None and not self._arrived(),
-            "region": not isinstance(reading.bars, str),
-            "clear": beside or self._busy,
-            "tour": True,
-            "next": not self._busy,
-            "slide": len(machine.self_motions(self.q, state.failed)) > 0,
-        }
-
-    def refuse(self, text: str) -> None:
-        """Say that something was not taken."""
-        self.live.put("refuse", lambda: self.panel.say(text, bad=True))
-
-    def _saved(self, text: str) -> None:
-        self.live.put("saved", lambda: self.panel.say(text))
-
-    def _complain(self, error: BaseException) -> None:
-        if self._closed:
-            return
-        if not isinstance(error, HoldfastError):
-            import traceback
-
-            traceback.print_exception(error)
-        self.panel.say(sentence(error), bad=True)
-        if self._busy:
-            self._busy = False
-            self.live.put("refresh", self._refresh)

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, Registry
+from holdfast.studio.page.upload import ARMS, MOTIONS
 from holdfast.studio.scene.bars import bars_html, losses_html
 from holdfast.studio.scene.machine import Machine, Reading
 from holdfast.studio.state import CONDITIONS, State
-from holdfast.studio.upload import ARMS, MOTIONS
 
 Array = NDArray[np.float64]
 Handler = Callable[[Any], None]
@@ -82,7 +82,7 @@ class Panel:
         self.way = self.gui.add_dropdown(
             "direction", tuple(str(k + 1) for k in range(ways)), visible=ways > 1, hint="Which of several self-motions."
         )
-        self._on(self.way.on_update, "way", lambda h: int(h.value) - 1)
+        self._on(self.way.on_update, "way", lambda h: int(_chosen(h)) - 1)
         self._button("Back to the start", "home")
 
     def _fail_tab(self, arm: Arm, state: State) -> None:
@@ -97,15 +97,15 @@ class Panel:
         self.susceptibility = self.gui.add_dropdown(
             "susceptibility", self._menu(state.susceptibility, SUSCEPTIBILITIES), initial_value=state.susceptibility
         )
-        self._on(self.susceptibility.on_update, "susceptibility", lambda h: h.value)
+        self._on(self.susceptibility.on_update, "susceptibility", _chosen)
         self.weights = self.gui.add_html("")
 
     def _choose_tab(self, state: State) -> None:
         self.index = self.gui.add_dropdown("bars show", self._menu(state.index, INDICES), initial_value=state.index)
-        self._on(self.index.on_update, "index", lambda h: h.value)
+        self._on(self.index.on_update, "index", _chosen)
         objectives = self._menu(state.objective, INDICES, SUSCEPTIBILITIES)
         self.objective = self.gui.add_dropdown("choose by", objectives, initial_value=state.objective)
-        self._on(self.objective.on_update, "objective", lambda h: h.value)
+        self._on(self.objective.on_update, "objective", _chosen)
         self._button("Best and worst of this pose", "best-worst")
         self._button("Take the green one", "take0")
         self._button("Take the orange one", "take1")
@@ -117,7 +117,7 @@ class Panel:
             for c, law in zip(("green", "orange"), state.laws, strict=True)
         ]
         for handle in self.laws:
-            self._on(handle.on_update, "laws", lambda h: (self.laws[0].value, self.laws[1].value))
+            self._on(handle.on_update, "laws", lambda h: (_chosen(self.laws[0]), _chosen(self.laws[1])))
         self._button("Choose a target", "target")
         self._button("Move under both laws", "laws")
         if state.file is not None:
@@ -252,8 +252,13 @@ def _slid(k: int, factor: float, handle: Any) -> tuple[int, float]:
     return k, handle.value / factor
 
 
+def _chosen(menu: Any) -> str:
+    """What is chosen of a menu. A client may send anything, and a label may name a file."""
+    return str(menu.value if menu.value in menu.options else menu.options[0])
+
+
 def _pressed(k: int, handle: Any) -> tuple[int, str]:
-    return k, handle.value.removeprefix(MARK)
+    return k, _chosen(handle).removeprefix(MARK)
 
 
 def _marked(condition: str) -> tuple[str, ...]:

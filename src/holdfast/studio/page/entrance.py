@@ -44,7 +44,7 @@ def welcome(host: str | None, origin: str | None, served: str) -> bool:
 
 
 def _name(host: str | None) -> str | None:
-    """The name in a ``Host`` header, without its port; None if it is none."""
+    """The name in a ``Host`` header, without its port; None if there is no such name."""
     try:
         return urlsplit(f"//{host}").hostname if host and _HOST.fullmatch(host) else None
     except ValueError:
@@ -126,7 +126,7 @@ class Entrance:
         import viser
 
         page = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
-        own = resources.files("holdfast.studio").joinpath("page")
+        own = resources.files("holdfast.studio.page")
         style, script, legend = (own.joinpath(name).read_text("utf-8") for name in ("studio.css", "studio.js", "legend.html"))
         added = f"<style>{style}</style><template id=holdfast-legend>{legend}</template><script>{script}</script>"
         page = page.replace(_TITLE, "<title>holdfast studio</title>", 1)
