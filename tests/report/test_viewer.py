@@ -39,7 +39,7 @@ def test_the_library_is_in_a_page_once_and_only_where_there_are_views():
     arm = arms.load("planar-3r")
     views = [page.Picture(scene(arm).html(f"view{k}", "An arm <b>"), "c") for k in range(3)]
     html = page.render(page.Page("t", "h", [page.Section("", views)]))
-    assert html.count("</script>") == 5  # of the page, of each view, and of all views
+    assert html.count("WebGL") == viewer.page(scene(arm).html("alone", "An arm"), "t").count("WebGL")
     assert html.count('class="view3d"') == 3
     bare = page.render(page.Page("t", "h", [page.Section("", [page.Text("none")])]))
     assert "view3d" not in bare

@@ -58,8 +58,8 @@ class Scene:
         text = json.dumps(self.data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
         return Markup(
             f'<div class="view3d" id="{escape(name, quote=True)}" role="group" aria-label="{what}">\n'
-            f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas></div>\n'
-            f'<div class="view3d-controls"></div>\n'
+            f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas>'
+            '</div>\n<div class="view3d-controls"></div>\n'
             + (f'<p class="view3d-legend">{" ".join(f"<span>{x}</span>" for x in legend)}</p>\n' if legend else "")
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in lines)
             + '<p class="view3d-hint">Where JavaScript is on, this picture can be turned.</p>\n'
@@ -83,10 +83,10 @@ def with_library(html: str) -> str:
 
 def page(view: Markup, title: str) -> str:
     """A page that holds a view and nothing else, as wide as its window, light or dark as the reader has it."""
-    head = f'<meta charset="utf-8">\n<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>'
     return with_library(
-        f'<!DOCTYPE html>\n<html lang="en" class="view3d-page">\n<head>\n{head}\n</head>\n<body>\n<main>\n<h1>{escape(title)}</h1>\n'
-        f"{view}\n</main>\n</body>\n</html>\n"
+        '<!DOCTYPE html>\n<html lang="en" class="view3d-page">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n</head>\n'
+        f"<body>\n<main>\n<h1>{escape(title)}</h1>\n{view}\n</main>\n</body>\n</html>\n"
     )
 
 

@@ -53,8 +53,8 @@ def scene(
 
     Args:
         arm: The arm; its links are the shapes of its URDF file where that has some, else round bars.
-        q: (n,) rad and m; (A, n) several, the first solid and the others see-through; with ``time`` a motion (F, n), or (A, F, n)
-            several. :func:`holdfast.arm.generic_configuration` if not given.
+        q: (n,) rad and m; (A, n) several, the first solid and the others see-through; with ``time`` a motion (F, n), or
+            (A, F, n) several. :func:`holdfast.arm.generic_configuration` if not given.
         labels: (A,) what each of several is.
         locked: Joints, by name or index from 0, that are marked as locked; in a motion also ``{joint: s from which}``.
         task: Rows of the pose in which directions are lost; the arm's own if not given.
