@@ -66,7 +66,7 @@ def test_every_button_of_the_first_state_does_something_or_is_asleep(studio, vis
                 with page.expect_file_chooser():
                     button.click()
             elif name.startswith("✓"):
-                assert button.get_attribute("aria-pressed") == "true"
+                wait_for(page, lambda button=button: button.get_attribute("aria-pressed") == "true")
                 button.click()
             else:
                 button.click()
@@ -89,8 +89,8 @@ def test_buttons_wake_when_they_can_work_and_toggles_show_the_state(studio, visi
     buttons(page, "Fail")
     page.get_by_role("button", name="free", exact=True).nth(1).click()
     wait_for(page, lambda: page.get_by_role("button", name="✓ free").count() == 1)
-    assert page.get_by_role("button", name="✓ free").get_attribute("aria-pressed") == "true"
-    assert page.get_by_role("button", name="healthy", exact=True).get_attribute("aria-pressed") == "false"
+    wait_for(page, lambda: page.get_by_role("button", name="✓ free", pressed=True).count() == 1)
+    wait_for(page, lambda: page.get_by_role("button", name="healthy", exact=True, pressed=False).count() == 1)
     assert window.stage._names[1].text == "2 free"
     assert not page.get_by_role("button", name="Let the free joint swing").is_enabled()  # nobody knows what its links weigh
     page.get_by_role("button", name="All healthy").click()

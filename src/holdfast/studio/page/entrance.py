@@ -1,7 +1,7 @@
 """Who may come in: only pages that the studio itself has served, so that no other page can reach into it.
 
 A browser lets every page of the web open a WebSocket to this machine, and tells in ``Origin`` whose page it is; a page that
-gives its own name the address of this machine (DNS rebinding) is told by ``Host``. Programs that are no browsers send no
+gives its own name the address of this machine (DNS rebinding) is told by ``Host``. Other programs send no
 ``Origin``; they run on this machine, or in a network that ``--host`` has let in.
 """
 
@@ -68,7 +68,7 @@ def _is_loopback(served: str) -> bool:
 
 
 class Entrance:
-    """What stands before a viser server: it refuses strangers, and gives the page a title, a style and a script of its own.
+    """What a viser server asks first: it refuses strangers, and gives the page a title, a style and a script of its own.
 
     Args:
         served: The address that the studio listens on.
@@ -76,7 +76,7 @@ class Entrance:
 
     def __init__(self, served: str) -> None:
         self._served = served
-        self.stands = False
+        self.asked = False
 
     @contextmanager
     def before(self) -> Iterator[None]:
@@ -97,7 +97,7 @@ class Entrance:
                 found = self._answer(request)
                 return process_request(connection, request) if found is None else found
 
-            self.stands = True
+            self.asked = True
             return real(*given, process_request=answer, **(options | {"max_size": LARGEST}))
 
         with _PATCHING:  # viser has no place for this
@@ -106,7 +106,7 @@ class Entrance:
                 yield
             finally:
                 sockets.serve = real  # type: ignore[misc]
-        if not self.stands:
+        if not self.asked:
             raise HoldfastError("this version of viser cannot be kept from pages of others; install viser 1.1")
 
     def _answer(self, request: Any) -> Any:
