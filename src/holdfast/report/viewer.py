@@ -7,10 +7,12 @@ and lies once in a page however many views there are. Without JavaScript, withou
 from __future__ import annotations
 
 import json
+import re
 from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
+from hashlib import sha256
 from html import escape
 from importlib import resources
 from typing import Any
@@ -25,6 +27,7 @@ Array = NDArray[np.float64]
 
 _HALF = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
 _WIDE, _TALL = 640, 400  # pixels of the drawing
+_BODY = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,9 @@ class Scene:
         legend = [swatch.format(colors[k % 5], escape(x)) for k, x in enumerate(labels)] if len(labels) > 1 else []
         marked = [j["name"] for j, t in zip(self.data["joints"], self.data["locked"], strict=True) if t is not None]
         lines = [*self.notes, *([f"Locked: {', '.join(marked)}."] if marked else [])]
-        text = json.dumps(self.data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+        parts = _json(self.data["parts"])
+        key = sha256(parts.encode()).hexdigest()[:12]
+        text = _json({**self.data, "parts": key})
         return Markup(
             f'<div class="view3d" id="{escape(name, quote=True)}" role="group" aria-label="{what}">\n'
             f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas>'
@@ -63,8 +68,12 @@ class Scene:
             + (f'<p class="view3d-legend">{" ".join(f"<span>{x}</span>" for x in legend)}</p>\n' if legend else "")
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in lines)
             + '<p class="view3d-hint">Where JavaScript is on, this picture can be turned.</p>\n'
-            f'<script type="application/json">{text}</script>\n</div>'
+            f'<script type="application/json">{text}</script>\n{_BODY.format(key, parts)}\n</div>'
         )
+
+
+def _json(data: Any) -> str:
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
 
 
 @cache
@@ -73,10 +82,19 @@ def _part(name: str) -> str:
 
 
 def with_library(html: str) -> str:
-    """A page with the style and the script of the views in it, once; a page without views as it is."""
+    """A page with the style and the script of the views in it, and each body that they show, once; without views as it is."""
     if '<div class="view3d"' not in html:
         return html
-    styled = html.replace("</head>", f"<style>\n{_part('viewer.css')}</style>\n</head>", 1)
+    seen: set[str] = set()
+
+    def once(found: re.Match[str]) -> str:
+        if found[1] in seen:
+            return ""
+        seen.add(found[1])
+        return found[0]
+
+    bodies = re.sub(re.escape(_BODY).replace(r"\{\}", "(.*?)"), once, html)
+    styled = bodies.replace("</head>", f"<style>\n{_part('viewer.css')}</style>\n</head>", 1)
     before, _, after = styled.rpartition("</body>")
     return f"{before}<script>{_part('viewer.js').strip()}</script>\n</body>{after}"
 
