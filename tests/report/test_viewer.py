@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from wellformed import check
 
+import axe
 import chromium
 import holdfast as hf
 import oracles
@@ -191,6 +192,7 @@ def test_it_draws_the_arm_where_it_is_and_moves_it(opened, rng):
     found = opened(arm.show(q, locked=[2]).to_html())
     first = painted(found)
     assert first[0] > 200
+    assert axe.serious(found) == []
 
     def frames():
         return np.array(found.evaluate("document.querySelector('.view3d').view3d.frames()")).reshape(-1, 3, 4)

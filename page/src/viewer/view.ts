@@ -53,7 +53,7 @@ export class View {
     this.camera = new Camera(scene);
     this.floor = floor(scene);
     // Several arms, or a phone, leave too little room.
-    this.names = scene.arms.length === 1 && box.clientWidth > 480;
+    this.names = scene.arms.length === 1 && matchMedia("(min-width: 600px)").matches;
     this.listen();
     this.show = controls(this);
     new IntersectionObserver((seen) => {

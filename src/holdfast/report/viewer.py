@@ -26,7 +26,7 @@ from holdfast.report.palette import BLUE, FAINT, ORANGE, SOFT
 Array = NDArray[np.float64]
 
 _HALF = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
-_WIDE, _TALL = 640, 400  # pixels of the drawing
+_WIDE, _TALL = 560, 400  # pixels of the drawing
 _BODY = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
 
@@ -54,7 +54,7 @@ class Scene:
         what = escape(about, quote=True)
         labels = [arm["label"] for arm in self.data["arms"]]
         swatch = '<i style="background:{}"></i>{}'
-        colors = ["currentColor", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
+        colors = ["#8b96a1", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
         legend = [swatch.format(colors[k % 5], escape(x)) for k, x in enumerate(labels)] if len(labels) > 1 else []
         marked = [j["name"] for j, t in zip(self.data["joints"], self.data["locked"], strict=True) if t is not None]
         lines = [*self.notes, *([f"Locked: {', '.join(marked)}."] if marked else [])]
@@ -195,6 +195,12 @@ def drawing(scene: Scene, about: str) -> str:
         text = " ".join(f"{x:.1f},{y:.1f}" for x, y in flat(points).reshape(-1, 2))
         return f'<polyline points="{text}" fill="none" stroke="{color}" stroke-width="{width}"{more}/>'
 
+    def word(text: str, point: ArrayLike) -> str:
+        x, y = flat(point)
+        x = np.clip(x, 3.6 * len(text), _WIDE - 3.6 * len(text))
+        look = 'font-size="13" text-anchor="middle" fill="var(--view3d-orange)"'
+        return f'<text x="{x:.1f}" y="{y - 12:.1f}" {look}>{escape(text)}</text>'
+
     out = [
         f'<svg viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(about, quote=True)}" '
         'stroke-linejoin="round" stroke-linecap="round">'
@@ -223,4 +229,11 @@ def drawing(scene: Scene, about: str) -> str:
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="{fill}" stroke="#fff" stroke-width="1.5"/>')
         x, y = flat(motion[-1][-1])
         out.append(f'<path d="M{x:.1f} {y - 7:.1f}l7 7l-7 7l-7 -7z" fill="{ORANGE}" stroke="#fff" stroke-width="1.5"/>')
+    tool = scene.frames[0, -1, -1, :3, 3]
+    for each in data["lost"]:
+        way = 0.26 * size * np.array(each["twist"][:3])
+        out += [line([tool - way, tool + way], ORANGE, 3), word(each["words"], tool + way)]
+    for k, joint in enumerate(data["joints"]):
+        if locked[k]:
+            out.append(word(f"{joint['name']} locked", scene.frames[0, -1, k + 1, :3, 3]))
     return "".join([*out, "</svg>"])
