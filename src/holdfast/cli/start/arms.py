@@ -19,7 +19,7 @@ from holdfast.cli.options import (
     read_joint,
 )
 from holdfast.errors import InputError
-from holdfast.present.printing import console, print_json, print_written
+from holdfast.present.printing import console, plain, print_json, print_written
 
 
 def command(json_: JsonOption = False) -> None:
@@ -30,7 +30,7 @@ def command(json_: JsonOption = False) -> None:
     from holdfast.present.arm.console import library, show_library
 
     if json_:
-        print_json(library())
+        print_json(plain(library()))
     else:
         show_library(console())
 
@@ -68,7 +68,7 @@ def describe(
     elif q is not None or lock:
         raise InputError("--q and --lock are of the arm in the page that --view writes; give it too")
     if json_:
-        print_json(to_dict(model) | ({} if written is None else {"files": [str(written)]}))
+        print_json(plain(to_dict(model) | ({} if written is None else {"files": [str(written)]})))
     else:
         show(model, console())
         print_written(console(), [written])
