@@ -93,7 +93,7 @@ MADE = {
     "WhatIsLeft": lambda: recovered().left,
 }
 INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
-WITHOUT_FIGURE = {"Optima", "Orbit", "StationaryPoints", "Trajectory", "WaypointCheck"}
+WITHOUT_FIGURE = {"Optima", "StationaryPoints", "WaypointCheck"}
 ELSEWHERE = {
     "Analysis",
     "ConvergenceDesigns",

@@ -34,7 +34,8 @@ def card(thing: Shown) -> str:
     if isinstance(thing, Result):
         parts += [_picture(figure, f"{about}: {first}") for about, figure in thing._presented("main_figure").items()]
     if steps := thing._presented("next_steps", name):
-        parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre>{escape(chr(10).join(steps))}</pre>')
+        code = escape("\n".join(steps), quote=False)
+        parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
     return f'<div class="holdfast" style="max-width:60em">{"".join(parts)}</div>'
 
 
@@ -68,7 +69,7 @@ def _cell(text: str) -> str:
 
 def _picture(figure: Figure, about: str) -> str:
     data, size = png(figure)
-    look = f"width:{size['width']:.0f}px;max-width:100%;background:white"
+    look = f"width:{size['width']:.0f}px;max-width:100%;background:white;padding:.4em;box-sizing:border-box"
     return f'<img style="{look}" alt="{escape(about)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
 
 
