@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
 from holdfast.result import Result, Shown
-from holdfast.words import capitalised
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_SENTENCES, _ROWS = 4, 12  # at most
+_SENTENCES, _ROWS, _LETTERS = 3, 12, 80  # at most; of a line of code
 _SHARPER = 1.5  # dots for each of the screen's
 _INCH = 96  # px
 
@@ -28,13 +27,13 @@ def card(thing: Shown) -> str:
     """It as HTML without scripts and styles of its own, for the end of a cell."""
     name = _called(thing)
     first, *others = thing._presented("sentences")
-    parts = [f"<p><strong>{escape(capitalised(first))}</strong></p>"]
-    parts += [f"<p>{escape(capitalised(line))}</p>" for line in others[: _SENTENCES - 1]]
+    parts = [f"<p><strong>{escape(first)}</strong></p>"]
+    parts += [f"<p>{escape(line)}</p>" for line in others[: _SENTENCES - 1]]
     parts.append(_table(thing._presented("key_table")))
     if isinstance(thing, Result):
         parts += [_picture(figure, f"{about}: {first}") for about, figure in thing._presented("main_figure").items()]
     if steps := thing._presented("next_steps", name):
-        code = escape("\n".join(steps), quote=False)
+        code = escape("\n".join(map(_lines, steps)), quote=False)
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
     return f'<div class="holdfast" style="max-width:60em">{"".join(parts)}</div>'
 
@@ -47,6 +46,12 @@ def _called(thing: Shown) -> str:
 def variables() -> list[tuple[str, Any]]:
     """Those of the notebook, with what they hold."""
     return [(name, value) for name, value in list(vars(sys.modules["__main__"]).items()) if not name.startswith("_")]
+
+
+def _lines(step: str) -> str:
+    """Code with what it is for, which comes before it where a line would be too long."""
+    code, _, about = step.partition("  # ")
+    return step if len(step) <= _LETTERS or not about else f"# {about}\n{code}"
 
 
 def _table(table: Rows) -> str:

@@ -71,7 +71,7 @@ def next_steps(arm: Arm, name: str) -> list[str]:
     if task is None:
         return [f"{name}.forward_kinematics({[0.0] * arm.n})  # not redundant for any task of its kind"]
     return [
-        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves, configuration by configuration",
+        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves",
         f"hf.assess({name}, task={task!r}, poses=200)  # and over a region about its home",
     ]
 

@@ -39,7 +39,7 @@ def figures(t: Trajectory) -> dict[str, Figure]:
     unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
     panel = Panel(t.time, t.value, f"{t.objective.name}{unit}", f"{capitalised(t.objective.better)} is better")
     caption = f"{t.arm.name}, {t.method}, {len(t.time):,} samples"
-    return {"motion": drawn_motion(moving, views_of(t.arm, chain), panel, caption, "time, s")}
+    return {"motion": drawn_motion(moving, views_of(t.arm, chain), panel, caption, "time, s", wanted="path asked for")}
 
 
 @says("drawing the report")
