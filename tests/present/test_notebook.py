@@ -98,6 +98,7 @@ ELSEWHERE = {
     "ConvergenceDesigns",
     "Designs",
     "FreeSwing",
+    "Merged",
     "Orbit",
     "PhysicalRun",
     "Study",

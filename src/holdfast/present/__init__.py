@@ -11,7 +11,7 @@ from typing import Any
 # `results`. Of what an analysis is asked with there are words alone, for notebooks.
 PRESENTERS = {
     "Analysis": ("teleop.numbers", "teleop.page"),
-    "Arm": ("arm.console", ""),
+    "Arm": ("arm.console", "arm.view"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),
@@ -23,6 +23,7 @@ PRESENTERS = {
     "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
     "LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
+    "Merged": ("studies.console", ""),
     "Objective": ("indices.notebook", ""),
     "Optima": ("solvers.console", "solvers.console"),
     "Orbit": ("equilibria.orbit", ""),
@@ -33,7 +34,7 @@ PRESENTERS = {
     "Runs": ("simulation.console", "simulation.run"),
     "SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
     "StationaryPoints": ("equilibria.points", ""),
-    "Study": ("studies.console", ""),
+    "Study": ("studies.console", "studies.page"),
     "TargetMeasures": ("convergence.targets", "convergence.targets"),
     "Task": ("arm.task", ""),
     "TaskChoice": ("teleop.choice", "teleop.bank"),

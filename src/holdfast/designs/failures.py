@@ -23,7 +23,7 @@ _TRIES = 40  # random starts of inverse kinematics for each configuration that i
 
 
 @dataclass(frozen=True, eq=False)
-class Arrivals:
+class Convergences:
     """How D designs do at T targets, after C failures of each joint.
 
     Attributes:
@@ -51,7 +51,7 @@ class Arrivals:
         return np.asarray(share)
 
     @property
-    def arrival(self) -> Array:
+    def overall(self) -> Array:
         """(D,) mean over the targets, 0 for those out of reach."""
         return np.asarray(np.nan_to_num(self.by_target).mean(axis=1))
 
@@ -77,7 +77,7 @@ class Failures:
         self._guesses = generator.uniform(low, high, (len(poses), count * _TRIES, low.size))
         self._starts = generator.uniform(low, high, (len(poses), count, low.size, low.size))
 
-    def of(self, values: Array) -> Arrivals:
+    def of(self, values: Array) -> Convergences:
         """What becomes of them with designs (D, k)."""
         joints, poses = self.law.joints, self.poses
         n, shape = joints.arm.n, (len(values), len(poses), self.count)
@@ -102,7 +102,7 @@ class Failures:
         converged[rows] = near
         ends = np.zeros((len(values), len(Outcome)), dtype=np.int64)
         np.add.at(ends, (design, np.where(near, Outcome.CONVERGED, runs.code)), 1)
-        return Arrivals(converged, known, ends)
+        return Convergences(converged, known, ends)
 
     def _configurations(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:
         """(D, T, C, n) configurations at the targets within the limits, and (D, T, C) which there are."""
