@@ -46,7 +46,7 @@ def check_card(thing, figure=True, **others):
             patch.setattr(__main__, name, value, raising=False)
         card = Card(thing._repr_html_())
         assert "table" in card.seen
-        assert ("img" in card.seen) == figure
+        assert bool({"img", "svg"} & set(card.seen)) == figure
         steps = [line.partition("  #")[0] for line in card.code.splitlines() if not line.startswith("#")]
         assert 1 <= len(steps) <= 3
         assert all("mine" in step for step in steps)

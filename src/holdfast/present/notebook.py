@@ -13,7 +13,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
-from holdfast.result import Result, Shown
+from holdfast.result import Shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,8 +30,7 @@ def card(thing: Shown) -> str:
     parts = [f"<p><strong>{escape(first)}</strong></p>"]
     parts += [f"<p>{escape(line)}</p>" for line in others[: _SENTENCES - 1]]
     parts.append(_table(thing._presented("key_table")))
-    if isinstance(thing, Result):
-        parts += [_picture(figure, f"{about}: {first}") for about, figure in thing._presented("main_figure").items()]
+    parts.append(thing._presented("picture", first))
     if steps := thing._presented("next_steps", name):
         code = escape("\n".join(map(_lines, steps)), quote=False)
         parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
@@ -72,7 +71,8 @@ def _cell(text: str) -> str:
     return escape(text).replace("\n", "<br>")
 
 
-def _picture(figure: Figure, about: str) -> str:
+def image(figure: Figure, about: str) -> str:
+    """The figure as an ``<img>`` as wide as its cell at most; ``about`` is for people who cannot see it."""
     data, size = png(figure)
     look = f"width:{size['width']:.0f}px;max-width:100%;background:white;padding:.4em;box-sizing:border-box"
     return f'<img style="{look}" alt="{escape(about)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'

@@ -163,6 +163,14 @@ def next_steps(result: Result, name: str) -> list[str]:
     return [f"{name}.describe()"]
 
 
+def picture(thing: Shown, about: str) -> str:
+    """The main figure of a result as HTML, if it has one."""
+    from holdfast.present.notebook import image
+
+    drawn = thing._presented("main_figure") if isinstance(thing, Result) else {}
+    return "".join(image(figure, f"{name}: {about}") for name, figure in drawn.items())
+
+
 def in_notebook(thing: Shown) -> str:
     """The answer, a table of key numbers, the main figure, and what to ask next."""
     from holdfast.present.notebook import card
