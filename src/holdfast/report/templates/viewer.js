@@ -8,7 +8,7 @@ void main() {
   p = world.xyz;
   gl_Position = seen * world;
 }`,x=`
-precision mediump float;
+precision highp float;
 uniform vec3 color, eye, up, side;
 uniform float opacity;
 varying vec3 n, p;
@@ -34,7 +34,7 @@ void main() {
   a.z -= 2e-4 * a.w;
   gl_Position = a;
 }`,C=`
-precision mediump float;
+precision highp float;
 uniform vec3 color;
 uniform float opacity;
 void main() { gl_FragColor = vec4(color, 1.0) * opacity; }`,w=`
@@ -43,7 +43,7 @@ uniform mat4 seen;
 uniform float width;
 varying vec3 c;
 void main() { c = paint; gl_Position = seen * vec4(place, 1.0); gl_PointSize = width; }`,T=`
-precision mediump float;
+precision highp float;
 varying vec3 c;
 void main() {
   float r = length(gl_PointCoord - 0.5);
