@@ -97,7 +97,7 @@ WORK = {
     ),
     "W10 experiment of 2 simulated people, recorded and replayed": (
         "from holdfast.teleop import read_protocol, replay, simulate_experiment\nprotocol = read_protocol(); protocol.plants",
-        "with tempfile.TemporaryDirectory() as t, simulate_experiment(Path(t) / 'study', protocol, 2, 0) as r: replay(r)",
+        "with tempfile.TemporaryDirectory() as t, simulate_experiment(Path(t) / 'study', protocol, 2, seed=0) as r: replay(r)",
         1,
     ),
     "W10 control cycle, failure-tolerant, planar 3R": (
@@ -111,8 +111,9 @@ WORK = {
         "try: from holdfast.studio.scene import bars, machine\nexcept ImportError: from holdfast.studio import bars, machine\n"
         "bars_html, losses_html, Machine = bars.bars_html, bars.losses_html, machine.Machine\n"
         "arm = hf.arms.load('panda'); m = Machine(arm, as_task(arm, 'pose')); q = draw(arm, 300); up = ('healthy',) * 7\n"
+        "frames = getattr(arm, 'frames', None) or m.frames\n"
         "def page(x):\n"
-        "    m.frames(x); found = m.read(x, (), 'relative-manipulability', 'torque')\n"
+        "    frames(x); found = m.read(x, (), 'relative-manipulability', 'torque')\n"
         "    bars_html(found.bars, '', arm.joint_names, up); bars_html(found.weights, '', arm.joint_names, up)\n"
         "    losses_html(arm, m.task, found, ())",
         "for x in q: page(x)",
@@ -156,7 +157,7 @@ print(json.dumps([cold - best, best]))
 
 def run(checkout: Path, setup: str, work: str, cache: str, level: str) -> tuple[float, float]:
     """Seconds of a cold start beyond the work, and of the work."""
-    program = f"SETUP, WORK, BENCHMARKS = {setup!r}, {work!r}, {str(Path(__file__).parent)!r}\n{PROGRAM}"
+    program = f"SETUP, WORK, BENCHMARKS = {setup!r}, {work!r}, {str(checkout / 'benchmarks')!r}\n{PROGRAM}"
     kept = {**os.environ, "PYTHONPATH": str(checkout / "src"), "HOLDFAST_CACHE": cache, "XDG_CACHE_HOME": cache}
     done = subprocess.run(
         [sys.executable, "-c", program], env={**kept, "HOLDFAST_LEVEL": level}, check=True, capture_output=True, text=True

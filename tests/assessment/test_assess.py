@@ -597,3 +597,10 @@ def test_what_it_says_in_sentences(three, tmp_path):
     with pytest.raises(KeyboardInterrupt):
         assess(three, THREE, task="planar", poses=10, store=tmp_path / "run", progress=stop)
     assert load(tmp_path / "run").describe()[:2] == ["Nothing has been computed yet.", "Not finished: 0 of 10 poses."]
+
+
+def test_the_region_of_an_arm_is_that_of_the_command_line():
+    # A built-in arm by its numbers, whoever loaded it; the paper's arm in the paper's region.
+    pa10 = hf.arms.load("pa10-9dof")
+    assert hf.assess(pa10, poses=4, seed=1).region.name == "Abdi et al. 2012, section V.B"
+    assert hf.assess(hf.arms.load("planar-3r"), task="planar", poses=4, seed=1).region.name == "default region"

@@ -174,7 +174,7 @@ def test_bound_and_threshold_are_those_of_the_arm(tmp_path: Path) -> None:
 def test_structural_failure_is_said_first() -> None:
     html = text("structural")
     assert "No pose of the region tolerates every failure" in headline(html)
-    assert html.index('class="callout bad"') < html.index("Key numbers")
+    assert html.index('class="callout bad"') < html.index("<h2>Key numbers")
     assert "once joint4 (joint 4) locks" in html
     rows = re.findall(r"<tr><th[^>]*>([\w() ]+)</th>(.*?)</tr>", html)
     fatal = {n: [k for k, c in enumerate(re.findall(r"<td.*?</td>", cells)) if "fatal" in c] for n, cells in rows}

@@ -117,7 +117,7 @@ def test_a_cell_is_the_assessment_of_the_same_options(folder, tmp_path):
     study = Study.create(tmp_path / "out", asked.name, asked.seed, cells=asked.cells, source=asked.text)
     study.run(asked.cells, Threads(1))
     arm = hf.arms.load("planar-3r")
-    run = hf.assess(arm, default_region("planar-3r", arm), task="planar", poses=1100, seed=5, restarts=5)
+    run = hf.assess(arm, default_region(arm), task="planar", poses=1100, seed=5, restarts=5)
     found = hf.load(study.folder(0))
     for name in run.dataset:
         assert found.dataset[name].values.tobytes() == run.dataset[name].values.tobytes(), name

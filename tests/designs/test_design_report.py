@@ -60,7 +60,9 @@ def found(rng) -> hf.Designs:
 def test_its_figures_are_given(found):
     assert list(found.figures()) == ["front", "arms"]
     assert list(replace(found, best=0).figures()) == ["front"]
-    assert found._repr_html_().count("<svg ") == 1
+    card = found._repr_html_()
+    assert card.count("<img ") == 1
+    assert "guaranteed relative manipulability" in card
 
 
 def test_the_page_says_what_to_build(found):
@@ -99,7 +101,7 @@ def test_the_command_is_the_search(found):
 def test_nothing_better_and_nothing_at_all(found, rng):
     same = replace(found, best=0)
     assert same.headline.startswith("Nothing that guarantees more than the given arm was found: for 95 % of the poses")
-    assert "Before and after" not in [s.title for s in report.build(same).sections]
+    assert "Before and after" not in [s.title for _, s in report.build(same).parts]
     none = Checked(Distribution.of([], "larger", 200), Interval(value=0.0, low=0.0, high=0.0, confidence=0.95))
     lost = replace(found, checked=Check(none, none, 0.0))
     assert "guarantees any relative manipulability" in lost.headline

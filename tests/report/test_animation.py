@@ -41,7 +41,6 @@ def test_it_is_well_formed_and_reaches_for_nothing(motion):
         page.Page("t", "h", [page.Section("", [page.Picture(animation(motion, [SIDE, TOP], "motion", "An arm"), "c")])])
     )
     check(html, scripts=1)
-    assert html.count("</script>") == 1
     assert "&lt;b&gt;" in html
 
 

@@ -6,4 +6,5 @@ from holdfast.arm.machine import Link as Link
 from holdfast.arm.model import Arm as Arm
 from holdfast.arm.poses import check_poses as check_poses
 from holdfast.arm.poses import pose_numbers as pose_numbers
+from holdfast.arm.postures import generic_configuration as generic_configuration
 from holdfast.arm.task import as_task as as_task

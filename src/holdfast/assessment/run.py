@@ -20,7 +20,7 @@ from holdfast.engine.store import Store
 from holdfast.errors import InputError, StoreError
 from holdfast.indices.index import Index, by_name
 from holdfast.notice import says
-from holdfast.regions.region import Region, Sampling
+from holdfast.regions.region import Region, Sampling, default_region
 
 _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 
@@ -29,7 +29,7 @@ _KEEP = 2_000_000  # rows held in memory unless asked otherwise
 @says("assessing poses")
 def assess(
     arm: Arm,
-    region: Region,
+    region: Region | None = None,
     index: Index | str = "relative-manipulability",
     *,
     poses: int | None = None,
@@ -54,7 +54,7 @@ def assess(
 
     Args:
         arm: The arm.
-        region: Which poses, or configurations.
+        region: Which poses, or configurations. Default: that of the paper for its arm, else a box around the arm's home.
         index: An index of that arm, or its name.
         poses: Number of poses. Default: 2000, or of a list of poses each once; see :meth:`Region.from_poses`.
         seed: The same seed gives the same result, whatever the number of threads or chunks.
@@ -90,6 +90,7 @@ def assess(
                 f"the index is for task {own.describe()}, asked for is {other.describe()}; make it with the task to assess, or "
                 "leave task out"
             )
+    region = default_region(arm) if region is None else region
     plan = make_plan(arm, region, index, poses, seed, sampling, restarts, optimise, after_lock, locked, clearance, margin)
     begin = time.monotonic()
     keep = (store is None and plan.poses <= _KEEP) if keep is None else keep

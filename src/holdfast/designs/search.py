@@ -102,7 +102,7 @@ def design(
         if count < least:
             raise InputError(f"{what} is {count}; it must be {least} or more")
     space = design_space(arm, vary)
-    region = _own_region(arm) if region is None else region
+    region = default_region(arm) if region is None else region
     family = Family(space, objective, task, failures=failures, length=length)
     search = _Search(family, region, level, poses, seed)
     plan = {
@@ -214,13 +214,6 @@ def _drawn(region: Region, count: int, seed: int, sampling: Any) -> tuple[Array,
         samples.append(next(blocks))
     s = np.concatenate(samples)[:count]
     return region.poses(s), region.weights(s) if region.weighted(count) else None
-
-
-def _own_region(arm: Arm) -> Region:
-    from holdfast import arms
-
-    known = arm.name in arms.names() and arms.load(arm.name).fingerprint == arm.fingerprint
-    return default_region(arm.name, arm) if known else Region.around(arm)
 
 
 def _beginnings(smooth: Array, reach: Array, values: Array, space: DesignSpace, climbs: int) -> list[tuple[int, float]]:

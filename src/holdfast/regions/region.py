@@ -17,6 +17,7 @@ from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.regions.pose_list import PoseList
 from holdfast.regions.weights import Density, check_weights
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 Sampling = Literal["random", "sobol"]
@@ -50,7 +51,7 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
 
 
 @dataclass(frozen=True)
-class Region:
+class Region(Shown):
     """A distribution of poses (a box in position and angles, a list, a function) or of configurations (a box in the joints).
 
     Use :meth:`box`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its own seed,
@@ -462,14 +463,17 @@ def builtin_region(arm: str) -> Region | None:
     return Region.box([0.968, 0.0, 0.041], 0.5, [0.0, np.deg2rad(174.0), 0.0], quarter, name="Abdi et al. 2012, section V.B")
 
 
-def default_region(spec: str, arm: Arm) -> Region:
+def default_region(arm: Arm, spec: str | None = None) -> Region:
     """The region of an arm for which none is given: the paper's for the paper's arm, else around its home.
 
     Args:
-        spec: What the arm was called: a built-in name, or a file.
         arm: The arm.
+        spec: What it was called: a built-in name, or a file. If not given, an arm that equals a built-in one is that one.
     """
     from holdfast import arms
 
-    known = builtin_region(spec)
-    return Region.around(arm, arms.about(spec).home if spec in arms.names() else None) if known is None else known
+    if spec is None and arm.name in arms.names() and arms.load(arm.name).fingerprint == arm.fingerprint:
+        spec = arm.name
+    if spec is None or spec not in arms.names():
+        return Region.around(arm)
+    return builtin_region(spec) or Region.around(arm, arms.about(spec).home)

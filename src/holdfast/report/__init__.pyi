@@ -23,6 +23,7 @@ from holdfast.report.outcomes import spread_figure as spread_figure
 from holdfast.report.outcomes import stack_figure as stack_figure
 from holdfast.report.page import Callout as Callout
 from holdfast.report.page import Code as Code
+from holdfast.report.page import Extra as Extra
 from holdfast.report.page import Page as Page
 from holdfast.report.page import Picture as Picture
 from holdfast.report.page import Section as Section

@@ -125,6 +125,24 @@ def svg(figure: Figure, name: str, about: str) -> Markup:
     return Markup(text.replace("<svg ", f'<svg role="img" aria-label="{escape(about)}" ', 1).strip())
 
 
+def frame(axes: Axes) -> dict[str, Any]:
+    """Where the axes of a finished figure are in its ``<svg>``, for scripts that draw on it.
+
+    Returns:
+        ``box``: left, top, right and bottom in units of the SVG; ``x`` and ``y``: both ends; ``log``: the x axis is.
+    """
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    box = axes.get_window_extent().transformed(figure.dpi_scale_trans.inverted())
+    tall = 72 * figure.get_figheight()
+    return {
+        "box": [round(x, 2) for x in (72 * box.x0, tall - 72 * box.y1, 72 * box.x1, tall - 72 * box.y0)],
+        "x": [float(x) for x in axes.get_xlim()],
+        "y": [float(y) for y in axes.get_ylim()],
+        "log": axes.get_xscale() == "log",
+    }
+
+
 def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
     """Write the figure as PNG.
 

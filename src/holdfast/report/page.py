@@ -1,12 +1,19 @@
-"""One-file HTML pages from a few kinds of blocks; every text is escaped unless it is ``Markup``."""
+"""One-file HTML pages from a few kinds of blocks; every text is escaped unless it is ``Markup``.
+
+All pages have one skeleton: the answer, its evidence, how it was computed, the same run again. Without JavaScript everything
+is there to be read; with it tables are sorted, the theme is chosen, and :class:`Extra` answers back.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import KW_ONLY, dataclass, field
+import json
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass
 from functools import cache
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
@@ -14,7 +21,9 @@ from markupsafe import Markup
 from holdfast.files.output import replaced
 
 Cell = str | Markup
+FOOTER = "Written by holdfast. This file needs no network and no other file."
 _LONG = 15  # letters of a cell that is broken where need be
+_SHORT = 16  # rows of a table that is kept on one sheet of paper
 
 
 @dataclass(frozen=True)
@@ -47,6 +56,7 @@ class Table:
         marks: Columns that are centred.
         caption: Above the table.
         wide: Takes the width of the page.
+        sortable: By its head, where there is JavaScript; None: if it has a head and each of three rows or more has a name.
     """
 
     rows: Sequence[Sequence[Cell]]
@@ -56,11 +66,25 @@ class Table:
     marks: frozenset[int] = frozenset()
     caption: Cell = ""
     wide: bool = False
+    sortable: bool | None = None
     kind: ClassVar[str] = "table"
 
     def look(self, column: int) -> str:
         """Class of the cells of a column."""
         return "number" if column in self.numbers else "mark" if column in self.marks else ""
+
+    @property
+    def classes(self) -> str:
+        """Classes of the table."""
+        named = bool(self.head) and len(self.rows) > 2 and all(row[0] for row in self.rows)
+        looks = {
+            "wide": self.wide,
+            "keys": not self.head,
+            "many": len(self.head) > 7,
+            "short": len(self.rows) < _SHORT,
+            "sortable": named if self.sortable is None else self.sortable,
+        }
+        return " ".join(name for name, has in looks.items() if has)
 
 
 @dataclass(frozen=True)
@@ -81,27 +105,58 @@ class Code:
     kind: ClassVar[str] = "code"
 
 
-Block = Text | Callout | Table | Picture | Code
+@dataclass(frozen=True)
+class Extra:
+    """Controls that answer back; without JavaScript, and on paper, they are not seen.
+
+    Attributes:
+        script: ``templates/SCRIPT.js``, which sets ``extras.SCRIPT = function (box, data) {...}``.
+        data: What it knows, in types that JSON has.
+        html: The controls.
+        label: What they do, for people who cannot see them.
+    """
+
+    script: str
+    data: Mapping[str, Any]
+    html: Markup
+    _: KW_ONLY
+    label: str
+    kind: ClassVar[str] = "extra"
+
+
+Block = Text | Callout | Table | Picture | Code | Extra
 
 
 @dataclass(frozen=True)
 class Section:
-    """Blocks under a heading; a sheet begins a new page when it is printed."""
+    """Blocks under a heading; a sheet begins a new page when it is printed.
+
+    Attributes:
+        title: The heading, and its entry in the contents.
+        blocks: What is in it; a page leaves out a section of none.
+        sheet: See above.
+        anchor: Its place in the page, for links; made from the title if not given.
+    """
 
     title: str
     blocks: Sequence[Block]
     sheet: bool = False
+    _: KW_ONLY
+    anchor: str = ""
 
 
 @dataclass(frozen=True)
 class Page:
-    """A report: the answer first, then why.
+    """A report: the answer first, then why, then how.
 
     Attributes:
         title, subtitle: At the top.
-        headline: The answer in one sentence.
-        sections: In order.
+        headline: The answer in one sentence: never an uninformative zero.
+        sections: The evidence, in order.
         warnings: Before everything else.
+        facts: The answer in a few numbers, each with what it is.
+        method: How it was computed.
+        again: The command that does it again, or blocks.
         footer: At the end.
     """
 
@@ -110,8 +165,35 @@ class Page:
     sections: Sequence[Section]
     _: KW_ONLY
     subtitle: Cell = ""
-    warnings: Sequence[Callout] = field(default_factory=tuple)
-    footer: Cell = ""
+    warnings: Sequence[Callout] = ()
+    facts: Sequence[tuple[Cell, Cell]] = ()
+    method: Sequence[Block] = ()
+    again: str | Sequence[Block] = ()
+    footer: Cell = FOOTER
+
+    @property
+    def parts(self) -> list[tuple[str, Section]]:
+        """The sections that hold something, each with an anchor of its own."""
+        again = self.again
+        if isinstance(again, str):
+            again = [Code(again)] if again else []
+        last = [
+            Section("How it was computed", self.method, anchor="method"),
+            Section("The same run again", again, anchor="again"),
+        ]
+        found: list[tuple[str, Section]] = []
+        seen: Counter[str] = Counter()
+        for section in (s for s in [*self.sections, *last] if s.blocks):
+            name = section.anchor or re.sub(r"[^a-z0-9]+", "-", section.title.lower()).strip("-") or "part"
+            seen[name] += 1
+            found.append((name if seen[name] == 1 else f"{name}--{seen[name]}", section))
+        return found
+
+    @property
+    def scripts(self) -> list[str]:
+        """Names of the scripts of its extras."""
+        extras = [b.script for _, section in self.parts for b in section.blocks if isinstance(b, Extra)]
+        return list(dict.fromkeys(extras))
 
 
 def _breakable(cell: Cell) -> Cell:
@@ -130,11 +212,24 @@ def environment() -> Environment:
         lstrip_blocks=True,
     )
     made.filters["breakable"] = _breakable
+    made.filters["scripted"] = scripted
+    made.globals["source"] = _source
     return made
 
 
+def scripted(data: Any) -> Markup:
+    """Data as JSON inside a script, where nothing is escaped, so that nothing may end it."""
+    return Markup(json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/"))
+
+
+def _source(file: str) -> Markup:
+    loader = environment().loader
+    assert loader is not None
+    return Markup(loader.get_source(environment(), file)[0])
+
+
 def render(page: Page) -> str:
-    """The page as HTML that needs nothing else: no files, no network, and no scripts but those of an animation in it."""
+    """The page as HTML that needs nothing else: no files, no network."""
     return environment().get_template("page.html").render(page=page)
 
 

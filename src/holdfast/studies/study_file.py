@@ -254,7 +254,7 @@ def _assess_cells(model: _File, block: _Assess, spec: str, arm: Arm, label: str,
     for index, task, region, failures in itertools.product(block.indices, block.tasks, block.regions, block.failures):
         rows_of_task = read_task(None if task == _DEFAULT else task, spec, arm, "assess.tasks")
         measure = _index(index, arm, rows_of_task, read_failures(arm, failures), block.length)
-        place = default_region(spec, arm) if region == _DEFAULT else Region.load(folder / region)
+        place = default_region(arm, spec) if region == _DEFAULT else Region.load(folder / region)
         plan = make_plan(
             arm,
             place,
@@ -316,7 +316,7 @@ def _design_cells(model: _File, given: _Designs, folder: Path) -> Iterator[Cell]
             raise InputError(
                 f"assess.indices: {index} is better when smaller, and a guaranteed value must be larger; leave it out"
             )
-        t, place = measure.task, default_region(spec, arm) if region == _DEFAULT else Region.load(folder / region)
+        t, place = measure.task, default_region(arm, spec) if region == _DEFAULT else Region.load(folder / region)
         region_poses(place, 1, 0)  # says if it has none
         plan: dict[str, Any] = {
             "kind": "designs",

@@ -234,4 +234,4 @@ def read_region(path: Path | None, spec: str, arm: Arm) -> Region:
     """--region, or a region about the arm's home; for the paper's arm the paper's."""
     from holdfast.regions.region import Region, default_region
 
-    return default_region(spec, arm) if path is None else Region.load(path)
+    return default_region(arm, spec) if path is None else Region.load(path)

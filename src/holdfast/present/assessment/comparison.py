@@ -47,15 +47,15 @@ def build(comparison: Comparison) -> Page:
         Section("How the index is distributed", _distributions(c, first)),
         Section("Which joint deserves a redundant motor or brake", _upgrades(c, first)),
         Section("About each candidate", [_candidates(c)]),
-        Section("How it was computed", _method(c, first)),
     ]
     return Page(
         f"Fault tolerance of {len(c.names)} candidates",
         _headline(c, first),
-        [s for s in sections if s.blocks],
+        sections,
         subtitle=first.a.region.name,
         warnings=alerts,
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=_method(c, first),
+        again=_again(c),
     )
 
 
@@ -285,16 +285,17 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
     if shapes and any(x.optimised is not None for x in c.assessments):
         what = "; ".join(f"{name}: {shape}" for name, shape in shapes)
         facts.append(("Clearance", f"best configurations keep the arm clear of itself, by capsules ({what})"))
-    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
+    return [Table([[k, v] for k, v in facts])]
+
+
+def _again(c: Comparison) -> list[Block]:
+    """The command of each candidate, and the files they need."""
+    blocks: list[Block] = []
     for name, run in zip(c.names, c.assessments, strict=True):
-        blocks += [_again(name, run), *capsule_files(run)]
-    if a.region.storable:
-        blocks += region_files(a.region)
-    return blocks
-
-
-def _again(name: str, a: Assessment) -> Block:
-    command, note = command_line(a)
-    if command is None:
-        return Text(f"{name}: {note}")
-    return Code(command, f"{name} alone again{f' ({note})' if note else ''}:")
+        command, note = command_line(run)
+        blocks.append(
+            Text(f"{name}: {note}") if command is None else Code(command, f"{name} alone{f' ({note})' if note else ''}:")
+        )
+        blocks += capsule_files(run)
+    region = c.assessments[0].region
+    return [*blocks, *(region_files(region) if region.storable else [])]

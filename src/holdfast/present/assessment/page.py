@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from holdfast.assessment.assessment import Assessment
 from holdfast.assessment.single_points import explain
+from holdfast.present.assessment import method
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures as drawing
 from holdfast.report import page, scenes
@@ -28,7 +29,6 @@ SECTIONS = (
     "worst",
     "upgrades",
     "places",
-    "method",
 )
 
 
@@ -47,10 +47,11 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
     return Page(
         f"Fault tolerance of {a.arm.name}",
         facts.headline,
-        [s for s in parts if s.blocks],
+        parts,
         subtitle=a.region.name,
         warnings=_alerts(facts),
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=method.blocks(facts),
+        again=method.again(a),
     )
 
 

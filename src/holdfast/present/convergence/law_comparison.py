@@ -28,7 +28,7 @@ from holdfast.present.convergence.law_rows import (
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.figures import svg
-from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
+from holdfast.report.page import Block, Callout, Cell, Page, Picture, Section, Table, Text
 from holdfast.simulation.runs import Outcome
 from holdfast.words import counted, fixed, number, percent
 
@@ -45,6 +45,11 @@ def figures(c: LawComparison) -> dict[str, Figure]:
     return found
 
 
+def main_figure(c: LawComparison) -> dict[str, Figure]:
+    """How the motions ended."""
+    return {"outcomes": outcome_figure(c)}
+
+
 @says("drawing the report")
 def write(c: LawComparison, path: Path, command: str = "") -> Path:
     """The page."""
@@ -58,15 +63,15 @@ def build(c: LawComparison, command: str = "") -> Page:
         Section(f"What the others gain over {c.names[0]}", _gains(c)),
         Section("How far off the target", _errors(c)),
         Section("What it costs while nothing has failed", _healthy(c)),
-        Section("How it was computed", _method(c, command)),
     ]
     return Page(
         f"Control laws after a lock that nobody has noticed: {c.arm.name}",
         headline(c),
-        [s for s in sections if s.blocks],
+        sections,
         subtitle=c.about or f"{counted(len(c), 'motion')}, task {c.laws[0].task.describe()}",
         warnings=_alerts(c),
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=_method(c),
+        again=command,
     )
 
 
@@ -210,7 +215,7 @@ def _healthy(c: LawComparison) -> list[Block]:
     return [Picture(image, caption), Table(rows, head, frozenset(range(1, 7)))]
 
 
-def _method(c: LawComparison, command: str) -> list[Block]:
+def _method(c: LawComparison) -> list[Block]:
     found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
     first = c.runs[0]
     facts: list[tuple[Cell, Cell]] = [("Motions", c.about or "as they were given")]
@@ -227,10 +232,7 @@ def _method(c: LawComparison, command: str) -> list[Block]:
         ("Fingerprint of the arm", c.arm.fingerprint),
         ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
     ]
-    blocks: list[Block] = [Table([[a, b] for a, b in facts])]
-    if command:
-        blocks.append(Code(command, "The same comparison again:"))
-    return blocks
+    return [Table([[a, b] for a, b in facts])]
 
 
 def _reasons(c: LawComparison, name: str) -> str:

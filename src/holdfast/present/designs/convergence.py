@@ -20,7 +20,7 @@ from holdfast.probability.intervals import Difference, Interval
 from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.page import Block, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import fixed, percent
+from holdfast.words import capitalised, fixed, percent
 
 _MEANINGS = {
     "guaranteed": "fraction of the targets, by area, that the arm reaches whatever lock leaves them within reach",
@@ -66,10 +66,10 @@ def build(d: ConvergenceDesigns) -> Page:
             Section("What that gains", _gains(d)),
             Section("Which parameter matters", [_numbers(d)]),
             Section("The best arm as a file", _file(d)),
-            Section("How it was computed", _method(d)),
         ],
         subtitle=f"{d.law.describe()}; {', '.join(d.space.names)}",
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=_method(d),
+        again=_again(d),
     )
 
 
@@ -154,11 +154,14 @@ def _method(d: ConvergenceDesigns) -> list[Block]:
     found = p["versions"]
     facts.append(("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {p['python']}", str(p["machine"])])))
     facts.append(("Fingerprint of the given arm", Markup("<code>{}</code>").format(d.law.arm.fingerprint)))
-    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
-    if d.exact or (s["targets"], s["failures"]) == (TARGETS, FAILURES):
-        line, remark = command(d)
-        blocks.append(Code(line, "The same search again" + (f" ({remark}):" if remark else ":")))
-    return blocks
+    return [Table([[k, v] for k, v in facts])]
+
+
+def _again(d: ConvergenceDesigns) -> list[Block]:
+    if not d.exact and (d.searched["targets"], d.searched["failures"]) != (TARGETS, FAILURES):
+        return []
+    line, remark = command(d)
+    return [Code(line, remark and f"{capitalised(remark)}:")]
 
 
 def command(d: ConvergenceDesigns) -> tuple[str, str]:

@@ -27,7 +27,7 @@ from holdfast.report import figures as drawing
 from holdfast.report import page
 from holdfast.report.figures import Curve, Mark
 from holdfast.report.page import Block, Callout, Cell, Code, Page, Picture, Section, Table, Text
-from holdfast.words import as_given, counted, either, number, percent
+from holdfast.words import as_given, capitalised, counted, either, number, percent
 
 Array = NDArray[np.float64]
 
@@ -99,14 +99,14 @@ def build(designs: Designs) -> Page:
         Section("What is guaranteed against how far the arm reaches", _front(d, drawn["front"])),
         Section("How the index is distributed, before and after", _distributions(d)),
         Section("The best arm as a file", _file(d)),
-        Section("How it was computed", _method(d)),
     ]
     return Page(
         f"Designs of {d.space.arm.name}",
         d.headline,
-        [s for s in sections if s.blocks],
+        sections,
         subtitle=f"{d.region.name}; {', '.join(d.space.names)}",
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=_method(d),
+        again=_again(d),
     )
 
 
@@ -332,7 +332,9 @@ def _method(d: Designs) -> list[Block]:
     found = p["versions"]
     facts.append(("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {p['python']}", str(p["machine"])])))
     facts.append(("Fingerprint of the given arm", Markup("<code>{}</code>").format(d.space.arm.fingerprint)))
+    return [Table([[k, v] for k, v in facts])]
+
+
+def _again(d: Designs) -> list[Block]:
     line, remark = command(d)
-    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
-    blocks.append(Code(line, "The same search again" + (f" ({remark}):" if remark else ":")))
-    return [*blocks, *(region_files(d.region) if d.region.storable else [])]
+    return [Code(line, remark and f"{capitalised(remark)}:"), *(region_files(d.region) if d.region.storable else [])]

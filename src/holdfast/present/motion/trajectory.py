@@ -17,7 +17,7 @@ from holdfast.present.stick_figure import views_of
 from holdfast.provenance import versions
 from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
-from holdfast.report.page import Block, Callout, Code, Page, Picture, Section, Table, Text
+from holdfast.report.page import Block, Callout, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
 from holdfast.words import as_given, capitalised
 
@@ -53,15 +53,15 @@ def build(t: Trajectory, command: str = "") -> Page:
         Section("Torques, and how slow is slow enough", f.torques(slowness)),
         Section("Curvature along the self-motion", f.curvature()),
         Section("Error of the end effector", f.hand()),
-        Section("How it was computed", f.method(command)),
     ]
     return Page(
         f"Motion of {t.arm.name} along a path",
         f.headline,
-        [s for s in parts if s.blocks],
+        parts,
         subtitle=f"{t.method}, {t.objective.name}, {t.objective.better} is better",
         warnings=alerts,
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=f.method(),
+        again=command,
     )
 
 
@@ -302,8 +302,8 @@ class _Facts:
         ]
         return [Table(rows, ("what", "from, s", "to, s", ""), frozenset({1, 2}), wide=True)]
 
-    def method(self, command: str) -> list[Block]:
-        """How it was computed, and the command that does it again."""
+    def method(self) -> list[Block]:
+        """How it was computed."""
         t = self.t
         found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
         rows = [
@@ -318,7 +318,4 @@ class _Facts:
             ("Fingerprint of the arm", Markup("<code>{}</code>").format(t.arm.fingerprint)),
             ("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {platform.python_version()}"])),
         ]
-        blocks: list[Block] = [Table(rows)]
-        if command:
-            blocks.append(Code(command, "The same motion again:"))
-        return blocks
+        return [Table(rows)]

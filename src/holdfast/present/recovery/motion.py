@@ -47,8 +47,9 @@ def write(recovery: Recovery, path: Path, command: str = "") -> Path:
     checked = (
         [page.Section("Independent replay", [page.Text(capitalised(x)) for x in checks(recovery)])] if len(recovery.q) else []
     )
-    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, command))]
-    return page.write(page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked), path)
+    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery))]
+    made = page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked, again=command)
+    return page.write(made, path)
 
 
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:

@@ -19,7 +19,7 @@ from holdfast.report import page
 from holdfast.report.animations import Motion, animation, shown_seconds
 from holdfast.report.figures import save_png, svg
 from holdfast.report.motions import Panel, drawn_motion, motion_figure
-from holdfast.report.page import Block, Code, Page, Picture, Section, Table
+from holdfast.report.page import Block, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs
 from holdfast.words import number
@@ -177,12 +177,11 @@ class _RunReport:
             Section("The motion", [self._animation()]),
             Section("The error of the end effector", [self._error()]),
             Section("Joint positions", [self._joints()]),
-            Section("In numbers", self._numbers(command)),
+            Section("In numbers", self._numbers()),
         ]
         subtitle = f"{self.runs.law.describe()}; locked: {', '.join(self.standing) or 'no joint'}"
         title = f"{self.arm.name} after a lock that its controller does not know of"
-        footer = "Written by holdfast. This file needs no network and no other file."
-        return page.write(Page(title, self.headline, sections, subtitle=subtitle, footer=footer), file)
+        return page.write(Page(title, self.headline, sections, subtitle=subtitle, method=self._method(), again=command), file)
 
     def _animation(self) -> Picture:
         motion = self.motion
@@ -221,21 +220,23 @@ class _RunReport:
         image = small_multiples(self.seen.time, panels, "Joint positions over time", self._xlabel)
         return Picture(image, "Joint positions; dashed: a limit, where one is near.")
 
-    def _numbers(self, command: str) -> list[Block]:
+    def _numbers(self) -> list[Block]:
         size = self.size
-        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
         rows = [
             ("Error at the end", f"{number(float(self._of('error')))} {size}"),
             ("Least error that the failed arm can have", f"{number(self.least)} {size}, as far as was found"),
             ("Least error on the way", f"{number(float(self._of('closest')))} {size}"),
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
             ("Took", f"{number(float(self._of('time')))} {self.unit}"),
+        ]
+        return [Table(rows)]
+
+    def _method(self) -> list[Block]:
+        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
+        rows = [
             ("Law", self.runs.law.describe()),
             ("Arm", self.arm.provenance),
             ("Fingerprint of the arm", Markup("<code>{}</code>").format(self.arm.fingerprint)),
             ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
         ]
-        blocks: list[Block] = [Table([[a, b] for a, b in rows])]
-        if command:
-            blocks.append(Code(command, "The same run again:"))
-        return blocks
+        return [Table(rows)]

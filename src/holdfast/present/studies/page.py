@@ -68,16 +68,16 @@ def build(study: Study) -> Page:
         Section("Reaching the target with a locked joint that nobody has noticed", _laws(laws)),
         Section("Starts that still reach the target", _others(study, "workspace", results.workspace, "starts", "percent")),
         Section("Tasks that the computer drives", _others(study, "bank", results.bank, "sets of tasks", "percent, or cycles")),
-        Section("How it was computed", _provenance(study, found)),
     ]
     arms = list(dict.fromkeys(c["labels"]["arm"] for c in study.cells))
     return Page(
         study.name,
         " ".join([*([headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
-        [s for s in sections if s.blocks],
+        sections,
         subtitle=f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
         warnings=alerts,
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=_provenance(study, found),
+        again=_again(study),
     )
 
 
@@ -379,11 +379,18 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
     facts.append(
         ("Intervals", "95 %: exact (Clopper-Pearson) for fractions of poses; betting for means over motions; DKW for curves")
     )
-    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
+    return [Table([[k, v] for k, v in facts])]
+
+
+def _again(study: Study) -> list[Block]:
+    blocks: list[Block] = [Text("Same file, same versions, same kind of processor: the same bits.", quiet=True)]
     if study.source:
         lines = [x for x in study.source.splitlines() if x.strip() and not x.lstrip().startswith("#")]
-        blocks.append(Code("\n".join(lines), "The study file; holdfast study run FILE.yaml --out DIR makes it all again:"))
-    blocks.append(Text("Same file, same versions, same kind of processor: the same bits.", quiet=True))
+        files = [
+            Code("holdfast study run study.yaml --out DIR"),
+            Code("\n".join(lines), Markup("with <code>study.yaml</code>:")),
+        ]
+        return [*files, *blocks]
     return blocks
 
 

@@ -99,16 +99,15 @@ def build(
         Section("The healthy arm: what tolerance costs before a failure", healthy(a)),
         Section("How many subjects would have been enough", _power(a)),
         Section("What is missing", _missing(a)),
-        Section("How it was computed", _method(a)),
     ]
     name = "" if protocol is None else protocol.name
     return Page(
         f"Teleoperation with a failed joint: {a.who}",
         _headline(a),
-        [s for s in sections if s.blocks],
+        sections,
         subtitle=name,
         warnings=alerts,
-        footer="Written by holdfast. This file needs no network and no other file.",
+        method=_method(a),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from holdfast.present.assessment import thresholds
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures
 from holdfast.report.page import Block, Picture, Text
@@ -30,4 +31,5 @@ def blocks(f: Facts) -> list[Block]:
     over = "the reached poses" if d.unreached else f"all {f.noun}s"
     total = f"the {percent(1 - d.infinite / d.reached)} with a finite value" if d.infinite else "1"
     text += f" The density is a histogram of {len(f.histogram.heights)} bins over {over} and adds up to {total}."
-    return [Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)]
+    picture = Picture(figures.svg(figure, "distribution", "Density and cumulative distribution of the index"), text)
+    return [picture, *thresholds.blocks(f, figure)]

@@ -36,6 +36,6 @@ def blocks(f: Facts) -> list[Block]:
         Text(
             "A joint is fatal if the task is singular in every configuration once it locks: no choice of configuration helps."
         ),
-        Table(rows, head, frozenset({1}), marks=frozenset(range(2, len(names) + 2)), wide=True),
+        Table(rows, head, frozenset({1}), marks=frozenset(range(2, len(names) + 2)), wide=True, sortable=False),
         Text(f"Joints: {joints}. Redundancy: joints minus rows of the task.", quiet=True),
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from holdfast.present.assessment import pointing
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures, scenes
 from holdfast.report.page import Block, Picture
@@ -24,11 +25,8 @@ def blocks(f: Facts) -> list[Block]:
         legend.append(("cross", "no configuration found"))
     if scene.box is not None:
         legend.append(("box", "positions of the region"))
-    image = figures.svg(
-        scenes.view_figure(scene, f.views, f.scale, label=f.axis_label, legend=legend),
-        "views",
-        f"The arm and the {f.noun}s of the region, by index",
-    )
+    figure = scenes.view_figure(scene, f.views, f.scale, label=f.axis_label, legend=legend)
+    image = figures.svg(figure, "views", f"The arm and the {f.noun}s of the region, by index")
     text = f"The arm is drawn {f.representative[1]}."
     if not drawn and d.samples:
         text += f" The {f.noun}s of this run were not kept, so none are drawn."
@@ -40,4 +38,4 @@ def blocks(f: Facts) -> list[Block]:
         text += "; colour is the index." if len(scene.points) else "."
     if drawn and d.infinite:
         text += " Infinite values have the darkest colour."
-    return [Picture(image, text)]
+    return [Picture(image, text), *pointing.blocks(f, figure)]

@@ -1,4 +1,4 @@
-"""How it was computed, and the command that does it again."""
+"""How an assessment was computed, and the command that does it again."""
 
 from __future__ import annotations
 
@@ -10,13 +10,11 @@ from holdfast.present.assessment.facts import Facts
 from holdfast.present.commands import capsule_files, command_line, region_files
 from holdfast.registry import INDICES
 from holdfast.report.page import Block, Code, Table, Text
-from holdfast.words import as_given
-
-TITLE = "How it was computed"
+from holdfast.words import as_given, capitalised
 
 
 def blocks(f: Facts) -> list[Block]:
-    """How it was computed, and the command that does it again."""
+    """How it was computed."""
     a, index = f.a, f.index
     p = f.provenance
     entry = INDICES.get(index.slug) if INDICES.storable(index) else None
@@ -81,12 +79,15 @@ def blocks(f: Facts) -> list[Block]:
         ("Time", f"{p['seconds']:.1f} s" if isinstance(p.get("seconds"), (int, float)) else "not noted"),
         ("Versions", _versions(p)),
     ]
-    blocks: list[Block] = [Table([[k, v] for k, v in facts])]
+    return [Table([[k, v] for k, v in facts])]
+
+
+def again(a: Assessment) -> list[Block]:
+    """The command that does it again with the files it needs, or why there is none."""
     command, note = command_line(a)
     if command is None:
-        return [*blocks, Text(note)]
-    blocks.append(Code(command, "The same run again" + (f" ({note}):" if note else ":")))
-    return [*blocks, *region_files(a.region), *capsule_files(a)]
+        return [Text(note)]
+    return [Code(command, note and f"{capitalised(note)}:"), *region_files(a.region), *capsule_files(a)]
 
 
 def _ranges(a: Assessment) -> str:

@@ -1,0 +1,49 @@
+"""The configuration that an arm is shown in where none is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import holdfast as hf
+import oracles
+from holdfast import arms
+from holdfast.arm import generic_configuration
+from holdfast.arm.task import plane_normal
+from holdfast.assessment.single_points import structure
+
+
+@pytest.mark.parametrize("name", ["planar-2r", "planar-3r", "pa10-9dof", "panda", "iiwa14", "ur5-rail"])
+@pytest.mark.parametrize("home", [True, False])
+def test_nothing_is_special_in_it(name, home):
+    arm = arms.load(name) if home else replace(arms.load(name), states={})
+    q = generic_configuration(arm)
+    assert ((q > arm.lower) & (q < arm.upper)).all()
+    np.testing.assert_array_equal(q, generic_configuration(arm))
+    rows = [0, 1] if plane_normal(arm) is not None else range(6)
+    jacobian = oracles.jacobian(arm, q[None])[0][rows]
+    sigma = np.linalg.svd(jacobian, compute_uv=False)
+    assert sigma[-1] > 0.01 * sigma[0]
+    # Whichever joint locks: what is left of the volume of the ellipsoid, unless the arm cannot spare the joint at all.
+    if arm.n > len(rows):
+        whole = np.sqrt(np.linalg.det(jacobian @ jacobian.T))
+        fatal = structure(arm, "planar" if len(rows) == 2 else "pose").fatal
+        for k in set(range(arm.n)) - set(fatal):
+            reduced = np.delete(jacobian, k, axis=1)
+            assert np.sqrt(max(np.linalg.det(reduced @ reduced.T), 0)) > 0.01 * whole
+
+
+def test_a_sound_home_stays_and_a_degenerate_one_does_not():
+    arm = arms.load("ur5")
+    np.testing.assert_allclose(generic_configuration(arm), arms.about("ur5").home)
+    straight = replace(arm, states={"home": np.zeros(6)})
+    assert np.linalg.norm(generic_configuration(straight)) > 0.1
+
+
+def test_any_arm_has_one():
+    free = hf.Arm(name="one", joints=(hf.Joint("turn", "continuous", np.eye(4), axis=np.array([0, 0, 1.0])),))
+    assert np.isfinite(generic_configuration(free)).all()
+    slide = hf.Joint("slide", "prismatic", np.eye(4), axis=np.array([0, 0, 1.0]), lower=2.0)
+    assert generic_configuration(hf.Arm(name="slide", joints=(slide,)))[0] > 2.0
