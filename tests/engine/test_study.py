@@ -446,3 +446,11 @@ def test_a_killed_program_loses_at_most_the_chunks_in_hand(tmp_path, straight):
     study.run(cells(), Threads(2))
     assert bits(study) == bits(straight)
     assert study.verify() == []
+
+
+@pytest.mark.parametrize("name", ["study.json", "made.json"])
+def test_a_file_that_is_nested_too_deep_is_refused_with_a_sentence(tmp_path, name):
+    make(tmp_path / "s")
+    (tmp_path / "s" / name).write_text("[" * 100_000)
+    with pytest.raises(StoreError, match="nested too deep"):
+        Study.open(tmp_path / "s").run(cells(), Threads(1))

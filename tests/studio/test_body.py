@@ -10,9 +10,9 @@ import pytest
 import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
-from holdfast.studio.scene.body import ball, block, box, stick_parts, tube
+from holdfast.present.arm.body import ball, block, box, stick_parts, tube
+from holdfast.present.arm.visuals import body_of, find_mesh, urdf_parts
 from holdfast.studio.scene.machine import Machine
-from holdfast.studio.scene.visuals import find_mesh, urdf_parts
 
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
 
@@ -101,12 +101,8 @@ def test_links_above_the_base_are_left_out():
 
 
 def test_a_built_in_arm_and_a_missing_file_have_sticks():
-    from holdfast.studio.server import body_of
-
     arm = hf.arms.load("panda")
-    machine = Machine(arm, as_task(arm, "pose"))
-    assert body_of(arm, machine, None, None)[1] == ""
-    crane = arms.resolve(str(CRANE))
-    parts, note = body_of(crane, Machine(crane, as_task(crane, "pose")), str(CRANE), None)
+    assert body_of(arm, 1.0)[1] == ""
+    parts, note = body_of(arms.resolve(str(CRANE)), 1.0)
     assert "camera.stl" in note
     assert {p.frame for p in parts} == set(range(8))

@@ -158,11 +158,13 @@ class Chain:
         base: Link that it is mounted on.
         tip: Link whose frame is the tool; None once the tool is another one.
         held: Joints of the file that were held, and where, rad or m.
+        file: The file, for the shapes that it gives the links; empty where it is not known.
     """
 
     base: str
     tip: str | None
     held: tuple[tuple[str, float], ...] = ()
+    file: str = field(default="", compare=False, repr=False, kw_only=True)
 
     def __str__(self) -> str:
         tip = [] if self.tip is None else [f"tip '{self.tip}'"]
@@ -371,8 +373,6 @@ def transform(value: ArrayLike, what: str) -> Array:
 
 
 # ---- motions of joints -----------------------------------------------------------------------------------------------
-
-
 def motion(kind: str, axis: Array, value: float) -> Array:
     """(4, 4) motion of a joint by itself, rad or m; the identity for types without one axis."""
     pose = np.eye(4)

@@ -73,6 +73,7 @@ def load(
     try:
         tree = read_tree(robot_element(path), path.stem)
         arm = chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
+        arm = replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
         beside = path.with_suffix(".srdf")
         file = beside if srdf is None and beside.is_file() else None if srdf is None else Path(srdf)
         return arm if file is None else replace(arm, states=_states(file, arm))

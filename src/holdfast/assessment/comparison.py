@@ -275,8 +275,8 @@ def load_comparison(path: str | Path, threshold: float | None = None) -> Compari
     folder = Path(path)
     again = f"'{folder / LIST}' is damaged; give the same command to 'holdfast assess' again"
     try:
-        listed = [(c["name"], c["tool"]) for c in json.loads(reading.text(folder / LIST))["candidates"]]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        listed = [(c["name"], c["tool"]) for c in reading.parsed(folder / LIST)["candidates"]]
+    except (OSError, ValueError, KeyError, TypeError) as error:
         raise StoreError(again) from error
     if not all(is_plain(name) and (tool is None or isinstance(tool, str)) for name, tool in listed):
         raise StoreError(again)

@@ -58,7 +58,7 @@ class Made:
         if not file.exists():
             return {"makers": [], "runs": []}
         try:
-            data = json.loads(reading.text(file))
+            data = reading.parsed(file)
             return {"makers": list(data["makers"]), "runs": list(data["runs"])}
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise StoreError(f"'{file}' is damaged ({error}); remove it if what made the rows need not be known") from error

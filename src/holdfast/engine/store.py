@@ -155,8 +155,8 @@ class Store:
         if not reading.exists(file):
             raise StoreError(f"'{folder}' is not a holdfast run: it has no {_RUN}; give the folder that --out named")
         try:
-            run = json.loads(reading.text(file))
-        except (OSError, ValueError, RecursionError) as error:
+            run = reading.parsed(file)
+        except (OSError, ValueError) as error:
             raise StoreError(
                 f"'{file}' cannot be read ({error}); the run is damaged: start it again in a new folder"
             ) from error

@@ -131,8 +131,8 @@ class Study(Shown):
                 f"'{folder}' is not a study: it has no {_FILE}; give the folder that 'holdfast study run --out' named"
             )
         try:
-            data = json.loads(reading.text(file))
-        except (OSError, ValueError, RecursionError) as error:
+            data = reading.parsed(file)
+        except (OSError, ValueError) as error:
             raise StoreError(f"'{file}' cannot be read ({error}); run the study file again with a new folder") from error
         if not isinstance(data, dict) or data.get("format") != _FORMAT:
             raise StoreError(f"'{file}' was not written by holdfast; give the folder of a study")

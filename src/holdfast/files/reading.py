@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import errno
+import json
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from holdfast.errors import HoldfastError, InputError
 
@@ -68,6 +70,20 @@ def text(path: str | Path, largest: int = LARGEST) -> str:
         UnicodeDecodeError: It is not UTF-8.
     """
     return raw(path, largest).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def parsed(path: str | Path) -> Any:
+    """What a JSON file holds.
+
+    Raises:
+        OSError: As :func:`raw`.
+        ValueError: It is not UTF-8, not JSON, or nested too deep.
+    """
+    content = text(path)
+    try:
+        return json.loads(content)
+    except RecursionError as error:
+        raise ValueError("it is nested too deep") from error
 
 
 def exists(path: str | Path) -> bool:

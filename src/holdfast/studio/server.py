@@ -8,17 +8,16 @@ import threading
 from collections.abc import Callable
 from contextlib import redirect_stdout, suppress
 from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task, as_task
-from holdfast.arms.catalogue import URDF_ENDINGS
 from holdfast.errors import HoldfastError, InputError
+from holdfast.present.arm.body import Part
+from holdfast.present.arm.visuals import body_of
 from holdfast.studio.aside import Aside
-from holdfast.studio.scene.body import Part, stick_parts
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
@@ -130,7 +129,7 @@ def serve(
     server.scene.add_light_ambient("/ambient", intensity=1.6)
     ready(address(server))
     threading.Thread(target=_warm, args=(machine, state), daemon=True, name="studio warm-up").start()
-    parts, note = body_of(arm, machine, state.arm if Path(state.arm).suffix.lower() in URDF_ENDINGS else None, state.base)
+    parts, note = body_of(arm, machine.size)
     return Studio(server, machine, state, parts=parts, note=note)
 
 
@@ -176,23 +175,6 @@ def middle(arm: Arm) -> np.ndarray[Any, np.dtype[np.float64]]:
     low, high = (np.where(np.isfinite(x), x, s * 1.0) for x, s in ((arm.lower, -1), (arm.upper, 1)))
     share = 0.5 + 0.13 * np.sin(1.0 + 2.0 * np.arange(arm.n))
     return np.asarray(low + share * (high - low))
-
-
-def body_of(arm: Arm, machine: Machine, file: str | None, base: str | None) -> tuple[list[Part], str]:
-    """What the arm is made of, and a note for people where meshes are not there."""
-    sticks = stick_parts(arm, machine.size)
-    if file is None or not Path(file).is_file():
-        return sticks, ""
-    from holdfast.studio.scene.visuals import urdf_parts
-
-    shapes, missing = urdf_parts(file, arm, base)
-    if not shapes:
-        return sticks, f"no mesh was found ({missing[0]}), so the arm is drawn as sticks" if missing else ""
-    if missing:
-        clad = {p.frame for p in shapes}
-        shapes += [p for p in sticks if p.frame not in clad]
-        return shapes, f"{len(missing)} of the file's meshes not found, such as {missing[0]}; such links are drawn as sticks"
-    return shapes, ""
 
 
 def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:

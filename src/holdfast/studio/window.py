@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_numbers, pose_of
 from holdfast.errors import HoldfastError
+from holdfast.present.arm.body import Part
 from holdfast.studio.aside import Aside
 from holdfast.studio.compute import Extremes
 from holdfast.studio.motions import Motion, read_motion
 from holdfast.studio.panel import Panel
 from holdfast.studio.saving import Saver
-from holdfast.studio.scene.body import Part
 from holdfast.studio.scene.cloud import Cloud
 from holdfast.studio.scene.machine import SLIDE, TOLERANCE, Machine, sentence
 from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE, Stage

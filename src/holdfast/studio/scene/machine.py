@@ -23,6 +23,7 @@ from holdfast.indices.index import Index, by_name
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
+from holdfast.present.arm.body import stretched
 from holdfast.registry import INDICES, LAWS
 from holdfast.solvers.inverse_kinematics import solver
 from holdfast.studio.scene.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
@@ -99,10 +100,7 @@ class Machine:
     @cached_property
     def size(self) -> float:
         """Length of the stretched arm, m: what things are drawn in proportion to."""
-        offsets = [float(np.linalg.norm(j.origin[:3, 3])) for j in self.arm.joints[1:]]
-        slides = [j.upper - j.lower for j in self.arm.joints if j.prismatic and np.isfinite(j.upper - j.lower)]
-        total = sum(offsets) + float(np.linalg.norm(self.arm.tool[:3, 3])) + sum(slides)
-        return max(total, 1e-3)
+        return stretched(self.arm)
 
     # ---- what a failure takes --------------------------------------------------------------------------------------
 

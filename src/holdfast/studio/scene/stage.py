@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.studio.scene.body import Color, Figure, Part, ball, quaternions
+from holdfast.present.arm.body import Color, Part, ball, stick_parts
+from holdfast.studio.scene.body import Figure, quaternions
 from holdfast.studio.scene.cloud import Cloud
 from holdfast.studio.scene.machine import Machine, Reading
 from holdfast.studio.scene.measures import Ellipsoid, Loss
@@ -74,8 +75,6 @@ class Stage:
         self._shown = True
 
     def _knobs(self) -> None:
-        from holdfast.studio.scene.body import stick_parts
-
         arm, thick = self.machine.arm, 1.15 * self.machine.size
         joints = [p for p in stick_parts(arm, thick) if p.joint is not None and p.joint not in self.figure.joints]
         figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.5)

@@ -13,10 +13,30 @@ from holdfast.arm.model import Arm
 from holdfast.arm.tree import Held, Tree
 from holdfast.arm.urdf import read_origin, read_tree, robot_element
 from holdfast.errors import ArmError
-from holdfast.studio.scene.body import LINK, Color, Part, ball, box, tube
+from holdfast.present.arm.body import LINK, Color, Part, ball, box, stick_parts, tube
 
 Array = NDArray[np.float64]
 MOST_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
+
+
+def body_of(arm: Arm, size: float) -> tuple[list[Part], str]:
+    """What an arm is made of: the shapes of its URDF file where it has some, else sticks; and a note where meshes are missing.
+
+    Args:
+        arm: The arm.
+        size: What sticks are drawn in proportion to, m.
+    """
+    sticks = stick_parts(arm, size)
+    if arm.chain is None or not Path(arm.chain.file).is_file():
+        return sticks, ""
+    shapes, missing = urdf_parts(arm.chain.file, arm, arm.chain.base)
+    if not shapes:
+        return sticks, f"no mesh was found ({missing[0]}), so the arm is drawn as sticks" if missing else ""
+    if missing:
+        clad = {p.frame for p in shapes}
+        shapes += [p for p in sticks if p.frame not in clad]
+        return shapes, f"{len(missing)} of the file's meshes not found, such as {missing[0]}; such links are drawn as sticks"
+    return shapes, ""
 
 
 def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[list[Part], list[str]]:
