@@ -103,7 +103,8 @@ sphinx_gallery_conf = {
         )
     ],
     "within_subsection_order": "FileNameSortKey",
-    "image_scrapers": ("matplotlib", "last_figure"),
+    "image_scrapers": ("matplotlib", "pictures"),
+    "reset_modules": ("matplotlib", "pictures.look"),
     "first_notebook_cell": "# The first time: %pip install holdfast\n%matplotlib inline",
     "abort_on_example_error": True,
     "capture_repr": (),

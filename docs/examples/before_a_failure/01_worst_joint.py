@@ -2,8 +2,9 @@
 The worst joint of one configuration
 ====================================
 
-The nine-joint PA10 stands in the middle of its limits; one joint locks. How much of its manipulability is left, and
-which joint hurts most? Arm and configuration are those of Table I of [Abdi2012]_.
+The nine-joint PA10 stands in the middle of its limits; one joint locks. How much of its
+manipulability is left, and which joint hurts most? Arm and configuration are those of Table I of
+[Abdi2012]_.
 """
 
 import matplotlib.pyplot as plt
@@ -19,18 +20,17 @@ worst = int(result.worst)
 print(f"worst case {result.value:.4f}, when {index.failure_names[worst]} locks")
 
 # %%
-# The squares of the nine values add up to n - m = 3, the degree of redundancy. So no configuration of this arm keeps
-# more than the dashed line for *every* joint.
+# The squares of the nine values add up to n - m = 3, the degree of redundancy. So no
+# configuration of this arm keeps more than the dashed line for *every* joint.
 
-figure, axes = plt.subplots(figsize=(7, 3.8), layout="constrained")
-colours = ["#c8500a" if k == worst else "#0a5c9e" for k in range(arm.n)]
-bars = axes.bar(range(1, arm.n + 1), result.by_failure, color=colours, width=0.7)
+figure, axes = plt.subplots(figsize=(7, 3.8))
+colours = ["C1" if k == worst else "C0" for k in range(arm.n)]
+bars = axes.bar(range(1, arm.n + 1), result.by_failure, color=colours)
 axes.bar_label(bars, fmt="%.2f", padding=2)
-axes.axhline(index.bound, color="0.25", linestyle="--", linewidth=1, label=f"largest worst case possible, {index.bound:.3f}")
-axes.set(xticks=range(1, arm.n + 1), xlabel="joint that locks", ylabel="relative manipulability (no unit)", ylim=(0, 1))
-axes.set_title("PA10, 9 joints, pose task: 1 configuration")
-axes.legend(frameon=False)
-axes.spines[["top", "right"]].set_visible(False)
+axes.axhline(index.bound, c="0.3", ls="--", label=f"largest worst case, {index.bound:.3f}")
+axes.set(xlabel="joint that locks", ylabel="relative manipulability (no unit)", ylim=(0, 1))
+axes.set(xticks=range(1, arm.n + 1), title="PA10, 9 joints, pose task: 1 configuration")
+axes.legend()
 
 # %%
 # The gradient is exact: which way to turn each joint to make the worst case better.

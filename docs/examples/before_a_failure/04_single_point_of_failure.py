@@ -2,8 +2,9 @@
 A single point of failure by structure
 ======================================
 
-PA10 and Panda both have seven joints. Lock the elbow of the PA10 and its end effector cannot do all six motions any more,
-in *no* configuration: the self-motion of this arm never moves the elbow. The Panda has no such joint.
+PA10 and Panda both have seven joints. Lock the elbow of the PA10 and its end effector cannot do
+all six motions any more, in *no* configuration: the self-motion of this arm never moves the
+elbow. The Panda has no such joint.
 """
 
 import matplotlib.pyplot as plt
@@ -12,7 +13,7 @@ import numpy as np
 import holdfast as hf
 from holdfast.assessment import structure
 
-figure, both = plt.subplots(1, 2, figsize=(8, 3.8), sharey=True, layout="constrained")
+figure, both = plt.subplots(1, 2, figsize=(8, 3.8), sharey=True)
 for axes, name in zip(both, ("pa10-7dof", "panda"), strict=True):
     arm = hf.arms.load(name)
     fatal = structure(arm).fatal
@@ -20,16 +21,16 @@ for axes, name in zip(both, ("pa10-7dof", "panda"), strict=True):
     rho = hf.indices.relative_manipulability(arm).by_joint(q)
     low, middle, high = np.quantile(rho, [0.05, 0.5, 0.95], axis=0)
     for k in range(arm.n):
-        colour = "#c8500a" if k in fatal else "#0a5c9e"
+        colour = "C1" if k in fatal else "C0"
         axes.vlines(k + 1, low[k], high[k], color=colour, linewidth=6, alpha=0.4)
         axes.plot(k + 1, middle[k], "D" if k in fatal else "o", color=colour, markersize=8)
     axes.set(xlabel="joint that locks", xticks=range(1, arm.n + 1), title=f"{name}, pose task")
-    axes.spines[["top", "right"]].set_visible(False)
     print(structure(arm))
 both[0].set_ylabel("relative manipulability (no unit)\nmedian, and 5 % to 95 %")
 figure.suptitle("4096 random configurations; diamond: 0 in every one")
 
 # %%
-# A structural zero depends on the task. With three rows instead of six, no joint of the PA10 is indispensable.
+# A structural zero depends on the task. With three rows instead of six, no joint of the PA10 is
+# indispensable.
 
 print(structure(hf.arms.load("pa10-7dof"), "position"))

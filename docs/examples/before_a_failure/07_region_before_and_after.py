@@ -2,8 +2,8 @@
 A region, before and after choosing configurations
 ==================================================
 
-Each of 300 random poses is taken as inverse kinematics finds it, and once more in the best configuration that was found.
-What does choosing gain over the whole region?
+Each of 300 random poses is taken as inverse kinematics finds it, and once more in the best
+configuration that was found. What does choosing gain over the whole region?
 """
 
 import matplotlib.pyplot as plt
@@ -21,13 +21,12 @@ for name, chosen in (("as found", False), ("chosen", True)):
 # A pose that is not reached counts as failed in both curves.
 
 h = np.linspace(0, 0.6, 301)
-figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
-curves = [1 - run.cdf(h, optimised=chosen) for chosen in (False, True)]
-axes.fill_between(h, *curves, color="#e3edf5")
-axes.plot(h, curves[0], color="#c8500a", linestyle="--", linewidth=2, label="as inverse kinematics finds it")
-axes.plot(h, curves[1], color="#0a5c9e", linewidth=2.5, label="best configuration of each pose")
-axes.axvline(run.index.bound, color="0.4", linewidth=1, label=f"bound of any configuration, {run.index.bound:.3f}")
-axes.set(xlabel="worst-case relative manipulability h (no unit)", ylabel="probability of at least h")
-axes.set(xlim=(0, 0.6), ylim=(0, 1.02), title=f"PA10, 9 joints, any one joint locked, {run.poses} random poses, seed 1")
-axes.legend(frameon=False, loc="lower left")
-axes.spines[["top", "right"]].set_visible(False)
+found, chosen = (1 - run.cdf(h, optimised=chosen) for chosen in (False, True))
+figure, axes = plt.subplots(figsize=(7, 4))
+axes.fill_between(h, found, chosen, color="#e3edf5")
+axes.plot(h, chosen, lw=2.5, label="best configuration of each pose")
+axes.plot(h, found, ls="--", lw=2, label="as inverse kinematics finds it")
+axes.axvline(run.index.bound, c="0.4", lw=1, label=f"largest possible, {run.index.bound:.3f}")
+axes.set(xlabel="worst-case relative manipulability h (no unit)", xlim=(0, 0.6))
+axes.set(ylabel="probability of at least h", title=f"PA10, 9 joints: {run.poses} random poses")
+axes.legend(loc="lower left")

@@ -2,8 +2,8 @@
 Which arm for this cell?
 ========================
 
-Two arms at the same 300 random poses of one region, in the configurations that inverse kinematics finds. Which keeps more,
-whichever joint locks?
+Two arms at the same 300 random poses of one region, in the configurations that inverse kinematics
+finds. Which keeps more, whichever joint locks?
 """
 
 import holdfast as hf
@@ -13,10 +13,8 @@ region = hf.Region.around(panda, hf.arms.about("panda").home)
 runs = [hf.assess(arm, region, poses=300, seed=1) for arm in (panda, xarm)]
 compared = hf.compare_assessments(runs, threshold=0.05)
 for row in compared.table:
-    print(
-        f"{row['name']:6} reached {row['reached']:.2f}, at least 0.05: {row['probability']:.3f} "
-        f"({row['probability_low']:.3f} to {row['probability_high']:.3f}), worst joint {row['worst_joint']}"
-    )
+    name, value, worst = row["name"], row["probability"], row["worst_joint"]
+    print(f"{name:6} keeps at least 0.05 at {value:.1%} of the poses, worst joint {worst}")
 
 # %%
 # The region is around the home of one of them, which favours it. Give the region of your work.

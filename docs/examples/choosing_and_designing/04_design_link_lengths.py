@@ -2,8 +2,9 @@
 Which link lengths?
 ===================
 
-The three lengths of a planar arm are open. ``hf.design`` searches for the arm that *guarantees* most at 95 % of the poses
-of a region, whichever joint locks, against reach; the best is checked on 200 fresh poses.
+The three lengths of a planar arm are open. ``hf.design`` searches for the arm that *guarantees*
+most at 95 % of the poses of a region, whichever joint locks, against reach; the best is checked
+on 200 fresh poses.
 """
 
 import holdfast as hf

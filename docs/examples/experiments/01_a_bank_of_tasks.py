@@ -2,8 +2,9 @@
 Tasks for an experiment
 =======================
 
-A person steers an arm while one joint is locked; the controller does not know. Random tasks are driven by the computer first:
-how much harder does the lock make each of them, and does the failure-tolerant inverse help? 40 tasks for each joint.
+A person steers an arm while one joint is locked; the controller does not know. Random tasks are
+driven by the computer first: how much harder does the lock make each of them, and does the
+failure-tolerant inverse help? 40 tasks for each joint.
 """
 
 import holdfast as hf
@@ -16,6 +17,7 @@ for line in choice.describe():
     print(line)
 
 # %%
-# To the right harder, upward worse with failure tolerance; 12 tasks are chosen from as many cells as there are.
+# To the right harder, upward worse with failure tolerance; 12 tasks are chosen from as many cells
+# as there are.
 
 choice.plot()

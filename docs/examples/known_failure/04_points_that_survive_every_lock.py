@@ -2,8 +2,9 @@
 Points that survive every lock
 ==============================
 
-Artificial joint limits that hold *until* a failure leave fewer angles to lock at. The failure-tolerant workspace is what
-the healthy arm reaches within them, and what the arm still reaches with any one joint locked anywhere within them.
+Artificial joint limits that hold *until* a failure leave fewer angles to lock at. The
+failure-tolerant workspace is what the healthy arm reaches within them, and what the arm still
+reaches with any one joint locked anywhere within them.
 """
 
 import holdfast as hf
@@ -14,6 +15,7 @@ for line in found.describe():
     print(line)
 
 # %%
-# Three planar links that turn all the way have a closed form; other arms are sampled, with an interval.
+# Three planar links that turn all the way have a closed form; other arms are sampled, with an
+# interval.
 
 found.plot()

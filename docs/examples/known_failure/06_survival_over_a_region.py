@@ -2,8 +2,8 @@
 How much of the job survives each lock?
 =======================================
 
-300 random poses around the home of a Panda. For each joint: how many of them can still be reached once it has locked
-where inverse kinematics happened to have it?
+300 random poses around the home of a Panda. For each joint: how many of them can still be reached
+once it has locked where inverse kinematics happened to have it?
 """
 
 import matplotlib.pyplot as plt
@@ -18,13 +18,12 @@ survival = run.survival()
 # %%
 # Pointing: the turn about the tool's own axis is free. The bars are 95 % intervals.
 
-figure, axes = plt.subplots(figsize=(7, 3.6), layout="constrained")
+figure, axes = plt.subplots(figsize=(7, 3.6))
 for k, share in enumerate(survival.values()):
-    axes.bar(k + 1, share.value, color="#0a5c9e", width=0.6)
-    axes.vlines(k + 1, share.low, share.high, color="0.2", linewidth=2)
-axes.set(xticks=range(1, arm.n + 1), xlabel="joint that locks", ylabel="fraction of poses still in reach", ylim=(0, 1))
+    axes.bar(k + 1, share.value, color="C0", width=0.6)
+    axes.vlines(k + 1, share.low, share.high, color="0.2", lw=2)
+axes.set(xlabel="joint that locks", ylabel="fraction of poses still in reach", ylim=(0, 1))
 axes.set_title(f"Panda, pointing task: {run.poses} random poses, seed {run.seed}")
-axes.spines[["top", "right"]].set_visible(False)
 
 # %%
 # Weighted by how often each joint fails (only ratios matter):

@@ -2,8 +2,8 @@
 A sweep over arms and indices
 =============================
 
-A study is every combination of its lists, cut into chunks that are computed and committed one by one. Stopped or killed, it
-resumes; the result does not depend on who computed which chunk. Here three arms and two indices, 200 poses each.
+A study is every combination of its lists, computed and committed chunk by chunk: stopped or
+killed, it resumes. Here three arms and two indices, 200 poses each.
 """
 
 import tempfile
@@ -23,17 +23,17 @@ chunk: 100
 arms: [panda, xarm7, ur5-rail]
 assess: {indices: [relative-manipulability, minimum-singular-value]}
 """
-figure, panels = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True, layout="constrained")
+figure, panels = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True)
 with tempfile.TemporaryDirectory() as folder:
-    file = Path(folder, "arms.yaml")
+    file, out = Path(folder, "arms.yaml"), Path(folder, "arms")
     file.write_text(ASKED)
     asked = studies.read(file)
-    study = Study.create(Path(folder, "arms"), asked.name, asked.seed, cells=asked.cells, source=asked.text)
+    study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
     study.run(asked.cells, Threads(2))
-    for number, style in zip(range(len(study.cells)), ("-", "-", "--", "--", ":", ":"), strict=True):
+    for number in range(len(study.cells)):
         run = hf.load(study.folder(number))
-        h = np.linspace(0, float(run.distribution.quantile(0.995)), 200)
-        panels[number % 2].plot(h, 1 - run.cdf(h), style, linewidth=2, label=run.arm.name)
-        panels[number % 2].set_xlabel(f"{run.index.name}, worst lock")
-panels[0].set(ylabel="probability of at least that", ylim=(0, 1.02))
-panels[0].legend(frameon=False)
+        h, axes = np.linspace(0, run.distribution.quantile(0.995), 200), panels[number % 2]
+        axes.plot(h, 1 - run.cdf(h), lw=2, label=run.arm.name)
+        axes.set_xlabel(f"{run.index.name}, worst lock")
+panels[0].set_ylabel("probability of at least that")
+panels[0].legend()

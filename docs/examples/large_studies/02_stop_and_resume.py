@@ -2,8 +2,8 @@
 Stop and resume
 ===============
 
-With ``store`` an assessment writes what it has, and the same call resumes where it was: after Ctrl-C, a crash or a power
-cut. Here 20,000 poses are stopped after a quarter of them.
+With ``store`` an assessment writes what it has, and the same call resumes where it was: after
+Ctrl-C, a crash or a power cut. Here 20,000 poses are stopped after a quarter of them.
 """
 
 import tempfile
@@ -32,9 +32,8 @@ with tempfile.TemporaryDirectory() as folder:
     run = hf.assess(arm, region, poses=20_000, seed=1, store=store)
     values = run.dataset["index"].values
 whole = hf.assess(arm, region, poses=20_000, seed=1).dataset["index"].values
-print("bit for bit the same as without a stop:", np.array_equal(values, whole, equal_nan=True))
+print("the same bits as without a stop:", np.array_equal(values, whole, equal_nan=True))
 
-figure, axes = plt.subplots(figsize=(7, 3.6), layout="constrained")
-axes.hist(values, bins=60, color="#0a5c9e")
-axes.set(xlabel="worst-case relative manipulability (no unit)", ylabel="poses")
-axes.set_title(f"Panda, pose task: {len(values)} random poses around its home")
+figure, axes = plt.subplots(figsize=(7, 3.6))
+axes.hist(values, bins=60)
+axes.set(xlabel="worst-case relative manipulability", ylabel="poses", title="Panda, 20,000 poses")

@@ -2,8 +2,9 @@
 Basins: which solution does it reach?
 =====================================
 
-With joint 2 locked at 45 degrees the target can be reached in two configurations. From 900 starts on a grid the closed
-loop is simulated, and the cell has the colour of the solution where it ended.
+With joint 2 locked at 45 degrees the target can be reached in two configurations. From 900 starts
+on a grid the closed loop is simulated, and the cell has the colour of the solution where it
+ended.
 """
 
 import numpy as np
@@ -17,7 +18,7 @@ for name, share in found.shares:
     print(f"{name}: {share}")
 
 # %%
-# The lines run into the saddles and are the borders between the basins. They are integrated backwards in time, not read
-# off the cells.
+# The lines run into the saddles and are the borders between the basins. They are integrated
+# backwards in time, not read off the cells.
 
 found.plot()

@@ -2,12 +2,12 @@
 A control law as C
 ==================
 
-The failure-tolerant inverse as one C99 function without memory or libraries, for the robot's own controller. Beside it lie
-a header, an example loop, and a test with numbers that holdfast computed.
+The failure-tolerant inverse as one C99 function without memory or libraries, for the robot's own
+controller. Beside it lie a header, an example loop, and a test with numbers that holdfast
+computed.
 """
 
 import tempfile
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -21,16 +21,16 @@ with tempfile.TemporaryDirectory() as folder:
         print(f"{file.name}: {len(file.read_text().splitlines())} lines")
 
 # %%
-# What the function computes: a joint velocity for each wanted velocity, here of 0.1 m/s all round. The pseudoinverse hits
-# it; the failure-tolerant inverse is off by at most half, and in return a lock does less harm.
+# What the function computes: a joint velocity for each wanted velocity, here of 0.1 m/s all
+# round. The pseudoinverse hits it; the failure-tolerant inverse is off by at most half, and in
+# return a lock does less harm.
 
 angle = np.linspace(0, 2 * np.pi, 181)
 wanted = 0.1 * np.c_[np.cos(angle), np.sin(angle)]
 q = np.tile(np.deg2rad([30.0, 45.0, 60.0]), (len(angle), 1))
-figure, axes = plt.subplots(figsize=(5.6, 4.4), layout="constrained")
-for of, colour in ((hf.control.pseudoinverse(arm, "planar"), "0.5"), (law, "#0a5c9e")):
-    told = of.deviations(q, wanted)
-    axes.plot(np.rad2deg(angle), told.peak_velocity_error, color=colour, linewidth=2, label=of.name)
-axes.set(xlabel="direction of the command, deg", ylabel="error after the worst lock\n(fraction of the command)")
-axes.legend(frameon=False)
-axes.spines[["top", "right"]].set_visible(False)
+figure, axes = plt.subplots(figsize=(5.6, 4.4))
+for of in (law, hf.control.pseudoinverse(arm, "planar")):
+    error = of.deviations(q, wanted).peak_velocity_error
+    axes.plot(np.rad2deg(angle), error, lw=2, label=of.name)
+axes.set(xlabel="direction of the command, deg", ylabel="error after the worst lock (fraction)")
+axes.legend()

@@ -1,19 +1,38 @@
-"""Figures that end a block of an example, as in a notebook: those of results, which pyplot does not know of."""
+"""What the gallery adds to sphinx-gallery: one look, and figures that end a block, as in a notebook.
+
+The figures of results are drawn by nobody else: pyplot does not know of them.
+"""
 
 from __future__ import annotations
 
 from pathlib import PurePosixPath
 from typing import Any
 
+import matplotlib
+from cycler import cycler
 from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
 from holdfast.report import save_png
+from holdfast.report.palette import AMBER, BLUE, GREEN, ORANGE, PURPLE, SKY
+
+LOOK = {
+    "axes.prop_cycle": cycler(color=[BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY]),
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "figure.constrained_layout.use": True,
+    "legend.frameon": False,
+}
+
+
+def look(gallery_conf: dict[str, Any], file: str) -> None:
+    """What every example begins with."""
+    matplotlib.rcParams.update(LOOK)
 
 
 class LastFigure:
     def __repr__(self) -> str:
-        return "last_figure"  # Sphinx compares settings by it
+        return "pictures"  # Sphinx compares settings by it
 
     def __call__(self, block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any], **options: Any) -> str:
         figure = block_vars["example_globals"].get("___")
