@@ -14,10 +14,9 @@ from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
 from holdfast.report import save_png
-from holdfast.report.palette import AMBER, BLUE, GREEN, ORANGE, PURPLE, SKY
 
 LOOK = {
-    "axes.prop_cycle": cycler(color=[BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY]),
+    "axes.prop_cycle": cycler(color=["#0a5c9e", "#c8500a", "#007a5e", "#a8497f", "#c58a00", "#a9cbe6"]),
     "axes.spines.top": False,
     "axes.spines.right": False,
     "figure.constrained_layout.use": True,
