@@ -1,4 +1,7 @@
-"""Notices on stderr of work that takes a while: what it is, and how long it will take or how far it has come."""
+"""Notices of work that takes a while: what it is, and how long it will take or how far it has come.
+
+They go to stderr; in a notebook to a line below the cell, which changes in place.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,10 @@ import os
 import sys
 import threading
 import time
+import uuid
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from html import escape
 from typing import Any, ParamSpec, TypeVar
 
 P = ParamSpec("P")
@@ -27,9 +32,15 @@ _lock = threading.Lock()
 @contextmanager
 def long(what: str, seconds: float) -> Iterator[None]:
     """Say what is being done if it is expected to take more than a second, and for how long."""
-    if seconds > _LONG:
+    bar = _bar() if seconds > _LONG else None
+    if bar is not None:
+        bar.show(f"{what}, about {_shown(seconds)}")
+    elif seconds > _LONG:
         _say(f"{what}, about {_shown(seconds)}")
+    begun = _clock()
     yield
+    if bar is not None:
+        bar.show(f"{what}: {_shown(_clock() - begun)}", last=True)
 
 
 @contextmanager
@@ -63,6 +74,11 @@ def working(what: str, progress: Progress | None = None) -> Iterator[Progress]:
             _watch()
         work.silent = progress is not None
         yield progress or work.advance
+    except BaseException:
+        work.end("stopped after ")
+        raise
+    else:
+        work.end("")
     finally:
         _outer = None
 
@@ -169,6 +185,8 @@ class _Work:
         self.share = 0.0
         self.left: float | None = None
         self.silent = False  # somebody else tells of it
+        self.bar = _bar()
+        self.shown = 0.0  # when the bar was told
 
     def advance(self, done: int, total: int, left: float | None = None) -> None:
         """So much is done; ``left`` seconds are left, if that is known better here than there."""
@@ -188,8 +206,31 @@ class _Work:
     def look(self) -> None:
         """Say something if it is time."""
         passed = _clock() - self.begun
-        if passed < self.next or self.silent:
+        if passed < _LONG or self.silent:
             return
+        if self.bar is not None:
+            self._show(self.bar, passed)
+        elif passed >= self.next:
+            self._tell(passed)
+
+    def end(self, how: str) -> None:
+        """It is over; a notebook keeps how long it took."""
+        if self.bar is not None and self.shown:
+            self.bar.show(f"{self.what}: {how}{_shown(_clock() - self.begun)}", last=True)
+
+    def _show(self, bar: _Bar, passed: float) -> None:
+        """In a notebook, where nothing piles up."""
+        if passed < self.shown + _SOON:
+            return
+        self.shown = passed
+        rest, count = self._rest(), next((c for c in tuple(self.counts) if c.done), None)
+        if rest is not None:
+            bar.show(f"{self.what}, about {_shown(rest)} more", self.share)
+        else:
+            bar.show(self.what if count is None else count.text(self.what))
+
+    def _tell(self, passed: float) -> None:
+        """On stderr, ever more rarely."""
         named, self.next = self.next > _LONG, min(_AGAIN * max(passed, _LONG), passed + _AT_MOST)
         rest, count = self._rest(), next((c for c in tuple(self.counts) if c.done), None)
         if rest is not None:
@@ -206,6 +247,35 @@ class _Work:
         if self.left is not None or self.share <= before:
             return self.left
         return (_clock() - when) * (1 - self.share) / (self.share - before)
+
+
+class _Bar:
+    """How far work is, in a line below the cell that waits for it; told from any thread. Plain HTML, no widgets.
+
+    Args:
+        publish: The kernel's, which displays in the cell that runs.
+    """
+
+    def __init__(self, publish: Any) -> None:
+        self._publish, self._id = publish, uuid.uuid4().hex
+        self._lock, self._said, self._ended = threading.Lock(), "", False
+
+    def show(self, text: str, share: float | None = None, last: bool = False) -> None:
+        """Say so in place of what was said before; with a bar if the share that is done is known.
+
+        Args:
+            text: For people.
+            share: 0 to 1.
+            last: Nothing more is said after this, whoever tries.
+        """
+        bar = "" if share is None else f'<progress style="width:12em;margin-right:.8em" max="1" value="{share:.3f}"></progress>'
+        html = f'<div style="opacity:.75">{bar}{escape(text)}</div>'
+        with self._lock:
+            if self._ended or html == self._said:
+                return
+            data = {"text/html": html, "text/plain": f"holdfast: {text}"}
+            self._publish.publish(data, transient={"display_id": self._id}, update=bool(self._said))
+            self._said, self._ended = html, last
 
 
 _outer: _Work | None = None
@@ -240,6 +310,13 @@ def told(done: int, total: int, left: float | None = None) -> None:
 
 def _shown(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def _bar() -> _Bar | None:
+    """Where this is the kernel of a notebook."""
+    shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    known = getattr(shell, "kernel", None) is not None and os.environ.get("HOLDFAST_NOTICES") != "off"
+    return _Bar(shell.display_pub) if known else None
 
 
 def _say(text: str) -> None:

@@ -1,4 +1,4 @@
-"""The base of results; what draws and writes them lies above and is looked up by name."""
+"""The bases of results and of what notebooks show; what draws and writes them lies above and is looked up by name."""
 
 from __future__ import annotations
 
@@ -9,11 +9,31 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Result:
-    """Base of what an analysis returns; no fields, so that any dataclass can derive from it.
+class Shown:
+    """Base of what a notebook shows as more than a name; no fields, so that any dataclass can derive from it.
 
-    What presents a class is named in :mod:`holdfast.present`; a class repeats a method only to give its options a type
-    (``*args`` is there so that it may).
+    What presents a class is named in :mod:`holdfast.present`.
+    """
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the answer, a table of its key numbers, the main figure, and what to ask next."""
+        shown: str = self._presented("in_notebook")
+        return shown
+
+    def _presented(self, function: str, *arguments: Any, **options: Any) -> Any:
+        """What a function of the modules that present this class makes of it; they are imported only now."""
+        from holdfast.present import presenter
+
+        names = [each.__name__ for each in type(self).__mro__]
+        return presenter(names, function)(self, *arguments, **options)
+
+
+class Result(Shown):
+    """Base of what an analysis returns.
+
+    A class repeats a method only to give its options a type (``*args`` is there so that it may).
     """
 
     __slots__ = ()
@@ -41,6 +61,22 @@ class Result:
         drawn: dict[str, Figure] = self._presented("figures", *args, **options)
         return drawn
 
+    def plot(self, name: str = "", **options: Any) -> Figure:
+        """One of its figures, which a notebook shows where a cell ends with it.
+
+        Args:
+            name: Which of :meth:`figures`; the main one if not given.
+            options: What :meth:`figures` takes.
+
+        Returns:
+            A matplotlib figure of its own, which pyplot does not know of: ``figure.savefig("file.png")`` writes it.
+
+        Raises:
+            InputError: It has no figure of that name, or none; the message says what to ask instead.
+        """
+        drawn: Figure = self._presented("plot", name, **options)
+        return drawn
+
     def to_dict(self, *args: Any, **options: Any) -> dict[str, Any]:
         """Its numbers by name, in types that JSON has, as ``--json`` prints them; infinity and NaN are None."""
         data: dict[str, Any] = self._presented("as_json", *args, **options)
@@ -50,18 +86,15 @@ class Result:
         """A few sentences for people."""
         raise NotImplementedError
 
-    def _repr_html_(self) -> str:
-        """What a notebook shows: the sentences and the figures."""
-        shown: str = self._presented("in_notebook")
-        return shown
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls._repr_pretty_ = cls._repr_pretty_  # type: ignore[method-assign]  # IPython looks for it beside the dataclass's own repr
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        """What IPython prints: the sentences, and not all the arrays."""
+        del cycle
+        printer.text("\n".join(self.describe()))
 
     def require_ok(self) -> Self:
         """Itself, unless it holds no answer; where that may be, the class says so and raises."""
         return self
-
-    def _presented(self, function: str, *arguments: Any, **options: Any) -> Any:
-        """What a function of the modules that present this class makes of it; they are imported only now."""
-        from holdfast.present import presenter
-
-        names = [each.__name__ for each in type(self).__mro__]
-        return presenter(names, function)(self, *arguments, **options)

@@ -60,7 +60,9 @@ def found(rng) -> hf.Designs:
 def test_its_figures_are_given(found):
     assert list(found.figures()) == ["front", "arms"]
     assert list(replace(found, best=0).figures()) == ["front"]
-    assert found._repr_html_().count("<svg ") == 1
+    card = found._repr_html_()
+    assert card.count("<img ") == 1
+    assert "guaranteed relative manipulability" in card
 
 
 def test_the_page_says_what_to_build(found):

@@ -1,6 +1,6 @@
 """What an analysis returns is a result, everything else a value or something that is handed in: the three lists, and the walk.
 
-A result has a command, a page or a figure. What of the eight methods it has today is in the list: the list is exact, so
+A result has a command, a page or a figure. What of the nine methods it has today is in the list: the list is exact, so
 that a method that is added is written down and stays.
 """
 
@@ -18,9 +18,9 @@ from tools.house.rules import published
 
 from holdfast.present import PRESENTERS, presenter
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES
-from holdfast.result import Result
+from holdfast.result import Result, Shown
 
-METHODS = ("report", "save", "figures", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
+METHODS = ("report", "save", "figures", "plot", "to_dict", "to_xarray", "describe", "_repr_html_", "require_ok")
 
 
 def named(classes):
@@ -143,18 +143,28 @@ def test_a_result_says_what_it_holds(name):
         presenter([result.__name__], "to_dict")
 
 
+def below(base):
+    """All classes that derive from it."""
+    return {each for direct in base.__subclasses__() for each in {direct, *below(direct)}}
+
+
 @pytest.mark.parametrize("name", PRESENTERS)
-def test_a_presenter_is_there_and_its_class_is_a_result(name):
+def test_a_presenter_is_there_and_its_class_is_shown(name):
     for module in filter(None, PRESENTERS[name]):
         import_module(f"holdfast.present.{module}")
-    for function in ("write", "save", "figures", "show", "in_notebook"):
+    public()  # imports them
+    (shown,) = {each for each in below(Shown) if each.__name__ == name}
+    for function in (
+        "in_notebook",
+        "key_table",
+        "next_steps",
+        *("write", "save", "figures", "show") * issubclass(shown, Result),
+    ):
         assert inspect.isfunction(presenter([name], function)), function
-    (result,) = [public()[each][0] for each in RESULTS if each.rpartition(".")[2] == name]
-    assert issubclass(result, Result)
 
 
 @pytest.mark.parametrize("name", VALUES)
 def test_a_value_is_frozen_draws_nothing_and_writes_nothing(name):
     value, _ = public()[name]
-    assert [method for method in METHODS[:3] if hasattr(value, method)] == []
+    assert [method for method in METHODS[:4] if hasattr(value, method)] == []
     assert value.__dataclass_params__.frozen == (name not in THAWED)

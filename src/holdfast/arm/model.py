@@ -17,13 +17,14 @@ from holdfast.caching import cached_property
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 
 
 @checked_class
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Arm(Machine):
+class Arm(Shown, Machine):
     """A serial arm: the data of a :class:`~holdfast.arm.machine.Machine`, which it is made of, and what can be asked of it."""
 
     # ---- builders ----------------------------------------------------------------------------------------------

@@ -17,13 +17,14 @@ from holdfast.arm.poses import check_poses
 from holdfast.errors import InputError, TaskError
 from holdfast.grammar import ROWS, TASKS
 from holdfast.kernels.program import SX
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 
 
 @checked_class
 @dataclass(frozen=True, eq=False)
-class Task:
+class Task(Shown):
     """Rows of the end effector's twist (linear; angular) that the task prescribes.
 
     Attributes:

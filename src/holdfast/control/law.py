@@ -31,11 +31,12 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.kernels.step import Steps
 from holdfast.registry import LAWS, Labelled
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 
 
-class Law(Labelled, Steps):
+class Law(Shown, Labelled, Steps):
     """A law ``rates = G(q) v`` for a task velocity v, with ``v = Ke error`` for a target.
 
     In a control loop: ``step = law.prepare()`` before it, ``rates = step(q, v)`` in every period, (n,), (m,) -> (n,);

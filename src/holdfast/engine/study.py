@@ -20,6 +20,7 @@ from holdfast.errors import HoldfastError, StoreError
 from holdfast.files import reading
 from holdfast.files.output import guarded, replaced
 from holdfast.notice import says
+from holdfast.result import Shown
 
 _FORMAT, _VERSION = "holdfast-study", 1
 _FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
@@ -63,7 +64,7 @@ class Damage:
     what: str
 
 
-class Study:
+class Study(Shown):
     """A study's folder; see :meth:`create` and :meth:`open`.
 
     Attributes:

@@ -18,6 +18,7 @@ from holdfast.caching import cached_property
 from holdfast.errors import InputError, TaskError
 from holdfast.kernels.program import SX
 from holdfast.linalg import HouseholderQR, lowest
+from holdfast.result import Shown
 from holdfast.status import Status
 
 Array = NDArray[np.float64]
@@ -39,7 +40,7 @@ class Part:
     slopes: list[list[SX]]
 
 
-class Objective(ABC):
+class Objective(Shown, ABC):
     """A number by which :func:`holdfast.optimise` chooses: an index, a susceptibility, or a weighted sum of them.
 
     Objectives of one arm can be added, subtracted and multiplied by numbers: ``rho - 1e-4 * torque``.

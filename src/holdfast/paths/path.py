@@ -14,6 +14,7 @@ from holdfast.arm.poses import check_poses, rotation_vectors, rotations_of_vecto
 from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.timing import Trapezoid
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 
@@ -23,7 +24,7 @@ _SMOOTH = 1e-9  # relative jump of the twist below which a corner is none
 
 
 @dataclass(frozen=True, eq=False)
-class Path:
+class Path(Shown):
     """A path of the end effector, ``s`` from 0 to 1, made of L legs. Use :func:`line`, :func:`arc` or :func:`sequence`.
 
     On a leg, with u from 0 to 1, the position is ``center + exp(u sweep) (p0 - center) + u shift`` and the orientation

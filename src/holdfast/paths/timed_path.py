@@ -14,6 +14,7 @@ from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.paths.path import Path, in_file
 from holdfast.paths.timing import Timing, Trapezoid
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ class _Stopping:
 
 @checked_class
 @dataclass(frozen=True, eq=False)
-class TimedPath:
+class TimedPath(Shown):
     """A path and how it is run through: what a controller follows.
 
     Attributes:

@@ -6,10 +6,12 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Any
 
-# What presents a result, by the name of its class: the module of its words and numbers (to_dict, show, tables), which draws
-# nothing, and that of its pictures (figures, write, save). What a module does not define is in `results`.
+# What presents a result, by the name of its class: the module of its words and numbers (to_dict, show, tables, key_table,
+# next_steps), which draws nothing, and that of its pictures (figures, write, save). What a module does not define is in
+# `results`. Of what an analysis is asked with there are words alone, for notebooks.
 PRESENTERS = {
     "Analysis": ("teleop.numbers", "teleop.page"),
+    "Arm": ("arm.console", ""),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),
@@ -18,17 +20,24 @@ PRESENTERS = {
     "Curves": ("equilibria.curves", "equilibria.curves"),
     "Designs": ("designs.console", "designs.page"),
     "FreeSwing": ("physics.swing", "physics.swing"),
+    "Law": ("control.law", ""),
     "LawChoice": ("convergence.law_choice", "convergence.law_choice"),
     "LawComparison": ("convergence.law_rows", "convergence.law_comparison"),
+    "Objective": ("indices.notebook", ""),
     "Optima": ("solvers.console", "solvers.console"),
     "Orbit": ("equilibria.orbit", ""),
+    "Path": ("paths.path", ""),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("recovery.console", "recovery.motion"),
+    "Region": ("regions.region", ""),
     "Runs": ("simulation.console", "simulation.run"),
     "SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
     "StationaryPoints": ("equilibria.points", ""),
+    "Study": ("studies.console", ""),
     "TargetMeasures": ("convergence.targets", "convergence.targets"),
+    "Task": ("arm.task", ""),
     "TaskChoice": ("teleop.choice", "teleop.bank"),
+    "TimedPath": ("paths.path", ""),
     "TolerantWorkspace": ("reach.region", "reach.region"),
     "TradeOff": ("control.console", "control.trade_offs"),
     "Trajectory": ("motion.console", "motion.trajectory"),
@@ -36,7 +45,7 @@ PRESENTERS = {
     "WhatIsLeft": ("recovery.left", "recovery.left"),
     "Workspace": ("convergence.origins", "convergence.origins"),
 }
-_WORDS = {"as_json", "to_dict", "show", "tables"}
+_WORDS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps"}
 
 
 def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:

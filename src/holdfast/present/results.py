@@ -6,14 +6,14 @@ import re
 import shlex
 import sys
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from holdfast.errors import InputError
 from holdfast.files.output import made
 from holdfast.notice import says
 from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
-from holdfast.result import Result
+from holdfast.result import Result, Shown
 
 _NARROW = 5  # columns
 _HARD = "\N{NO-BREAK SPACE}"
@@ -113,10 +113,43 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     return [*pictures, result.report(folder / "report.html", command=command)]
 
 
-def in_notebook(result: Result) -> str:
-    """The sentences and the first figure."""
-    from holdfast.report.figures import svg
+def plot(result: Result, name: str = "", **options: Any) -> Figure:
+    """One of its figures, the first if none is named, which a notebook shows whether or not pyplot was imported."""
+    from holdfast.present.notebook import shown_alone
 
-    lines = "".join(f"<p>{escape(line)}</p>" for line in result.describe())
-    drawn = list(result.figures().items())[:1]
-    return lines + "".join(svg(figure, name, name) for name, figure in drawn)
+    found = result.figures(**options) if name or options else result._presented("main_figure")
+    if not found:
+        steps = " or ".join(step.partition("  #")[0] for step in result._presented("next_steps", "result"))
+        raise InputError(f"{type(result).__name__} has no figure; ask {steps} instead")
+    if name and name not in found:
+        raise InputError(f"{type(result).__name__} has no figure '{name}'; it has {', '.join(found)}")
+    return shown_alone(found[name] if name else next(iter(found.values())))
+
+
+def main_figure(result: Result) -> dict[str, Figure]:
+    """The first of its figures with its name; nothing where it has none. What is quicker alone says so."""
+    return dict(list(result.figures().items())[:1])
+
+
+def sentences(thing: Any) -> list[str]:
+    """What it says of itself: of a result several, of anything else one."""
+    said = thing.describe()
+    return [said] if isinstance(said, str) else list(said)
+
+
+def key_table(result: Result) -> Rows:
+    """The first of its tables."""
+    return next(iter(result._presented("tables")), Rows([], []))
+
+
+def next_steps(result: Result, name: str) -> list[str]:
+    """All that it says."""
+    del result
+    return [f"{name}.describe()"]
+
+
+def in_notebook(thing: Shown) -> str:
+    """The answer, a table of key numbers, the main figure, and what to ask next."""
+    from holdfast.present.notebook import card
+
+    return card(thing)

@@ -17,6 +17,7 @@ from holdfast.arm.model import Arm
 from holdfast.errors import InputError
 from holdfast.regions.pose_list import PoseList
 from holdfast.regions.weights import Density, check_weights
+from holdfast.result import Shown
 
 Array = NDArray[np.float64]
 Sampling = Literal["random", "sobol"]
@@ -50,7 +51,7 @@ def rpy_from_rotation(rotation: ArrayLike) -> Array:
 
 
 @dataclass(frozen=True)
-class Region:
+class Region(Shown):
     """A distribution of poses (a box in position and angles, a list, a function) or of configurations (a box in the joints).
 
     Use :meth:`box`, :meth:`from_poses`, :meth:`sampler` or :meth:`joints`. Samples come in blocks, each with its own seed,

@@ -68,8 +68,9 @@ def self_motion_figure(
         panels = np.atleast_1d(right.subplots(len(views), 1)) if views else ()
         for axes, view in zip(panels, views, strict=True):
             _draw_arm(axes, chains @ np.stack([view.right, view.up]).T, view)
+        banded = any(panel.arcs for panel in joints)
         handles = [
-            Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target"),
+            *([Patch(facecolor=SKY, alpha=0.55, label="a lock here keeps the target")] if banded else []),
             *([Line2D([], [], color=BLUE, linewidth=1.6, label="on the curve")] if len(curves) else []),
         ]
         figure.legend(handles=handles, loc="outside upper right", ncols=2)

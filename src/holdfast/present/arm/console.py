@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from holdfast import arms
 from holdfast.arm.model import Arm
 from holdfast.arm.soundness import check
+from holdfast.arm.task import plane_normal
 from holdfast.assessment.single_points import explain, structures
-from holdfast.present.printing import number
+from holdfast.grammar import TASKS
+from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -46,6 +48,39 @@ def to_dict(arm: Arm) -> dict[str, Any]:
         ],
         "findings": [{"severity": f.severity, "subject": f.subject, "message": f.message} for f in check(arm)],
     }
+
+
+def sentences(arm: Arm) -> list[str]:
+    """Which arm it is."""
+    return [f"{arm.title}: {arm.n} joints", *([f"Source: {arm.source}"] if arm.source else [])]
+
+
+def key_table(arm: Arm) -> Rows:
+    """Its joints."""
+    rows = []
+    for joint, link in zip(arm.joints, arm.links, strict=True):
+        factor, unit = joint.shown
+        limits = [f"{factor * x:.4g} {unit}" if np.isfinite(x) else "none" for x in (joint.lower, joint.upper)]
+        rows.append([joint.name, joint.type, *limits, "not given" if link is None else f"{number(link.mass)} kg"])
+    return Rows(["joint", "type", "lower", "upper", "link mass"], rows)
+
+
+def next_steps(arm: Arm, name: str) -> list[str]:
+    """How it tolerates failures of the largest task for which it is redundant."""
+    task = redundant_task(arm)
+    if task is None:
+        return [f"{name}.forward_kinematics({[0.0] * arm.n})  # not redundant for any task of its kind"]
+    return [
+        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves, configuration by configuration",
+        f"hf.assess({name}, task={task!r}, poses=200)  # and over a region about its home",
+    ]
+
+
+def redundant_task(arm: Arm) -> str | None:
+    """The largest task of an arm's kind of motion with fewer rows than joints; None if there is none."""
+    flat = plane_normal(arm) is not None
+    some = [task for task, rows in TASKS.items() if task.startswith("planar") == flat and rows < arm.n]
+    return max(some, key=TASKS.__getitem__, default=None)
 
 
 def show(arm: Arm, out: Console) -> None:

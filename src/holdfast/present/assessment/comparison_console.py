@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.assessment.console import Thresholds, numbers
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import Rows, number, plain
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -33,6 +33,29 @@ def to_dict(comparison: Comparison, thresholds: Thresholds = None, report: Path 
         }
     )
     return found
+
+
+def key_table(comparison: Comparison) -> Rows:
+    """A row for each candidate: the probability, the median and the worst joint."""
+    sign = "at least" if comparison.assessments[0].index.better == "larger" else "at most"
+    rows = [
+        [
+            r["name"],
+            _cell(r["reached"]),
+            f"{_cell(r['probability'])} ({_cell(r['probability_low'])} to {_cell(r['probability_high'])})",
+            "none" if r["median"] is None else number(r["median"], 3),
+            r["worst_joint"] or "none",
+        ]
+        for r in comparison.table
+    ]
+    return Rows(["candidate", "reached", f"P({sign} {comparison.threshold:g}), 95 %", "median", "worst joint"], rows)
+
+
+def next_steps(comparison: Comparison, name: str) -> list[str]:
+    """What to protect in the best of them, and the whole report."""
+    best = comparison.best()
+    steps = [f"{name}.upgrades({best!r})[0]  # what to protect first"] if comparison.assessment(best).kept else []
+    return [*steps, f'{name}.report("comparison.html")']
 
 
 def show(comparison: Comparison, out: Console, thresholds: Thresholds = None, report: Path | None = None) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import Rows, number, plain
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -19,6 +19,33 @@ if TYPE_CHECKING:
     from holdfast.probability.distribution import Distribution
 
 Thresholds = Sequence[float] | None
+
+
+def key_table(result: Assessment) -> Rows:
+    """How many poses are reached, how the index is distributed over them, and which failure is most often the worst."""
+    d, counts = result.distribution, result.worst_counts
+    rows = [["poses reached", f"{d.reached:,} of {d.samples:,}"]]
+    for which, when in ((d, "as found"), (result.optimised, "at the best configurations")):
+        if which is not None and which.reached:
+            low, middle, high = map(number, which.quantile([0.05, 0.5, 0.95]).tolist())
+            rows.append([f"{result.index.name} {when}: median (5 to 95 %)", f"{middle} ({low} to {high})"])
+    if result.index.bound is not None:
+        rows.append(["no configuration can exceed", number(result.index.bound)])
+    if counts.sum() > 0:
+        k = int(counts.argmax())
+        rows.append(
+            ["most often the worst failure", f"{result.index.failure_names[k]} ({counts[k] / counts.sum():.0%} of them)"]
+        )
+    return Rows(["", ""], rows)
+
+
+def next_steps(result: Assessment, name: str) -> list[str]:
+    """What would help most, and the whole report."""
+    steps = [f"{name}.upgrades()[0]  # the joint that deserves a redundant motor or brake"] if result.kept else []
+    if result.optimised is None and result.region.kind != "joints":
+        again = f"hf.assess({name}.arm, {name}.region, {name}.index, poses=200, optimise=True)"
+        steps.append(f"{again}  # what choosing configurations gains")
+    return [*steps, f'{name}.report("report.html")']
 
 
 def to_dict(

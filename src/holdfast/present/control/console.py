@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.control.trade_offs import QUANTILES, TradeOff
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -27,6 +28,19 @@ def to_dict(curve: TradeOff) -> dict[str, Any]:
         "pre_failure_error": curve.allowed,
         **told,
     }
+
+
+def key_table(curve: TradeOff) -> Rows:
+    """A row for each allowed error, medians over the samples."""
+    columns = (curve.allowed, np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0))
+    rows = [[f"{e:.2f}", f"{gain:.3f}", f"{paid:.3f}"] for e, gain, paid in zip(*columns, strict=True)]
+    return Rows(["allowed error", "peak error after a lock, by the pseudoinverse's", "error of the healthy arm"], rows)
+
+
+def next_steps(curve: TradeOff, name: str) -> list[str]:
+    """The law that spends such an error."""
+    allowed = float(curve.allowed[len(curve.allowed) // 2])
+    return [f"law = hf.control.failure_tolerant({name}.arm, {name}.task, {allowed:.2g})  # spends that much"]
 
 
 def show(curve: TradeOff, out: Console) -> None:

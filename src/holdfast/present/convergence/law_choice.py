@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.convergence.law_choice import LawChoice
 from holdfast.present import results
 from holdfast.present.convergence import maps
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,6 +19,19 @@ _SHORT = 24  # letters of a title
 def to_dict(choice: LawChoice) -> dict[str, Any]:
     """The best law, and the map of each."""
     return {"best": choice.best, "laws": list(choice.names), "maps": [maps.to_dict(one) for one in choice.maps]}
+
+
+def key_table(choice: LawChoice) -> Rows:
+    """How often each law converges, the best first."""
+    found = {name: choice.share(name) for name in choice.ranking}
+    rows = [[name, f"{100 * s.value:.1f} % ({100 * s.low:.1f} to {100 * s.high:.1f})"] for name, s in found.items()]
+    return Rows(["law", "converges after a lock, 95 %"], rows)
+
+
+def next_steps(choice: LawChoice, name: str) -> list[str]:
+    """How sure the ranking is."""
+    sure = [f"{name}.difference(*{name}.ranking[:2])  # how sure that is"] if len(choice.names) > 1 else []
+    return [*sure, f"{name}.map_of({name}.best)"]
 
 
 def figures(choice: LawChoice) -> dict[str, Figure]:

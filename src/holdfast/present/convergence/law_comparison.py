@@ -45,6 +45,11 @@ def figures(c: LawComparison) -> dict[str, Figure]:
     return found
 
 
+def main_figure(c: LawComparison) -> dict[str, Figure]:
+    """How the motions ended."""
+    return {"outcomes": outcome_figure(c)}
+
+
 @says("drawing the report")
 def write(c: LawComparison, path: Path, command: str = "") -> Path:
     """The page."""

@@ -37,6 +37,18 @@ def to_dict(c: LawComparison) -> dict[str, Any]:
     return data
 
 
+def key_table(c: LawComparison) -> Rows:
+    """How often each law converges with each joint locked."""
+    rows = [[r["law"], r["failure"], *outcome_cells(r)[2:4]] for r in c.table]
+    return Rows(["law", "locked", "converged", "95 % interval"], rows)
+
+
+def next_steps(c: LawComparison, name: str) -> list[str]:
+    """What is gained, and the whole report."""
+    steps = [f"{name}.gain({c.names[1]!r})  # over {c.names[0]}, on the same motions"] if pairs(c) else []
+    return [*steps, f'{name}.report("laws.html")']
+
+
 def show(c: LawComparison, out: Console) -> None:
     """The headline and the tables."""
     from rich.markup import escape

@@ -14,6 +14,7 @@ from holdfast.convergence.table import save_places
 from holdfast.notice import says
 from holdfast.present import results
 from holdfast.present.convergence.places import panels
+from holdfast.present.printing import Rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,6 +52,24 @@ def to_dict(m: ConvergenceMap) -> dict[str, Any]:
         "limits_passed_fraction": dict(zip(m.columns, m.limits_passed[m.known].mean(axis=0).tolist(), strict=True)),
         "fractions": shares,
     }
+
+
+def key_table(m: ConvergenceMap) -> Rows:
+    """How often the motions converge with each joint locked."""
+    if not m.known.any():
+        return Rows(["", ""], [["motions", "none"]])
+    converged, trapped = m.shares("converged"), m.shares("trapped")
+    cells = [
+        [name, f"{100 * s.value:.1f} % ({100 * s.low:.1f} to {100 * s.high:.1f})", f"{100 * trapped[name].value:.1f} %"]
+        for name, s in converged.items()
+    ]
+    return Rows(["locked", "converged, 95 %", "not there, target in reach"], cells)
+
+
+def next_steps(m: ConvergenceMap, name: str) -> list[str]:
+    """The single motions, and the whole report."""
+    del m
+    return [f"{name}.to_xarray()  # every motion", f'{name}.report("map.html")']
 
 
 @says("writing the results")
@@ -103,6 +122,11 @@ def figures(m: ConvergenceMap) -> dict[str, Figure]:
         target[0] if alone else None,
     )
     return {"outcomes": outcomes_figure([m]), **{f"map{view}": figure for view, figure in maps.items()}}
+
+
+def main_figure(m: ConvergenceMap) -> dict[str, Figure]:
+    """How the motions ended."""
+    return {"outcomes": outcomes_figure([m])}
 
 
 def _told(m: ConvergenceMap, laws: int = 1) -> str:

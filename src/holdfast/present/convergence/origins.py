@@ -68,6 +68,17 @@ def tables(w: Workspace) -> list[Rows]:
     return found
 
 
+def key_table(w: Workspace) -> Rows:
+    """The means of the measures."""
+    return mean_rows(w, "the starts", w.method == "sampled")
+
+
+def next_steps(w: Workspace, name: str) -> list[str]:
+    """The values of each place, and the whole report."""
+    del w
+    return [f"{name}.to_xarray()  # place by place", f'{name}.report("workspace.html")']
+
+
 @says("writing the results")
 def save(w: Workspace, folder: Path, command: str = "") -> list[Path]:
     """``workspace.csv``, ``workspace.json``, the figures and the page."""

@@ -37,6 +37,12 @@ def figures(t: TargetMeasures) -> dict[str, Figure]:
     return measure_maps(t.law, t.targets, t.measures, about, f"{count} failures" if count else "")
 
 
+def next_steps(t: TargetMeasures, name: str) -> list[str]:
+    """The values of each place, and the whole report."""
+    del t
+    return [f"{name}.to_xarray()  # place by place", f'{name}.report("workspace.html")']
+
+
 @says("writing the results")
 def save(t: TargetMeasures, folder: Path, command: str = "") -> list[Path]:
     """``targets.csv``, with means over the starts and their 95 % intervals; ``targets.json``, maps and the page."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from holdfast.designs.convergence import ConvergenceDesigns
-from holdfast.designs.designs import Checked, Designs
+from holdfast.designs.designs import Checked, Designs, interval_text
 from holdfast.designs.space import Parameter
+from holdfast.present.printing import Rows
 from holdfast.probability.intervals import Difference, Interval
+from holdfast.words import percent
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -83,6 +85,24 @@ def _of_convergence(d: ConvergenceDesigns) -> dict[str, Any]:
         named: dict[str, Interval | Difference] = {"given": given, "best": best, "difference": apart}
         out["fresh"] = {n: {"value": x.value, "low": x.low, "high": x.high} for n, x in named.items()}
     return out
+
+
+def key_table(d: Designs | ConvergenceDesigns) -> Rows:
+    """The given arm and the best design, number by number, and what they are worth."""
+    pairs = zip(d.space.parameters, d.space.start.tolist(), d.values[d.best].tolist(), strict=True)
+    rows = [[p.name, p.text(before), p.text(after)] for p, before, after in pairs]
+    if isinstance(d, Designs):
+        given, best = (interval_text(x.guaranteed) for x in (d.checked.given, d.checked.best))
+        rows += [[f"guaranteed {d.index.name}", given, best], ["reach, m", f"{d.start_reach:.3f}", f"{d.reach[d.best]:.3f}"]]
+    else:
+        rows += [[name, percent(float(m[0])), percent(float(m[d.best]))] for name, m in d.measures.items()]
+    return Rows(["", "given arm", "best design"], rows)
+
+
+def next_steps(d: Designs | ConvergenceDesigns, name: str) -> list[str]:
+    """The best arm, and the whole report."""
+    del d
+    return [f"{name}.arm()  # the best one", f'{name}.report("designs.html")']
 
 
 def show(d: Designs | ConvergenceDesigns, out: Console) -> None:

@@ -32,6 +32,12 @@ def tables(found: Basins) -> list[Rows]:
     return [Rows(["ends at", "fraction of starts", points.error_head(found.points.law)], rows)]
 
 
+def next_steps(found: Basins, name: str) -> list[str]:
+    """The points themselves."""
+    del found
+    return [f"{name}.points  # where they are"]
+
+
 def figures(found: Basins) -> dict[str, Figure]:
     """``basins``: a map where the starts are a grid over two joints, else bars."""
     from holdfast.present.equilibria.figures import basins_figure

@@ -57,6 +57,12 @@ def tables(curves: Curves) -> list[Rows]:
     return [Rows(head, rows)] if curves.curves else []
 
 
+def next_steps(curves: Curves, name: str) -> list[str]:
+    """The points at one locked value."""
+    locked = {curves.joint: 0.0 if not curves.sink_arcs else round(float(np.mean(curves.sink_arcs[0])), 3)}
+    return [f"hf.stationary_points({name}.law, {name}.target, {locked!r})  # at one value"]
+
+
 def figures(curves: Curves) -> dict[str, Figure]:
     """``curves``: the error, and the other joints if they are few, over the locked value."""
     from holdfast.present.equilibria.figures import curves_figure

@@ -13,6 +13,12 @@ def to_dict(orbit: Orbit) -> dict[str, Any]:
     return {**vars(orbit), "stable": orbit.stable}
 
 
+def next_steps(orbit: Orbit, name: str) -> list[str]:
+    """What says whether it is stable."""
+    del orbit
+    return [f"{name}.multipliers  # all inside the unit circle: the orbit attracts"]
+
+
 def tables(orbit: Orbit) -> list[Rows]:
     """What each joint does over a period."""
     values = zip(orbit.amplitude, orbit.windings, orbit.rates, strict=True)

@@ -59,6 +59,12 @@ def tables(points: StationaryPoints) -> list[Rows]:
     return [Rows(head, rows)]
 
 
+def next_steps(points: StationaryPoints, name: str) -> list[str]:
+    """Which starts end at them."""
+    locked = dict(zip(points.locked, points.at.tolist(), strict=True))
+    return [f"hf.basins({name}.law, {name}.target, {locked!r}, starts=64).plot()  # which starts end at which point"]
+
+
 def show(points: StationaryPoints, out: Console) -> None:
     """The sentences, and the first points of each kind."""
     for line in points.describe():

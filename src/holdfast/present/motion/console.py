@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.motion.trajectory import Array, Trajectory
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -45,6 +45,23 @@ def to_dict(t: Trajectory) -> dict[str, Any]:
         data["time_scale"] = max(scales)
         data["time_scale_by_joint"] = dict(zip(names, scales, strict=True))
     return data
+
+
+def key_table(t: Trajectory) -> Rows:
+    """The objective along the path, and the joint rates."""
+    facts = _facts(t.value)
+    rows = [
+        [f"{t.objective.name}: {', '.join(facts)}", ", ".join(map(number, facts.values()))],
+        ["largest norm of the joint rates", f"{number(t.peak_rate)} rad/s at {number(t.peak_time)} s"],
+        ["end effector off its path by at most", t.hand_error],
+    ]
+    return Rows(["", ""], rows)
+
+
+def next_steps(t: Trajectory, name: str) -> list[str]:
+    """The file for a controller, and the page with the arm moving."""
+    del t
+    return [f'{name}.to_csv("motion.csv")', f'{name}.report("motion.html")  # with the arm moving']
 
 
 def show(t: Trajectory, out: Console) -> None:

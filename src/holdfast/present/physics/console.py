@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 from holdfast.present.simulation import console as simulation
 
 if TYPE_CHECKING:
@@ -34,6 +34,24 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
         "control_rate_hz": run.servos.rate,
     }
     return run.kinematic.to_dict() | {"physics": physics}
+
+
+def key_table(run: PhysicalRun) -> Rows:
+    """Both outcomes beside each other."""
+    told = run.kinematic
+    rows = [
+        ["outcome", str(told.outcome), run.outcome],
+        ["error at the end", number(float(told.error)), number(run.error[-1])],
+        ["took, s", number(float(told.time)), number(run.time[-1])],
+        ["tool paths apart, at most, mm", "", number(1000 * run.path_distance, 3)],
+    ]
+    return Rows(["", "kinematic", "in MuJoCo"], rows)
+
+
+def next_steps(run: PhysicalRun, name: str) -> list[str]:
+    """The kinematic run alone."""
+    del run
+    return [f"{name}.kinematic.plot()", f'{name}.report("run.html")']
 
 
 def show(run: PhysicalRun, out: Console) -> None:

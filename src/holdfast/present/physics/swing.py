@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,6 +44,23 @@ def to_dict(swing: FreeSwing) -> dict[str, Any]:
             for d in swing.drops
         ],
     }
+
+
+def key_table(swing: FreeSwing) -> Rows:
+    """How far it goes, and where the tool is when brakes act."""
+    factor, unit = swing.arm.joints[swing.joint].shown
+    rows = [["largest displacement", f"{number(factor * swing.peak)} {unit}"]]
+    rows += [[f"tool has dropped after {d.after_ms:g} ms", f"{number(1000 * d.drop)} mm"] for d in swing.drops]
+    return Rows(["", ""], rows)
+
+
+def next_steps(swing: FreeSwing, name: str) -> list[str]:
+    """Which joint would fall hardest here, and the motion as a table."""
+    del swing
+    return [
+        f"hf.susceptibility.torque({name}.arm).by_joint({name}.q)  # which joint would fall how hard",
+        f'{name}.to_csv("swing.csv")',
+    ]
 
 
 def show(swing: FreeSwing, out: Console) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from holdfast.present.printing import Rows
 from holdfast.present.solvers.self_motions import ranges
 
 if TYPE_CHECKING:
@@ -33,6 +34,21 @@ def to_dict(region: TolerantWorkspace) -> dict[str, Any]:
         "locked_values_per_joint": None if region.exact else region.angles,
         "lost_to": dict(zip(names, region.lost_to, strict=True)),
     }
+
+
+def key_table(region: TolerantWorkspace) -> Rows:
+    """The artificial limits, and what the locks of each joint lose."""
+    each = zip(region.arm.joints, region.limits, region.lost_to, strict=True)
+    return Rows(
+        ["joint", "artificial limits", "lost by its lock"],
+        [[j.name, ranges([limits], j), f"{lost:.1%}"] for j, limits, lost in each],
+    )
+
+
+def next_steps(region: TolerantWorkspace, name: str) -> list[str]:
+    """What is reached at each point, and the whole report."""
+    del region
+    return [f"{name}.to_xarray()  # point by point", f'{name}.report("workspace.html")']
 
 
 def show(region: TolerantWorkspace, out: Console) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from holdfast.present.printing import Rows, number
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -24,6 +25,24 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
         "margin_m": check.margin,
         "tool_at_end": check.poses[-1],
     }
+
+
+def key_table(check: WaypointCheck) -> Rows:
+    """What is kept and what is not."""
+    clearance = "not looked at" if check.least_clearance is None else f"{number(check.least_clearance)} m"
+    rows = [
+        ["waypoints", str(len(check.q))],
+        ["limits", ", ".join(check.beyond_limits) or "kept"],
+        ["locks", ", ".join(check.locks_moved) or "kept"],
+        ["least clearance", clearance],
+    ]
+    return Rows(["", ""], rows)
+
+
+def next_steps(check: WaypointCheck, name: str) -> list[str]:
+    """The verdict."""
+    del check
+    return [f"{name}.ok"]
 
 
 def show(check: WaypointCheck, out: Console) -> None:

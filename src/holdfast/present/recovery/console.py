@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -57,6 +57,27 @@ def to_dict(recovery: Recovery) -> dict[str, Any]:
         },
         "seed": recovery.seed,
     }
+
+
+def key_table(recovery: Recovery) -> Rows:
+    """What came of it."""
+    rows = [
+        ["goal", recovery.goal],
+        ["ending", recovery.ending.name.lower().replace("_", " ")],
+        ["waypoints", str(len(recovery.q))],
+    ]
+    if recovery.legs:
+        rows.append(["length", f"{number(recovery.length)} {recovery.unit} (at least {number(recovery.lower_bound)})"])
+    if recovery.left is not None and recovery.left.left is not None:
+        rows.append(["of the workspace is left", str(recovery.left.left)])
+    return Rows(["", ""], rows)
+
+
+def next_steps(recovery: Recovery, name: str) -> list[str]:
+    """The motion for a controller, or why there is none."""
+    if not len(recovery.q):
+        return [f"{name}.choices  # rows that could be given up"]
+    return [f"{name}.check()  # an independent replay", f'{name}.to_csv("waypoints.csv")']
 
 
 def _rows(rows: RowsGivenUp | None) -> dict[str, float] | None:

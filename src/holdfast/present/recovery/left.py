@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from holdfast.present.printing import Rows
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -27,6 +29,18 @@ def to_dict(left: WhatIsLeft) -> dict[str, Any]:
         **{name: None if found is None else asdict(found) for name, found in fractions.items()},
         "starts": left.starts,
     }
+
+
+def key_table(left: WhatIsLeft) -> Rows:
+    """How many targets were reached before, and how many still are."""
+    told = [["targets", f"{len(left.healthy):,}"], ["the healthy arm reaches", f"{int(left.healthy.sum()):,}"]]
+    return Rows(["", ""], [*told, ["the failed arm still reaches", f"{int(left.locked.sum()):,}"]])
+
+
+def next_steps(left: WhatIsLeft, name: str) -> list[str]:
+    """The whole report."""
+    del left
+    return [f'{name}.report("left.html")']
 
 
 def figures(left: WhatIsLeft) -> dict[str, Figure]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 from holdfast.simulation.runs import Outcome, Reason, Runs
 
 if TYPE_CHECKING:
@@ -41,6 +41,35 @@ def to_dict(runs: Runs) -> dict[str, Any]:
         "limits_passed": [name for name, passed in by_joint(runs.limits_passed).items() if passed.any()],
         "limits": {joint.name: [joint.lower, joint.upper] for joint in arm.joints},
     }
+
+
+def key_table(runs: Runs) -> Rows:
+    """How the runs ended: one in numbers, many by their outcomes."""
+    if runs.code.ndim:
+        rows = [[name, f"{count:,}"] for name, count in runs.counts().items()]
+        past = np.atleast_2d(runs.limits_passed).any(axis=1)
+        return Rows(["outcome", "runs"], [*rows, ["past a joint limit on the way", f"{int(past.sum()):,}"]])
+    unit, size = "cycles" if runs.cycles else "s", "m and rad" if runs.law.task.angular else "m"
+    locks = [
+        f"{name} at {t:g} {unit}" for name, t in zip(runs.law.arm.joint_names, runs.lock_time, strict=True) if np.isfinite(t)
+    ]
+    rows = [
+        ["locked", ", ".join(locks) or "none"],
+        ["outcome", str(runs.outcome)],
+        ["error at the end", f"{number(float(runs.error))} {size}"],
+        ["path of the end effector", f"{number(float(runs.path_length))} m"],
+        ["took", f"{number(float(runs.time))} {unit}"],
+    ]
+    return Rows(["", ""], rows)
+
+
+def next_steps(runs: Runs, name: str) -> list[str]:
+    """The motion itself, and the page with the arm moving."""
+    which = "k=0, " if runs.code.ndim else ""
+    return [
+        f"{name}.path({which}samples=400)  # joints and tool over time",
+        f'{name}.report("run.html")  # with the arm moving',
+    ]
 
 
 def show(runs: Runs, out: Console) -> None:

@@ -17,7 +17,7 @@ from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.present.arm.console import print_outside, shown_position
 from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import Rows, number, plain
 from holdfast.solvers.optima import Optima
 from holdfast.status import Status
 
@@ -77,6 +77,27 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
     }
     made: dict[str, Any] = plain(data)
     return made
+
+
+def key_table(optima: Optima) -> Rows:
+    """One pose joint by joint, or a row for each."""
+    found, arm = optima.rows, optima.arm
+    if len(found.poses) == 1:
+        pairs = zip(arm.joints, found.before[0], found.q[0], strict=True)
+        return Rows(
+            ["joint", "before", "best"], [[j.name, shown_position(a, j.unit), shown_position(b, j.unit)] for j, a, b in pairs]
+        )
+    each = enumerate(zip(found.value_before, found.value, found.status, strict=True), 1)
+    return Rows(
+        ["pose", "before", "best", ""], [[str(k), number(a), number(b), _name(s).replace("_", " ")] for k, (a, b, s) in each]
+    )
+
+
+def next_steps(optima: Optima, name: str) -> list[str]:
+    """The objective at the best configurations, joint by joint where it has joints."""
+    if isinstance(optima.objective, (Index, Susceptibility)):
+        return [f"{name}.objective.by_joint({name}.q)  # whichever joint fails"]
+    return [f"{name}.objective({name}.q)"]
 
 
 def show(optima: Optima, out: Console, asked: str = "") -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import number
+from holdfast.present.printing import Rows, number
 from holdfast.solvers.joint_space import turning
 
 if TYPE_CHECKING:
@@ -44,6 +44,22 @@ def to_dict(motion: SelfMotion) -> dict[str, Any]:
     }
 
 
+def key_table(motion: SelfMotion) -> Rows:
+    """The curves; of a manifold of more dimensions how many points were found."""
+    if not motion.components:
+        return Rows(["", ""], [["configurations found", f"{len(motion.q):,}"], ["dimension", str(motion.redundancy)]])
+    each = enumerate(motion.components)
+    return Rows(
+        ["curve", "length, rad", "points", ""], [[str(k + 1), number(c.length), str(len(c.q)), motion.ends(k)] for k, c in each]
+    )
+
+
+def next_steps(motion: SelfMotion, name: str) -> list[str]:
+    """Where each joint may lock."""
+    del motion
+    return [f"hf.joint_bounds({name}.arm, {name}.pose, {name}.task)  # where each joint may lock without losing the pose"]
+
+
 def show(motion: SelfMotion, out: Console) -> None:
     """A table of the curves, and one of where each joint may lock."""
     from rich.markup import escape
@@ -77,13 +93,23 @@ def _short(value: float) -> str:
 
 def figures(motion: SelfMotion) -> dict[str, Figure]:
     """Joint values along the curves with where each joint may lock, and the arm in a few of the configurations."""
+    from holdfast.reach.bounds import joint_bounds
+
+    arcs = joint_bounds(motion.arm, motion.pose, motion.task) if motion.bounds is None else motion.bounds
+    return {"self-motion": _figure(motion, arcs)}
+
+
+def main_figure(motion: SelfMotion) -> dict[str, Figure]:
+    """The same, and where each joint may lock only if that is known: looking for it takes longer than all the rest."""
+    return {"self-motion": _figure(motion, [[]] * motion.arm.n if motion.bounds is None else motion.bounds)}
+
+
+def _figure(motion: SelfMotion, arcs: Sequence[Sequence[tuple[float, float]]]) -> Figure:
     from holdfast.arm.configurations import finite_limits
     from holdfast.present.stick_figure import views_of
-    from holdfast.reach.bounds import joint_bounds
     from holdfast.report.manifolds import JointPanel, self_motion_figure
 
     arm = motion.arm
-    arcs = joint_bounds(arm, motion.pose, motion.task) if motion.bounds is None else motion.bounds
     low, high = finite_limits(arm)
     factors = np.array([j.shown[0] for j in arm.joints])
     panels = [
@@ -100,8 +126,5 @@ def figures(motion: SelfMotion) -> dict[str, Figure]:
     chains = arm.frames(q[some] if len(q) else q)[..., :3, 3]
     views = views_of(arm, chains) if len(q) else []
     drawn = f"; the {_CURVES} longest curves are drawn" if len(motion.components) > _CURVES else ""
-    return {
-        "self-motion": self_motion_figure(
-            panels, curves, chains, views, motion.describe()[0].replace(arm.title, arm.name, 1) + drawn
-        )
-    }
+    caption = motion.describe()[0].replace(arm.title, arm.name, 1) + drawn
+    return self_motion_figure(panels, curves, chains, views, caption)

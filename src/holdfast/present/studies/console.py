@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.engine.study import Damage, Study
 from holdfast.engine.union import Merged
 from holdfast.kernels.threads import thread_count
+from holdfast.present.printing import Rows
 from holdfast.studies.estimate import Estimate
 
 if TYPE_CHECKING:
@@ -35,6 +36,24 @@ def status(study: Study) -> dict[str, Any]:
         ],
         "made_by": study.makers,
     }
+
+
+def sentences(study: Study) -> list[str]:
+    """How far it is."""
+    cells = study.status()
+    done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+    return [f"{study.name} ({study.path}): {done:,} of {total:,} chunks, seed {study.seed}"]
+
+
+def key_table(study: Study) -> Rows:
+    """How far each cell is."""
+    return Rows(["cell", "rows"], [[s.name, f"{s.rows_done:,} of {s.rows:,}"] for s in study.status()])
+
+
+def next_steps(study: Study, name: str) -> list[str]:
+    """Whether what is there is sound."""
+    del study
+    return [f"{name}.verify()  # an empty list: everything that was computed is sound"]
 
 
 def show_status(study: Study, out: Console) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import number, plain
+from holdfast.present.printing import Rows, number, plain
 from holdfast.teleop.bank.selection import TaskChoice
 from holdfast.teleop.bank.tasks import TaskBank
 
@@ -47,6 +47,20 @@ def _summary(bank: TaskBank) -> list[dict[str, Any]]:
             }
         )
     return lines
+
+
+def key_table(choice: TaskChoice) -> Rows:
+    """Medians over the tasks for each scenario."""
+    rows = [
+        [r["label"], str(r["not_reached"]), number(r["time_cycles"], 3), number(r["cpm"], 3)] for r in _summary(choice.bank)
+    ]
+    return Rows(["scenario", "not completed", "time, cycles", "CPM"], rows)
+
+
+def next_steps(choice: TaskChoice, name: str) -> list[str]:
+    """Which tasks those are."""
+    del choice
+    return [f"{name}.chosen + 1  # the tasks, from 1"]
 
 
 def show(choice: TaskChoice, out: Console) -> None:

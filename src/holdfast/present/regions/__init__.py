@@ -1,0 +1,1 @@
+"""Regions, as people read them."""

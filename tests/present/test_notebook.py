@@ -1,0 +1,204 @@
+"""What a notebook shows of every result and of what results are asked with; what it suggests is executed."""
+
+from __future__ import annotations
+
+import sys
+from functools import cache
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import __main__
+import holdfast as hf
+from holdfast.errors import InputError
+from holdfast.present import PRESENTERS
+
+pytestmark = pytest.mark.interpreted
+X, TARGET = np.array([0.3, 0.5, 0.7]), [1.5, 1.5]
+
+
+@cache
+def arm():
+    return hf.arms.load("planar-3r")
+
+
+@cache
+def law():
+    return hf.control.Pseudoinverse(arm(), "planar")
+
+
+@cache
+def index():
+    return hf.indices.relative_manipulability(arm(), "planar")
+
+
+@cache
+def region():
+    return hf.Region.around(arm(), X)
+
+
+@cache
+def path():
+    here = arm().forward_kinematics(X)
+    there = here.copy()
+    there[0, 3] -= 0.05
+    return hf.paths.line(here, there, name="<b>across</b>")
+
+
+@cache
+def timed():
+    return hf.paths.TimedPath(path(), hf.paths.Constant(1.0))
+
+
+def found(function, *args, **options):
+    """Made when it is asked for, once."""
+    return cache(lambda: function(*args, **options))
+
+
+@cache
+def recovered():
+    return hf.recover(arm(), "joint2", X, goal="home", region=region(), samples=20)
+
+
+MADE = {
+    "Arm": arm,
+    "Assessment": lambda: assessed(),
+    "Basins": found(lambda: hf.basins(law(), TARGET, {1: 1.0}, starts=4)),
+    "Comparison": lambda: hf.compare_assessments([assessed(), assessed()], names=["one", "<b>two</b>"]),
+    "ConvergenceMap": lambda: mapped(),
+    "Curves": found(lambda: hf.stationary_points(law(), TARGET, "joint2")),
+    "Law": law,
+    "LawChoice": found(lambda: hf.best_law([law(), hf.control.damped(arm(), 0.3, "planar")], 1, 2, configurations=1)),
+    "LawComparison": found(
+        lambda: hf.compare_laws([law(), hf.control.damped(arm(), 0.3, "planar")], [X, X + 0.1], TARGET, restarts=2)
+    ),
+    "Objective": index,
+    "Optima": found(lambda: hf.optimise(arm(), arm().forward_kinematics(X), index(), starts=3)),
+    "Path": path,
+    "Recovery": recovered,
+    "Region": region,
+    "Runs": found(lambda: hf.simulate(law(), X, TARGET, locked={"joint2": None})),
+    "SelfMotion": found(lambda: hf.self_motion(arm(), TARGET, "planar", starts=4)),
+    "StationaryPoints": found(lambda: hf.stationary_points(law(), TARGET, {1: 1.0})),
+    "Task": lambda: index().task,
+    "TimedPath": timed,
+    "TolerantWorkspace": found(
+        lambda: hf.tolerant_workspace(arm().with_limits([-2] * 3, [2] * 3), "planar", points=4, angles=2)
+    ),
+    "TradeOff": found(lambda: hf.control.trade_off(arm(), "planar", samples=10, allowed=[0, 0.5])),
+    "Trajectory": found(lambda: hf.follow(arm(), timed(), maximise=index(), q=X, samples=5)),
+    "WaypointCheck": lambda: recovered().check(),
+    "WhatIsLeft": lambda: recovered().left,
+}
+INPUTS = {"Arm", "Law", "Objective", "Path", "Region", "Study", "Task", "TimedPath"}
+WITHOUT_FIGURE = {"Optima", "Orbit", "StationaryPoints", "Trajectory", "WaypointCheck"}
+ELSEWHERE = {
+    "Analysis",
+    "ConvergenceDesigns",
+    "Designs",
+    "FreeSwing",
+    "Orbit",
+    "PhysicalRun",
+    "Study",
+    "TargetMeasures",
+    "TaskChoice",
+    "Workspace",
+}
+
+
+@cache
+def assessed():
+    return hf.assess(arm(), region(), index(), poses=8)
+
+
+@cache
+def mapped():
+    return hf.convergence_map(law(), 1, 2, configurations=1)
+
+
+class Card(HTMLParser):
+    """Its tags, each closed, and the code in it."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.open, self.seen, self.code, self.text = [], [], "", ""
+        self.feed(html)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.seen.append(tag)
+        if tag not in ("img", "br"):
+            self.open.append(tag)
+        look = dict(attrs).get("style") or ""
+        assert tag == "img" or "color" not in look.replace("background", ""), look
+        assert tag == "img" or "background" not in look, look
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += data
+        if self.open and self.open[-1] == "pre":
+            self.code += data
+
+
+def test_every_class_that_a_notebook_shows_is_shown_here():
+    """A new one is to be made above; what is dear to make has a card where it is tested."""
+    assert set(MADE) | ELSEWHERE == set(PRESENTERS)
+
+
+@pytest.mark.parametrize("name", sorted(MADE))
+def test_a_card_has_a_table_and_the_main_figure_and_what_it_suggests_runs(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    thing = MADE[name]()
+    monkeypatch.setattr(__main__, "mine", thing, raising=False)
+    monkeypatch.setattr(__main__, "other", arm(), raising=False)  # a region is for that one
+    card = Card(thing._repr_html_())
+    assert "table" in card.seen
+    assert "b" not in card.seen
+    assert ("img" in card.seen) == (name not in {*INPUTS, *WITHOUT_FIGURE})
+    steps = [line.partition("  #")[0] for line in card.code.splitlines()]
+    assert 1 <= len(steps) <= 3
+    assert all("mine" in step for step in steps)
+    for step in steps:
+        if "report(" not in step:  # what every report says is tested elsewhere
+            exec(step.replace("poses=200", "poses=4"), {"hf": hf, "mine": thing, "other": arm()})
+
+
+def test_a_figure_is_plotted_by_its_name():
+    choice = MADE["TradeOff"]()
+    figure = choice.plot()
+    assert isinstance(figure, Figure)
+    data, size = figure._repr_png_()
+    assert data.startswith(b"\x89PNG")
+    assert size == {"width": 960.0, "height": pytest.approx(96 * 3.9)}
+    assert plt_knows_nothing()
+    assert isinstance(choice.plot("trade-off"), Figure)
+    with pytest.raises(InputError, match="TradeOff has no figure 'x'; it has trade-off"):
+        choice.plot("x")
+    with pytest.raises(InputError, match=r"WaypointCheck has no figure; ask result.ok instead"):
+        MADE["WaypointCheck"]().plot()
+
+
+def plt_knows_nothing():
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    return pyplot is None or pyplot.get_fignums() == []
+
+
+def test_what_ipython_prints_is_what_people_read():
+    said = []
+
+    class Printer:
+        text = staticmethod(said.append)
+
+    MADE["TradeOff"]()._repr_pretty_(Printer, False)
+    assert said == ["\n".join(MADE["TradeOff"]().describe())]
+
+
+def test_what_has_no_variable_is_the_last_output():
+    assert Card(hf.Region.box([0.5, 0, 0.4], 0.1)._repr_html_()).code.startswith(
+        "hf.assess(hf.arms.load('pa10-9dof'), _, task='pose'"
+    )
