@@ -33,6 +33,7 @@ def pytest_addoption(parser):
     parser.addoption(
         "--draw", type=int, default=_DRAW, metavar="SEED", help=f"seed of all random test inputs (default {_DRAW})"
     )
+    parser.addoption("--write-help", action="store_true", help="write the help pages that tests/cli/test_help.py compares with")
 
 
 def pytest_configure(config):
@@ -45,7 +46,8 @@ def pytest_configure(config):
     # Node is installed beside Python, whether or not the environment was activated.
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
     os.environ["HOLDFAST_NOTICES"] = "off"  # they depend on how long something takes
-    for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS"):
+    os.environ["_TYPER_FORCE_DISABLE_TERMINAL"] = "1"  # colours where tests run as a job of GitHub
+    for name in ("HOLDFAST_BACKEND", "HOLDFAST_THREADS", "COLUMNS", "FORCE_COLOR", "TERMINAL_WIDTH", "TTY_COMPATIBLE"):
         os.environ.pop(name, None)
 
 

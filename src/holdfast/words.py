@@ -101,6 +101,15 @@ def counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}" + ("" if count == 1 else "s")
 
 
+def duration(seconds: float) -> str:
+    """``4.2 s``, ``12 min``, ``3.0 h`` or ``2.5 days``."""
+    if seconds < 60:
+        return f"{seconds:.2g} s" if seconds < 10 else f"{seconds:.0f} s"
+    if seconds < 5400:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
+
+
 def article(word: str) -> str:
     """``a`` or ``an``."""
     return "an" if word[:1].lower() in "aeiou" else "a"

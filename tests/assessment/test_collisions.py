@@ -1,4 +1,4 @@
-"""Assessments that look whether the arm runs through itself: counts, folders, and what the report and its command say."""
+"""Assessments that look whether the arm collides with itself: counts, folders, and what the report and its command say."""
 
 from __future__ import annotations
 
@@ -181,7 +181,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
     text = run.report(tmp_path / "r.html").read_text()
     found = run.collisions
     for part in (
-        "Does the arm run through itself?",
+        "Does the arm collide with itself?",
         "comes closer than 0.01 m to itself",
         thick.pair_names[0],
         "given radius 0.13 m",
@@ -190,7 +190,7 @@ def test_the_report_says_what_was_counted(run, thick, tmp_path):
     table = next(s for s in build(run).sections if s.title.startswith("Does the arm")).blocks[0]
     cells = dict(table.rows)
     for name, count in (
-        ("Configurations found that run the arm through itself", found.found),
+        ("Configurations found that bring the arm into collision with itself", found.found),
         ("Poses at whose best configuration the arm comes closer than 0.01 m to itself", found.blocked),
         ("… and one that is clear was chosen instead", found.blocked - found.hopeless),
     ):

@@ -45,12 +45,12 @@ def test_assess_prints_how_often_the_arm_runs_through_itself(cli, ask, close, tm
     text = " ".join(out.split())
     assert code == 0
     for part in (
-        f"the arm runs through itself in {found.found / found.reached:.1%} of the {found.reached} configurations found",
+        f"the arm collides with itself in {found.found / found.reached:.1%} of the {found.reached} configurations found",
         "it comes closer than 0.01 m to itself",
         "given radius 0.13 m along each link; margin 0.01 m",
     ):
         assert part in text, part
-    assert "runs through itself" not in cli(*common, "--no-clearance")[1]
+    assert "collides with itself" not in cli(*common, "--no-clearance")[1]
 
 
 def test_a_run_that_is_not_optimised_looks_if_told_to(ask, close):

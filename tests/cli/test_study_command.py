@@ -222,18 +222,18 @@ def test_status_verify_and_a_damaged_chunk(cli, ask, file, folder, tmp_path):
     code, _, err = cli("study", "report", whole)
     assert code == 2
     assert "damaged" in err
-    code, _, err = cli("study", "verify", whole)
+    code, out, err = cli("study", "verify", whole)
     assert code == 2
-    assert "chunk 2 of cell 'planar-3r-pseudoinverse' is damaged" in err
+    assert "chunk 2 of cell 'planar-3r-pseudoinverse' is damaged" in out
     assert "computes them again" in err
     assert not ask("study", "status", whole)["complete"]
     assert ask("study", "run", file, "--out", whole)["complete"]
     assert bits(whole) == bits(folder)
     assert ask("study", "verify", whole) == {"damaged": []}
     shutil.rmtree(whole / "cells" / "planar-3r-pseudoinverse")
-    code, _, err = cli("study", "verify", whole)
+    code, out, err = cli("study", "verify", whole)
     assert code == 2
-    assert "cell 'planar-3r-pseudoinverse' is lost: it was begun, and nothing of it is left" in err
+    assert "cell 'planar-3r-pseudoinverse' is lost: it was begun, and nothing of it is left" in out
     code, out, _ = cli("study", "verify", whole)
     assert code == 0
     assert "are not computed\nnothing is computed of 1 cell: planar-3r-pseudoinverse" in out

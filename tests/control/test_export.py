@@ -51,7 +51,7 @@ def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
     arm = hf.arms.load("planar-3r")
     law, jit = (hf.control.by_name(oracles.example(LAWS, slug, arm), arm, task="planar") for _ in range(2))
     others = 3 if slug == "failure-tolerant" else 0
-    files = law.export_c(tmp_path / "new" / "folder")
+    files = list(law.export_c(tmp_path / "new" / "folder"))
     name = slug.replace("-", "_")
     assert [f.name for f in files] == [f"{name}{end}" for end in (".c", ".h", "_example.c", "_test.c")]
     call = compiled(*files[:2], 2, 3, others)
@@ -73,7 +73,7 @@ def test_c_does_what_the_kernel_does(slug, rng, tmp_path, monkeypatch):
 @needs_compiler
 def test_what_has_no_answer_stops_the_arm(tmp_path):
     arm = hf.arms.load("planar-3r")
-    call = compiled(*hf.control.pseudoinverse(arm, "planar").export_c(tmp_path)[:2], 2, 3, 0)
+    call = compiled(*list(hf.control.pseudoinverse(arm, "planar").export_c(tmp_path))[:2], 2, 3, 0)
     for q, v in (([np.nan, 0, 1], [1, 0]), ([0.1, 0.2, 1], [np.inf, 0]), ([0, 0, 0], [1, 0])):
         code, rates, _ = call(q, v)
         assert code == 1
@@ -85,7 +85,7 @@ def test_seven_joints_and_a_pose(rng, tmp_path, monkeypatch):
     """The longest law there is; unoptimised, as the compiler takes long for 29,000 operations."""
     monkeypatch.setenv("HOLDFAST_BACKEND", "casadi")
     law = hf.control.failure_tolerant(damping_oracle.arm_7r(), "pose")
-    call = compiled(*law.export_c(tmp_path, "seven")[:2], 6, 7, 3, "-O0")
+    call = compiled(*list(law.export_c(tmp_path, "seven"))[:2], 6, 7, 3, "-O0")
     q, v = rng.uniform(-np.pi, np.pi, (200, 7)), rng.normal(size=(200, 6))
     for a, b, rates, damping in zip(q, v, law.velocity(q, v), law.damping(q, v), strict=True):
         code, got, told = call(a, b)
@@ -130,7 +130,7 @@ def test_c_agrees_with_numpy_formulas_over_a_jacobian_of_pinocchio(slug, name, t
     law = hf.control.by_name(oracles.example(LAWS, slug, arm, task), arm, task=task)
     jacobian = pinocchio_jacobian(law.task) if name == "panda" else planar_jacobian
     others = 3 if slug == "failure-tolerant" else 0
-    call = compiled(*law.export_c(tmp_path, "law")[:2], m, arm.n, others, "-O0" if others and m > 3 else "-O1")
+    call = compiled(*list(law.export_c(tmp_path, "law"))[:2], m, arm.n, others, "-O0" if others and m > 3 else "-O1")
     for _ in range(40):
         q, v = rng.uniform(-2.5, 2.5, arm.n), rng.normal(size=m)
         j = jacobian(q)
@@ -193,7 +193,7 @@ def test_the_example_follows_the_command_and_stops_at_a_wrong_order_of_joints(tm
 @needs_compiler
 def test_names_of_joints_are_compared_letter_by_letter(tmp_path):
     arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0, name=x) for x in ('a"\\b??/', "größe", "a")], name="odd")
-    files = hf.control.pseudoinverse(arm, "planar").export_c(tmp_path, "law")
+    files = list(hf.control.pseudoinverse(arm, "planar").export_c(tmp_path, "law"))
     compiled(*files[:2], 2, 3, 0)
     library = ctypes.CDLL(str(files[0].with_suffix(".so")))
     given = (ctypes.c_char_p * 3).in_dll(library, "law_joints")
@@ -214,11 +214,11 @@ def test_names_of_joints_are_compared_letter_by_letter(tmp_path):
 
 def test_the_header_says_what_made_it(tmp_path):
     law = hf.control.damped(hf.arms.load("ur5-rail"), 0.1, "position")
-    text = law.export_c(tmp_path, "law")[1].read_text()
+    text = law.export_c(tmp_path, "law").header.read_text()
     assert f'#define LAW_ARM "{law.arm.fingerprint}"' in text
     assert f'#define LAW_HOLDFAST "{hf.__version__}"' in text
     other = hf.control.damped(law.arm.with_base(np.diag([1.0, -1, -1, 1])), 0.1, "position")
-    assert law.arm.fingerprint not in other.export_c(tmp_path, "other")[1].read_text()
+    assert law.arm.fingerprint not in other.export_c(tmp_path, "other").header.read_text()
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="no C++ compiler (g++) on this machine")

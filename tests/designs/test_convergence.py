@@ -15,7 +15,7 @@ import holdfast as hf
 import oracles
 from holdfast.convergence.places import read_places
 from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
-from holdfast.designs.arrival import Failures
+from holdfast.designs.failures import Failures
 from holdfast.engine.memory import BEFORE, FILE
 from holdfast.simulation import Reason
 from holdfast.words import percent
@@ -241,7 +241,7 @@ def test_arrivals_of_designs_by_runs_of_scipy():
         run = oracles.planar_run(designs[d], 0.1, q0, goals[t], j, 500.0, 1e-3)
         arrived[d, t, c, j] = run.t_events[0].size
     np.testing.assert_array_equal(found.converged[:, :2], arrived)
-    np.testing.assert_allclose(found.arrival, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
+    np.testing.assert_allclose(found.overall, arrived.mean(axis=(2, 3)).sum(axis=1) / 3)
     np.testing.assert_allclose(found.reached, 2 / 3)
 
 

@@ -32,7 +32,8 @@ RESULTS = named(
     {
         "": "Assessment Comparison ConvergenceDesigns ConvergenceMap Designs FreeSwing LawChoice LawComparison Optima "
         "PhysicalRun Recovery Runs TargetMeasures TolerantWorkspace Trajectory Workspace",
-        "control": "TradeOff",
+        "control": "ExportedLaw TradeOff",
+        "engine": "Merged Study Verification",
         "equilibria": "Basins Curves Orbit StationaryPoints",
         "recovery": "WaypointCheck WhatIsLeft",
         "solvers": "SelfMotion",
@@ -49,7 +50,7 @@ VALUES = named(
         "control": "Deviations",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
-        "engine": "CellStatus Damage Merged Result",
+        "engine": "CellStatus Damage Result",
         "equilibria": "Curve Segment",
         "indices": "Evaluation Part WorstCase",
         "indices.susceptibility": "Evaluation",

@@ -99,6 +99,7 @@ ELSEWHERE = {
     "ConvergenceDesigns",
     "Designs",
     "FreeSwing",
+    "Merged",
     "Orbit",
     "PhysicalRun",
     "Study",

@@ -132,7 +132,7 @@ def test_simulated_experiment_follows_the_protocol(made, protocol):
         assert all(e.rating is not None for e in entries)
         training = made.entries(s.code, Kind.TRAINING)
         trials = made.trials(training)
-        times = np.where(trials.arrived, trials.cycles, np.nan).tolist()
+        times = np.where(trials.completed, trials.cycles, np.nan).tolist()
         assert protocol.training.trained(times)
         assert not protocol.training.trained(times[:-1])
         np.testing.assert_array_equal(

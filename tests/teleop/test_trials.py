@@ -77,7 +77,7 @@ def test_computer_drives_as_the_closed_loop_in_cycles(arm, tasks):
     )
     arrived = runs.outcome == "converged"
     assert arrived.sum() > 5
-    np.testing.assert_array_equal(trials.arrived, arrived)
+    np.testing.assert_array_equal(trials.completed, arrived)
     np.testing.assert_array_equal(trials.cycles[arrived], runs.time[arrived])
     np.testing.assert_allclose(trials.q_end[arrived], runs.q_final[arrived], atol=1e-9)
     np.testing.assert_allclose(measures(trials)[arrived, 1], runs.path_length[arrived], atol=1e-9)
@@ -206,7 +206,7 @@ def test_trial_that_begins_in_the_circle_has_no_cycles(plants, tasks):
     trials = drive(
         plants, np.zeros(40, int), tasks.q0, target=start, healthy=tasks.healthy(False), operator=Computer(), stick=Stick()
     )
-    assert trials.arrived.all()
+    assert trials.completed.all()
     np.testing.assert_array_equal(measures(trials), 0)
 
 

@@ -45,7 +45,7 @@ class Assessment(Result):
         optimised_worst_counts: As ``worst_counts``, at the best configurations.
         survivors: (n,) poses that can still be reached once the joint has locked, or their weights; 0 for joints that were
             not asked for, None if none was.
-        collisions: Configurations that run the arm through itself, or None if its clearance was not looked at.
+        collisions: Configurations that bring the arm into collision with itself, or None if its clearance was not looked at.
         store: The results folder, if one was written.
         seconds: Time it took, or None if that is not known.
         complete: False if the run was stopped before all poses were done.

@@ -146,7 +146,7 @@ class Count:
 
 @dataclass(frozen=True)
 class SelfCollisions:
-    """Configurations that run the arm through itself, counted without weights.
+    """Configurations that bring the arm into collision with itself, counted without weights.
 
     Attributes:
         found: Of those that inverse kinematics found.

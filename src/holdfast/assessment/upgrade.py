@@ -74,7 +74,7 @@ def sample(index: Index, columns: Mapping[str, Any], optimised: bool) -> Sample:
     reached = np.isin(status[keep], (Status.OK, Status.SINGULAR))
     if (
         optimised and "optimised_status" in columns
-    ):  # where every configuration runs the arm through itself there is no best one
+    ):  # where every configuration brings the arm into collision with itself there is no best one
         reached &= columns["optimised_status"][:][keep] != Status.INFEASIBLE
     weight = columns["weight"][:][keep] if "weight" in columns else None
     before = "optimised_" if optimised else ""

@@ -283,7 +283,7 @@ class Clearance:
 
 def too_close(margin: float) -> str:
     """The phrase for an arm whose clearance is below the margin, m."""
-    return f"comes closer than {margin:g} m to itself" if margin else "runs through itself"
+    return f"comes closer than {margin:g} m to itself" if margin else "collides with itself"
 
 
 def _constant(rows: Array, value: float) -> Array:

@@ -1,4 +1,4 @@
-"""--capsules, --radius, --margin, --clearance: the shape of an arm, so that it is kept from running through itself."""
+"""--capsules, --radius, --margin, --clearance: the shape of an arm, so that it is kept from colliding with itself."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ ClearanceOption = Annotated[
     bool | None,
     typer.Option(
         "--clearance/--no-clearance",
-        help="Keep the arm from running through itself, or let it. Default: keep it when configurations are chosen, but for "
+        help="Keep the arm from colliding with itself, or let it. Default: keep it when configurations are chosen, but for "
         "an arm that moves in a plane.",
         show_default=False,
     ),

@@ -8,10 +8,11 @@ from importlib import import_module
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
 from typer.exceptions import TyperException
 
+from holdfast.cli.completion import asked
 from holdfast.cli.interrupt import STOPPED
+from holdfast.cli.layout import LaidOut, LaidOutGroup
 from holdfast.errors import HoldfastError
 
 PANELS = {  # of the help, in its order, by the folder
@@ -51,7 +52,7 @@ COMMANDS = {  # the module of each, in the order of the help; what it defines is
 }
 
 
-class _InOrder(TyperGroup):
+class _InOrder(LaidOutGroup):
     """Its commands in the order of the table; typer would show groups of commands last."""
 
     def list_commands(self, ctx: Any) -> list[str]:
@@ -67,7 +68,6 @@ def assembled(command: str | None = None) -> typer.Typer:
         "ARM is a built-in name (see 'holdfast arms'), a URDF or MJCF file, or a DH table in YAML. "
         "Joints are given by name, or by number from 1.",
         no_args_is_help=True,
-        add_completion=False,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
@@ -77,9 +77,11 @@ def assembled(command: str | None = None) -> typer.Typer:
         panel = PANELS[module.partition(".")[0]]
         made = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
         if isinstance(made, typer.Typer):
-            app.add_typer(made, name=name, rich_help_panel=panel)
+            for each in made.registered_commands:
+                each.cls = LaidOut
+            app.add_typer(made, name=name, cls=LaidOutGroup, rich_help_panel=panel)
         else:
-            app.command(name, rich_help_panel=panel)(made)
+            app.command(name, rich_help_panel=panel, cls=LaidOut)(made)
     return app
 
 
@@ -102,7 +104,7 @@ def _root(
 def main() -> None:
     """Run the program: exit code 0 if it worked, 2 and one sentence on stderr if not, 130 if it was stopped."""
     try:
-        code = assembled(*sys.argv[1:2])(standalone_mode=False)
+        code = assembled(asked(sys.argv[1:]))(prog_name="holdfast", standalone_mode=False)
     except HoldfastError as error:
         _fail(str(error))
     except TyperException as error:  # an unknown command or option, a missing argument

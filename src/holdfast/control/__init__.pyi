@@ -1,4 +1,5 @@
 from holdfast.control.deviation import Deviations as Deviations
+from holdfast.control.export import ExportedLaw as ExportedLaw
 from holdfast.control.inverses import Damped as Damped
 from holdfast.control.inverses import Pseudoinverse as Pseudoinverse
 from holdfast.control.inverses import Weighted as Weighted

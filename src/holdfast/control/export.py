@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import casadi as ca
 import numpy as np
@@ -20,6 +22,7 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled_data
 from holdfast.notice import says
 from holdfast.provenance import versions
+from holdfast.result import Result
 
 Array = NDArray[np.float64]
 CASES, TRIES = 5, 1000
@@ -38,9 +41,44 @@ class _Law(Protocol):
     arm: Arm
     task: Task
 
+    @property
+    def slug(self) -> str: ...
     def jacobian(self, q: SX) -> SX: ...
     def outputs(self, q: SX, v: SX) -> dict[str, SX]: ...
     def phrase(self) -> str: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExportedLaw(Result):
+    """The files of a law, which it may be unpacked into.
+
+    Attributes:
+        law: The law.
+        source: ``NAME.c``.
+        header: ``NAME.h``.
+        example: ``NAME_example.c``, a control loop.
+        test: ``NAME_test.c``, which returns 0 if the compiled function gives what holdfast computed for five configurations.
+    """
+
+    law: _Law
+    source: Path
+    header: Path
+    example: Path
+    test: Path
+
+    def __iter__(self) -> Iterator[Path]:
+        return iter((self.source, self.header, self.example, self.test))
+
+    def describe(self) -> list[str]:
+        """What was written where."""
+        source, *others = self
+        names = ", ".join(file.name for file in others)
+        return [f"{self.law.phrase()}, arm {self.law.arm.title}: wrote {source} and {names}"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The arm, the law, its task and the files."""
+        files = zip(("source", "header", "example", "test"), map(str, self), strict=True)
+        return {**self.law.arm.entry(), "law": self.law.slug, "task": self.law.task.name, **dict(files)}
 
 
 def check_name(name: str) -> str:
@@ -267,14 +305,14 @@ def _quoted(text: str) -> str:
 
 
 @says("writing down the law")
-def write(law: _Law, folder: str | Path, name: str) -> tuple[Path, Path, Path, Path]:
+def write(law: _Law, folder: str | Path, name: str) -> ExportedLaw:
     """Write all four files.
 
     Raises:
         StoreError: They cannot be written.
     """
     source, header, example, test = put(folder, c_files(law, name))
-    return source, header, example, test
+    return ExportedLaw(law=law, source=source, header=header, example=example, test=test)
 
 
 def _about(law: _Law, name: str, others: list[str]) -> str:

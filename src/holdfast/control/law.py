@@ -235,7 +235,7 @@ class Law(Shown, Labelled, Steps):
         return np.broadcast_to(a, (count, self.arm.n)), np.broadcast_to(b, (count, m)), False
 
     @checked
-    def export_c(self, folder: str | Path, name: str | None = None) -> tuple[Path, Path, Path, Path]:
+    def export_c(self, folder: str | Path, name: str | None = None) -> export.ExportedLaw:
         """Write the law as a C99 file that needs nothing but ``math.h``, its header, an example and a test.
 
         The function ``int NAME(const double q[n], const double v[m], double rates[n], ...)`` returns 0; or 1 and zero rates
@@ -248,8 +248,7 @@ class Law(Shown, Labelled, Steps):
             name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
 
         Returns:
-            ``NAME.c``, ``NAME.h``, ``NAME_example.c`` (a control loop) and ``NAME_test.c`` (returns 0 if the compiled function
-            gives what holdfast computed for five configurations).
+            The paths, which may be unpacked: source, header, example and test.
 
         Raises:
             InputError: A name that C does not take, or an arm that is close to singular everywhere.

@@ -31,8 +31,9 @@ CELLS = 100  # of a way
 CYCLES = 0.02  # rad on either side of a Hopf point, where limit cycles were seen within 0.005
 BESIDE = 1e-3  # rad: locked angles this near to a sink or a degenerate angle are simulated too
 ENDS = ("converged", "stuck", "moving", "undecided", "arriving", "no_sink")  # the first four as Outcome has them
+ENDS_IN_WORDS = (*ENDS[:4], "undecided next to the target", "not simulated (no sink)")
 ARRIVING, NO_SINK = 4, 5
-_ARRIVES = np.array([1.0, 0.0, 0.0, np.nan, 1.0, 1.0])
+_REACHED = np.array([1.0, 0.0, 0.0, np.nan, 1.0, 1.0])
 
 
 class Beginnings:
@@ -153,8 +154,8 @@ class Job:
         joint = np.repeat([g[2] for g in groups], [len(g[0]) for g in groups])
         ended = self._ends(q[cell, row], joint)
         np.add.at(ends, (owner[row], ended), 1)
-        arrives = _ARRIVES[ended]
-        parts = np.split(arrives, np.cumsum([len(g[0]) for g in groups])[:-1])
+        reached = _REACHED[ended]
+        parts = np.split(reached, np.cumsum([len(g[0]) for g in groups])[:-1])
         both = count[n] / np.maximum(count[:n], 1)  # (n, R) how much of the part of a joint is inside for all
         for j in range(n):
             shared, alone = averaged(parts[j], every[0], rows), averaged(parts[n + j], groups[n + j][0], rows)

@@ -122,7 +122,7 @@ class LawComparison(Result):
         return self.failures[1:]
 
     @property
-    def arrives(self) -> float:
+    def accuracy(self) -> float:
         """Error at which a target counts as reached, m and rad."""
         first = self.runs[0]
         return first._setting.accuracy if first.cycles else at_rest(first.law)
@@ -158,7 +158,7 @@ class LawComparison(Result):
             failure=self.failures[f],
             code=r.code[rows],
             reason=r.reason[rows],
-            reachable=least <= self.arrives,
+            reachable=least <= self.accuracy,
             error=r.error[rows],
             excess=r.error[rows] - np.fmin(least, r.error[rows]),
             closest=r.closest[rows],

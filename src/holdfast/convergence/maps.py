@@ -129,10 +129,10 @@ class ConvergenceMap(Result):
         every = {outcome: self.shares(outcome) for outcome in (*_OUTCOMES, "trapped")} if runs else {}
         for name in self.columns if runs else ():
             told = ", ".join(f"{outcome} {100 * every[outcome][name].value:.1f} %" for outcome in _OUTCOMES)
-            arrives, trapped = every["converged"][name], every["trapped"][name]
+            converged, trapped = every["converged"][name], every["trapped"][name]
             lines.append(
-                f"{name} locked: {told}; converged with 95 % confidence {100 * arrives.low:.1f} to {100 * arrives.high:.1f} %, "
-                f"not there though the target was in reach {100 * trapped.value:.1f} %"
+                f"{name} locked: {told}; converged with 95 % confidence {100 * converged.low:.1f} to "
+                f"{100 * converged.high:.1f} %, not there though the target was in reach {100 * trapped.value:.1f} %"
             )
         counts = self.undecided()
         if sum(counts.values()):

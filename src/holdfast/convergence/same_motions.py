@@ -137,13 +137,13 @@ def _poses(law: Law, goal: Array) -> Array:
     return poses
 
 
-def _least(runs: Sequence[Runs], arrives: float, restarts: int, seed: int) -> Array:
+def _least(runs: Sequence[Runs], accuracy: float, restarts: int, seed: int) -> Array:
     """(F N,) least errors: joints are locked where they started, so what one law's runs find is true for all of them."""
     least = np.full(len(runs[0]), np.inf)
     for r in runs:
         least = np.fmin(least, np.where(r.code == Outcome.CONVERGED, r.error, np.inf))
     for k, r in enumerate(runs):
-        rows = np.flatnonzero((least > arrives) & np.isfinite(r.q_final).all(axis=1))
+        rows = np.flatnonzero((least > accuracy) & np.isfinite(r.q_final).all(axis=1))
         if rows.size:
             # From the ends of every law, but from random configurations once.
             found = _some(r, rows).least_error(restarts if k == 0 else 0, seed)

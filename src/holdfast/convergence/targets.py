@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked
 from holdfast.control.law import Law
-from holdfast.convergence.analysis import ENDS, Beginnings, Method, prepared, usual_method
+from holdfast.convergence.analysis import ENDS, ENDS_IN_WORDS, Beginnings, Method, prepared, usual_method
 from holdfast.convergence.measures import NAMES
 from holdfast.convergence.origins import analysed, mean_intervals, mean_over
 from holdfast.convergence.places import Places, read_places
@@ -77,7 +77,7 @@ class TargetMeasures(Result):
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
-        told = ", ".join(f"{count} {name}" for name, count in zip(ENDS, self.ends.sum(axis=0).tolist(), strict=True))
+        told = ", ".join(f"{count} {word}" for word, count in zip(ENDS_IN_WORDS, self.ends.sum(axis=0).tolist(), strict=True))
         within = int(np.isfinite(self.measures["Ravg"][:, -1]).sum())
         return [
             f"{self.law.describe()} on {self.law.arm.title}: {within} of {len(self.targets)} targets within reach of motions "

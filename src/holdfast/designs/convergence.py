@@ -16,7 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arms.serial import to_dict
 from holdfast.control.law import Law
 from holdfast.convergence.places import read_places
-from holdfast.designs.arrival import Arrivals, Failures
+from holdfast.designs.failures import Convergences, Failures
 from holdfast.designs.joints import DesignJoints, LawOfDesigns
 from holdfast.designs.pattern import Box, improved
 from holdfast.designs.planar import PlanarRest, Radial
@@ -49,7 +49,7 @@ class ConvergenceDesigns(Result):
         measures: By name, (D,) each. ``guaranteed``: share of the targets (of the area, for planar arms) that whatever lock
             leaves within reach the arm converges to, as far as no sink and no singular trap holds it (exact only);
             ``free``: share of the locks that leave the target within reach after which nothing can hold the arm (exact), or it
-            converged (sampled), every joint alike; ``arrival``: share of all locks after which the target is in reach and
+            converged (sampled), every joint alike; ``converged``: share of all locks after which the target is in reach and
             nothing can hold the arm (exact); mean over the targets of the share of failures after which it converged, 0 for
             targets out of reach (sampled); ``reached``: share of the targets that the healthy arm reaches.
         objective: What was maximised.
@@ -150,7 +150,7 @@ def design_for_convergence(
         targets: Exact: the range of distances from the first joint, m; from 0 to the reach of the given arm if not given.
             Sampled: (T, m) positions, (T, 4, 4) poses, or how many random places of the given arm's tool; 12 if not given.
         objective: ``guaranteed`` (exact): the share of the targets that are guaranteed; of equal ones, the share of locks, then
-            ``arrival``. ``arrival``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``arrival``.
+            ``converged``. ``converged``: see :class:`holdfast.ConvergenceDesigns`. Sampled searches maximise ``converged``.
         designs: Of the screening.
         climbs: Of the best of them, so many are improved.
         keep_reach: The varied link lengths keep their sum.
@@ -300,7 +300,7 @@ def _sampled(
         a = seen.of(values)
         with np.errstate(invalid="ignore"):
             free = a.converged.sum(axis=(1, 2, 3)) / (a.known.sum(axis=(1, 2)) * law.arm.n)
-        return {"free": free, "arrival": a.arrival, "reached": a.reached}
+        return {"free": free, "arrival": a.overall, "reached": a.reached}
 
     def measured(values: Array) -> dict[str, Array]:
         # What a design is worth does not depend on its company, so that a stopped search loses little.
@@ -315,7 +315,7 @@ def _sampled(
     more = _FRESH * len(places) if isinstance(given, (int, np.integer)) else given
     fresh = read_places(law.arm, law.task, more, np.random.default_rng(check))
     judged = part("check", lambda: vars(Failures(moved, fresh.poses, failures, seed + 1).of(values[[0, best]])))
-    compared = _compared(Arrivals(**judged))
+    compared = _compared(Convergences(**judged))
     return ConvergenceDesigns(
         law=law,
         space=box.space,
@@ -340,9 +340,9 @@ def _plan(law: Law, space: DesignSpace, searched: dict[str, Any]) -> dict[str, A
     }
 
 
-def _compared(arrivals: Arrivals) -> tuple[Interval, Interval, Difference] | None:
+def _compared(found: Convergences) -> tuple[Interval, Interval, Difference] | None:
     """Of two designs: mean shares over the targets with their intervals, and of the difference."""
-    shares = np.nan_to_num(arrivals.by_target)
+    shares = np.nan_to_num(found.by_target)
     if shares.shape[1] < 2:
         return None
     given, best = (Interval.of_fractions(x) for x in shares)

@@ -6,10 +6,12 @@ from holdfast.engine.runner import Result as Result
 from holdfast.engine.runner import Runner as Runner
 from holdfast.engine.runner import Task as Task
 from holdfast.engine.runner import Threads as Threads
+from holdfast.engine.state import CellStatus as CellStatus
+from holdfast.engine.state import Damage as Damage
 from holdfast.engine.store import Column as Column
 from holdfast.engine.store import Store as Store
-from holdfast.engine.study import CellStatus as CellStatus
-from holdfast.engine.study import Damage as Damage
 from holdfast.engine.study import Study as Study
 from holdfast.engine.union import Merged as Merged
 from holdfast.engine.union import merge as merge
+from holdfast.engine.verification import Verification as Verification
+from holdfast.engine.verification import verify as verify

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -14,57 +13,22 @@ from holdfast.engine.job import Cell
 from holdfast.engine.journal import Entry, Journal
 from holdfast.engine.makers import Made
 from holdfast.engine.runner import Runner, Stop
+from holdfast.engine.state import CellStatus, Damage
 from holdfast.engine.store import Store
 from holdfast.engine.work import Progress, Work
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.files import reading
 from holdfast.files.output import guarded, replaced
 from holdfast.notice import says
-from holdfast.result import Shown
+from holdfast.result import Result
+from holdfast.words import duration
 
 _FORMAT, _VERSION = "holdfast-study", 1
 _FILE, LOCK, _CELLS, _BEGUN = "study.json", "study.lock", "cells", "begun.journal"
 _KEYS = {"name": str, "seed": int, "digest": str, "source": str, "cells": list}
 
 
-@dataclass(frozen=True, kw_only=True)
-class CellStatus:
-    """How far a cell is.
-
-    Attributes:
-        name: Of the cell.
-        labels: What it is in the sweep.
-        chunks, rows: In all.
-        chunks_done, rows_done: Committed.
-        seconds: Time that these took where they were computed.
-        makers: Numbers of what computed them, of :attr:`Study.makers`.
-    """
-
-    name: str
-    labels: Mapping[str, Any]
-    chunks: int
-    rows: int
-    chunks_done: int
-    rows_done: int
-    seconds: float
-    makers: tuple[int, ...]
-
-    @property
-    def complete(self) -> bool:
-        """All of it is there."""
-        return self.chunks_done == self.chunks
-
-
-@dataclass(frozen=True)
-class Damage:
-    """A committed chunk that is not as it was written; number from 0, None for all of a cell that was begun and is gone."""
-
-    cell: str
-    chunk: int | None
-    what: str
-
-
-class Study(Shown):
+class Study(Result):
     """A study's folder; see :meth:`create` and :meth:`open`.
 
     Attributes:
@@ -295,6 +259,14 @@ class Study(Shown):
     def runs(self) -> list[dict[str, Any]]:
         """When it was run, on what, for how long; a run that was killed is not among them."""
         return self.made.runs
+
+    def describe(self) -> list[str]:
+        """How far it is, in a sentence."""
+        cells = self.status()
+        done, total = sum(s.chunks_done for s in cells), sum(s.chunks for s in cells)
+        word = "complete" if done == total else f"{100 * done / total:.1f} %" if total else "empty"
+        spent = duration(sum(s.seconds for s in cells))
+        return [f"{self.name} ({self.path}): {done:,} of {total:,} chunks, {word}, {spent} of one thread"]
 
     # ---- computing -------------------------------------------------------------------------------------------------
 

@@ -17,23 +17,52 @@ from holdfast.engine.work import Progress
 from holdfast.errors import StoreError
 from holdfast.files import reading
 from holdfast.notice import says
+from holdfast.result import Result
 
 
 @dataclass(frozen=True, kw_only=True)
-class Merged:
+class Merged(Result):
     """What a merge did.
 
     Attributes:
+        study: That was merged into.
         added: Chunks taken over.
         both: Chunks that were there already, with the same bits.
         close: Chunks that were there already, alike to 1e-12.
         apart: Chunks that were there already with other values; those that were there stay.
     """
 
+    study: Study
     added: int
     both: int
     close: int
     apart: tuple[tuple[str, int], ...]
+
+    def describe(self) -> list[str]:
+        """What was added and what was there, who computed it, and how far the study is now."""
+        lines = [f"{self.study.path}: {self.added} chunks added, {self.both} were there already, bit for bit the same"]
+        if self.close:
+            lines.append(f"{self.close} chunks were there already, alike to 1e-12")
+        if self.apart:
+            cell, k = self.apart[0]
+            lines.append(
+                f"{len(self.apart)} chunks were there already with other values (first: chunk {k + 1} of '{cell}'); those of "
+                f"'{self.study.path}' are kept"
+            )
+        for maker in self.study.makers:
+            packages = ", ".join(f"{name} {version}" for name, version in maker["versions"].items())
+            lines.append(f"computed on {maker['processor']}: Python {maker['python']}, {packages}")
+        if len(self.study.makers) > 1:
+            lines.append(
+                "versions or processors differ: the same study computed on one of them alone agrees to 1e-12, not in every bit"
+            )
+        return [*lines, *self.study.describe()]
+
+    def to_dict(self) -> dict[str, Any]:
+        """How many chunks of each kind, and who computed them."""
+        apart = [{"cell": c, "chunk": k + 1} for c, k in self.apart]
+        counts = {"added": self.added, "same": self.both, "within_1e-12": self.close}
+        return {**counts, "different": apart, "made_by": self.study.makers}
 
 
 @says("joining the studies")
@@ -63,7 +92,7 @@ def merge(path: str | Path, folders: Sequence[str | Path], progress: Progress | 
         for other in others:
             work.take(other)
         study.made.add(r for o in others for r in o.runs)
-    return Merged(added=work.added, both=work.both, close=work.close, apart=tuple(work.apart))
+    return Merged(study=study, added=work.added, both=work.both, close=work.close, apart=tuple(work.apart))
 
 
 class _Merge:

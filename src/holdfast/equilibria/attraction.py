@@ -81,8 +81,8 @@ class Basins(Result):
     @property
     def converged(self) -> Interval:
         """Share of starts that reach the target."""
-        arrived = np.asarray(self.runs.code) == Outcome.CONVERGED
-        return Interval.of(int(arrived.sum()), len(self.end), self.confidence)
+        converged = np.asarray(self.runs.code) == Outcome.CONVERGED
+        return Interval.of(int(converged.sum()), len(self.end), self.confidence)
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -74,8 +74,8 @@ class RestSystem:
 
     def solutions(self, z: Array) -> Array:
         """Configurations (N, n) that reach the target from starts z, with the locked joints at their values."""
-        q, arrived = _solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
-        return q[arrived]
+        q, converged = _solutions(self.law).search(z[:, : self.law.arm.n], self.pose, self.mask)
+        return q[converged]
 
     def reaches(self, values: Array, generator: np.random.Generator) -> Flags:
         """(N,) whether the target is reached from one random start with the locked joint at values (N,)."""

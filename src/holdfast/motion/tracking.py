@@ -24,7 +24,7 @@ from holdfast.motion.trajectory import Trajectory
 from holdfast.notice import Count, says
 from holdfast.paths.timed_path import TimedPath
 from holdfast.solvers.fibre_paths import best_path
-from holdfast.solvers.inverse_kinematics import clipped, hand_error, solve_ik, solver
+from holdfast.solvers.inverse_kinematics import clipped, solve_ik, solver, tool_error
 from holdfast.solvers.optima import optimise
 
 Array = NDArray[np.float64]
@@ -299,7 +299,7 @@ def _step_kernel(law: Resolution, step: float, limits: bool, farthest: float) ->
     q, p, r = kinematics.joint_symbols(arm), ca.SX.sym("p", 3), ca.SX.sym("r", 3, 3)
     twist, given = ca.SX.sym("twist", 6), ca.SX.sym("given")
     chain = kinematics.chain(arm, q)
-    error = hand_error(law.task, chain.position, chain.rotation, p, r)
+    error = tool_error(law.task, chain.position, chain.rotation, p, r)
     size = ca.sqrt(ca.sumsqr(law.task.error(error, chain.rotation)) + 1e-30)  # of the rows that are prescribed
     out = law.expression(q, ca.if_else(given, twist, error * ca.if_else(size > farthest, farthest / size, 1) / step))
     following = q + step * out[: arm.n]

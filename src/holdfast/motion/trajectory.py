@@ -109,7 +109,7 @@ class Trajectory(Result):
         return bool(np.nanmax(self.position_error) <= ON_PATH and np.nanmax(self.rotation_error) <= ON_PATH)
 
     @property
-    def hand_error(self) -> str:
+    def tool_error(self) -> str:
         """The largest error of the end effector in what the task prescribes, for people."""
         rows = self.task.rows
         parts = []
@@ -124,13 +124,13 @@ class Trajectory(Result):
     def headline(self) -> str:
         """Whether the end effector stayed on its path, and if not, when it left and how far it got from it."""
         if self.on_path:
-            return f"the end effector stays on its path, off it by {self.hand_error}"
+            return f"the end effector stays on its path, off it by {self.tool_error}"
         off = (self.position_error > ON_PATH) | (self.rotation_error > ON_PATH)
         slowed = {"end effector slowed", "near a singularity"}
         why = [e.kind for e in self.events if e.kind in slowed or e.kind == "joint limit"]
         reason = f" ({', '.join(dict.fromkeys(why))})" if why else ""
         return (
-            f"THE END EFFECTOR LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s, by up to {self.hand_error}, "
+            f"THE END EFFECTOR LEAVES ITS PATH at {self.time[off.argmax()]:.4g} s, by up to {self.tool_error}, "
             f"for {off.mean():.0%} of the time{reason}"
         )
 

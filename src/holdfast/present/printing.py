@@ -41,8 +41,8 @@ def plain(value: Any) -> Any:
 
 
 def print_json(data: Any) -> None:
-    """One JSON document on stdout."""
-    typer.echo(json.dumps(plain(data), indent=2))
+    """One JSON document on stdout, of types that JSON has: :func:`plain` makes them."""
+    typer.echo(json.dumps(data, indent=2, allow_nan=False))
 
 
 def number(value: float | np.floating[Any], digits: int = 4) -> str:
@@ -56,11 +56,12 @@ def number(value: float | np.floating[Any], digits: int = 4) -> str:
 def print_rows(out: Console, table: Rows) -> None:
     """The rows below their title."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     if table.title:
         out.print(escape(f"{table.title}:"), soft_wrap=True)
-    shown = Table(*map(escape, table.head), box=None, pad_edge=False)
+    shown = Grid(*map(escape, table.head))
     for row in table.rows:
         shown.add_row(*map(escape, row))
     out.print(shown)
@@ -80,7 +81,7 @@ def print_each(
 ) -> None:
     """What ``of`` is worth at each configuration: one JSON document, a list where there are several, or tables for people."""
     if as_json:
-        found = [data(of, q) for q in configurations]
+        found = [plain(data(of, q)) for q in configurations]
         print_json(found if len(found) > 1 else found[0])
         return
     out = console()
@@ -89,8 +90,7 @@ def print_each(
 
 
 def console(stderr: bool = False) -> Console:
-    """Where tables for people go; wide when no terminal says how wide it is, so that names are not cut."""
-    from rich.console import Console
+    """Where tables for people go; wide when no terminal says how wide it is."""
+    from holdfast.present.terminal import Screen
 
-    wide = Console(stderr=stderr, highlight=False)
-    return wide if wide.is_terminal else Console(stderr=stderr, highlight=False, width=140)
+    return Screen(stderr)

@@ -37,6 +37,16 @@ def printed(result: Result, as_json: bool, files: Sequence[Path | None] = (), li
     print_written(out, files)
 
 
+def printed_each(results: Sequence[Result], as_json: bool) -> None:
+    """The same of several: one JSON document, a list where there are several."""
+    if as_json:
+        data = [result.to_dict() for result in results]
+        print_json(data if len(data) > 1 else data[0])
+        return
+    for result in results:
+        printed(result, False)
+
+
 def said() -> str:
     """The command that runs, for its report."""
     return f"holdfast {shlex.join(sys.argv[1:])}"

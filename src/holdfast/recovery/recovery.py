@@ -19,12 +19,16 @@ from holdfast.recovery.remainder import WhatIsLeft
 from holdfast.recovery.routes import MetricName
 from holdfast.recovery.waypoints import WaypointCheck, check_waypoints, write_waypoints
 from holdfast.result import Result
+from holdfast.words import capitalised
 
 Array = NDArray[np.float64]
 
 
 class Ending(IntEnum):
-    """How a recovery ends. Only ``HOME`` is success: all that was asked for, nothing dropped."""
+    """How a recovery ends, as one answer; rows of batches have a :class:`holdfast.Status`.
+
+    Only ``HOME`` is success: all that was asked for, nothing dropped.
+    """
 
     HOME = 0
     HOME_WITH_ROWS_GIVEN_UP = 1
@@ -35,6 +39,11 @@ class Ending(IntEnum):
     START_OUTSIDE_LIMITS = 6
     START_TOO_CLOSE = 7
     LOCK_ELSEWHERE = 8
+
+    @property
+    def phrase(self) -> str:
+        """Its name in words."""
+        return self.name.lower().replace("_", " ")
 
     @property
     def sentence(self) -> str:
@@ -176,7 +185,10 @@ class Recovery(Result):
             else f"{name} at {np.rad2deg(value):.4g} deg"
             for name, value in self.locked.items()
         )
-        lines = [f"{self.arm.title}, locked: {locked}; goal: {self.goal}", f"{self.ending.name}: {self.ending.sentence}"]
+        lines = [
+            f"{self.arm.title}, locked: {locked}; goal: {self.goal}",
+            f"{capitalised(self.ending.phrase)}: {self.ending.sentence}",
+        ]
         if self.reason:
             lines.append(self.reason)
         if self.given_up is not None:

@@ -27,7 +27,7 @@ from holdfast.simulation.runge_kutta import FIRST, REST_SPEED, TURN, Steps
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs, Setting
 from holdfast.simulation.system import ARRIVED, COLLAPSE, FAR, PHASE, REST, RUNNING, TIME, System, known_at, own_units
 from holdfast.simulation.tableaus import CLASSIC, DOP853
-from holdfast.solvers.inverse_kinematics import hand_error
+from holdfast.solvers.inverse_kinematics import tool_error
 
 Array = NDArray[np.float64]
 
@@ -78,7 +78,7 @@ class Motion:
         """The angle of the shortest turn that the task asks for, rad."""
         s, law = self._system, self.law
         chain = kinematics.chain(law.arm, s.q)
-        error = hand_error(law.task, chain.position, chain.rotation, s.target, s.rotation)
+        error = tool_error(law.task, chain.position, chain.rotation, s.target, s.rotation)
         return Kernel("turn", [s.q, s.target, s.rotation], [ca.norm_2(error[3:])])
 
     def run(self, q0: Array, target: Array, lock_time: Array, setting: Setting) -> Runs:

@@ -45,7 +45,7 @@ _ENDS = {
 
 
 class Reason(IntEnum):
-    """Why a run is undecided; ``NONE`` where it is decided."""
+    """Why a run is undecided, beside its :class:`Outcome`; ``NONE`` where it is decided. No status: a run has an outcome."""
 
     NONE = 0
     SINGULAR = 1

@@ -112,7 +112,7 @@ def _skew_part(r: SX) -> SX:
     return 0.5 * ca.vertcat(r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1])
 
 
-def hand_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
+def tool_error(task: Task, position: SX, rotation: SX, target: SX, target_rotation: SX) -> SX:
     """World-frame error (6,) of the end effector, of which a task takes its rows: the shortest turn that a task asks for."""
     return (pointing_error if _free_spin(task) else pose_error)(position, rotation, target, target_rotation)
 
@@ -127,7 +127,7 @@ def task_error(arm: Arm, task: Task, q: SX, target: SX, target_rotation: SX) -> 
     Whatever the characteristic length of the indices, errors of poses are in metres.
     """
     chain = kinematics.chain(arm, q)
-    error = hand_error(task, chain.position, chain.rotation, target, target_rotation)
+    error = tool_error(task, chain.position, chain.rotation, target, target_rotation)
     full = kinematics.jacobian_of(arm, chain, chain.position)
     j = ca.horzcat(*[task.error(full[:, k], chain.rotation) for k in range(arm.n)])
     return task.error(error, chain.rotation), j
@@ -315,16 +315,16 @@ class InverseKinematics:
                     start = first[left]
                 run = loop.run(prepare(start, chosen), parameters[chosen], tolerance**2, STEPS)
                 done, rest = run.done.reshape(wave, -1), run.residual.reshape(wave, -1)
-                arrived = done.any(axis=0)
+                solved = done.any(axis=0)
                 # The first start that reached the target, else the one that came closest; NaN never wins.
-                pick = np.where(arrived, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
+                pick = np.where(solved, done.argmax(axis=0), np.where(np.isnan(rest), np.inf, rest).argmin(axis=0))
                 column = np.arange(left.size)
                 best = rest[pick, column]
-                used[left] += np.where(arrived, pick + 1, wave)
+                used[left] += np.where(solved, pick + 1, wave)
                 better = best < residual[left]
                 q[left[better]] = run.state.reshape(wave, left.size, n)[pick, column][better]
                 residual[left[better]] = best[better]
-                left = left[~arrived]
+                left = left[~solved]
                 k += wave
                 tell(wave)
         return _Found(q, used)

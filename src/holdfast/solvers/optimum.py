@@ -53,13 +53,14 @@ class Optimum:
         start_value: (N,) of the first configuration that inverse kinematics found: the non-optimised sample.
         start_q: (N, n) that configuration, or the nearest miss.
         status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (nothing better than a singular configuration), ``INFEASIBLE`` (every
-            configuration found runs the arm through itself), ``UNDEFINED`` (a formula of the user's own has no value at any
-            configuration found) or ``BAD_INPUT``.
+            configuration found has the arm collide with itself), ``UNDEFINED`` (a formula of the user's own has no value at
+            any configuration found) or ``BAD_INPUT``.
         position_error: (N,) m.
         rotation_error: (N,) rad.
         starts: (N,) starts from which a configuration of the pose was found.
         agreeing: (N,) share of the starts followed to the end that reached the best value to 1e-3 of the scale of values.
-        blocked: (N,) True where a clearance was asked for and the best configuration without it runs the arm through itself.
+        blocked: (N,) True where a clearance was asked for and the best configuration without it has the arm collide with
+            itself.
     """
 
     q: Array
@@ -210,20 +211,20 @@ class Ascent:
         """
         reached = np.flatnonzero(first.success)
         owners, found = [reached], [first.q[reached]]
-        arrived = first.success.astype(np.int64)
+        converged = first.success.astype(np.int64)
         for wave, child in enumerate([seed, *seed.spawn(_MORE_WAVES)]):
             number = starts - 1 if wave == 0 else starts
             draws = self.engine.starts(len(poses) * number, np.random.default_rng(child)).reshape(
                 len(poses), number, self.arm.n
             )
-            few = reached if wave == 0 else reached[arrived[reached] < starts // 2]
+            few = reached if wave == 0 else reached[converged[reached] < starts // 2]
             if not few.size:
                 break
             owner = np.tile(few, number)
             q, ok = self.engine.attempt(draws[few].transpose(1, 0, 2).reshape(-1, self.arm.n), poses[owner], tolerance)
             owners.append(owner[ok])
             found.append(q[ok])
-            arrived += np.bincount(owner[ok], minlength=len(poses))
+            converged += np.bincount(owner[ok], minlength=len(poses))
         return np.concatenate(owners), np.concatenate(found)
 
     def solve(self, poses: Array, first: Reach, seed: np.random.SeedSequence, starts: int, tolerance: float) -> Optimum:
@@ -269,7 +270,7 @@ class Ascent:
                 blocked[reached] = ~self._is_clear(best_q[reached])
                 again = np.flatnonzero(blocked)
                 if again.size:
-                    # Only the poses whose best configuration runs the arm through itself are climbed once more.
+                    # Only the poses whose best configuration has the arm collide with itself are climbed once more.
                     best[again], best_q[again], agreeing[again] = -np.inf, np.nan, 0.0
                     mine = blocked[owner]
                     mine[mine] = self._is_clear(q[mine])

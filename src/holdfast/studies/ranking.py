@@ -96,7 +96,7 @@ def standings(
         mine_ = [d for d in laws if (d.labels["law"], d.labels["task"]) == (law, task)]
         entries = [(d.labels["arm"], d.any) for d in mine_]
         more = f", {task}" if len({d.labels["task"] for d in laws}) > 1 else ""
-        joints = counted_range([len(d.arrives) - 1 for d in mine_])
+        joints = counted_range([len(d.reaches) - 1 for d in mine_])
         about = f"{counted_range([d.motions for d in mine_])} motions × {joints} joints"
         out.append(Standing(f"converges under {law}{more}", about, tuple(entries), law + more))
     return out

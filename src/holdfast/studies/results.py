@@ -154,7 +154,7 @@ class Driven:
         joints: Names.
         motions: Those that had a configuration to start from.
         ends: Shares of converged, stuck, moving and undecided, of each locked joint and of none, (n + 1, 4).
-        arrives: (n + 1,) shares that reach the target, with intervals.
+        reaches: (n + 1,) fractions that reach the target, with intervals.
         each: (R,) of every motion the share of the joints with which it reaches the target; NaN where there was no start.
         any: Its mean, with its interval.
         in_reach: Share of the runs with a locked joint in which the target was in reach.
@@ -164,7 +164,7 @@ class Driven:
     joints: tuple[str, ...]
     motions: int
     ends: Array
-    arrives: tuple[Interval, ...]
+    reaches: tuple[Interval, ...]
     each: Array
     any: Interval
     in_reach: float
@@ -185,11 +185,11 @@ def driven(study: Study, cell: int) -> Driven | None:
     ends = np.stack([(code[known] == k).mean(axis=0) for k in Outcome], axis=1)
     there = code == Outcome.CONVERGED
     each = np.where(known, there[:, :-1].mean(axis=1), np.nan)
-    arrives = tuple(Interval.of(int(there[known, k].sum()), runs) for k in range(code.shape[1]))
+    reaches = tuple(Interval.of(int(there[known, k].sum()), runs) for k in range(code.shape[1]))
     joints = tuple(j["name"] for j in store.plan["arm"]["joints"] if j["type"] != "fixed")
     whole = shared(each, code.shape[1] - 1, 0.95)
     labels = labels_of(study, cell)
-    return Driven(labels, joints, runs, ends, arrives, each, whole, float(reach[known, :-1].mean()))
+    return Driven(labels, joints, runs, ends, reaches, each, whole, float(reach[known, :-1].mean()))
 
 
 def gain(first: Driven, second: Driven) -> Difference | None:

@@ -68,7 +68,7 @@ def simulate_experiment(
     trials = _driven(protocol, tasks, order[:, 1], [people[k] for k in who], trial_seed)
     start = protocol.plants[0].position(protocol.tasks.q0)
     ideal = (np.linalg.norm(protocol.tasks.target - start, axis=1) - protocol.radius) / protocol.stick.limit
-    time = np.where(trials.arrived, trials.cycles, np.nan)
+    time = np.where(trials.completed, trials.cycles, np.nan)
     ratings = rate(time, ideal[order[:, 0]], len(protocol.rating), seed=rating_seed)
     say("writing the records")
     position = np.concatenate([*(np.arange(len(s)) for s in sessions), np.empty(0, dtype=np.int64)])
@@ -106,7 +106,7 @@ def _train(
         trials = _driven(protocol, joined, np.full(len(who), scenario), [people[k] for k in who], noise)
         with records.together():
             for i, k in enumerate(who):
-                cycles[k].append(float(trials.cycles[i]) if trials.arrived[i] else np.nan)
+                cycles[k].append(float(trials.cycles[i]) if trials.completed[i] else np.nan)
                 _record(records, subjects[k].code, Kind.TRAINING, done + i % count, scenario, joined, i, -1, trials)
         done += count
 

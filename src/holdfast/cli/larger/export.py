@@ -10,7 +10,7 @@ import typer
 from holdfast.cli.laws import LawOption, law_of
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TaskOption, TipOption
 from holdfast.errors import InputError
-from holdfast.present.printing import console, print_json
+from holdfast.present.results import printed
 
 LANGUAGES = ("c",)
 
@@ -35,16 +35,4 @@ def command(
     """
     if language not in LANGUAGES:
         raise InputError(f"--language '{language}' is not known; use {', '.join(LANGUAGES)}")
-    made = law_of(law, arm, task, base, tip, hold)
-    files = made.export_c(out, name)
-    if json_:
-        written = dict(zip(("source", "header", "example", "test"), map(str, files), strict=True))
-        print_json({**made.arm.entry(), "law": made.slug, "task": made.task.name, **written})
-        return
-    from rich.markup import escape
-
-    console().print(
-        f"{escape(made.phrase())}, arm {escape(made.arm.title)}: wrote {escape(str(files[0]))} and "
-        f"{escape(', '.join(x.name for x in files[1:]))}",
-        soft_wrap=True,
-    )
+    printed(law_of(law, arm, task, base, tip, hold).export_c(out, name), json_)

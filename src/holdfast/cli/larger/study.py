@@ -12,9 +12,10 @@ import typer
 
 from holdfast.cli.options import BasesOption, HoldsOption, JsonOption, NamesOption, TipsOption, each_arm
 from holdfast.cli.progress import progress_bar
-from holdfast.errors import InputError, StoreError
+from holdfast.errors import InputError
 from holdfast.notice import working
 from holdfast.present.printing import console, print_json
+from holdfast.present.results import printed, printed_each
 
 command = typer.Typer(
     name="study",
@@ -96,7 +97,6 @@ def run(
     """
     from holdfast.engine.study import Study
     from holdfast.kernels.threads import set_threads
-    from holdfast.present.studies import console as said
     from holdfast.studies.estimate import estimates
     from holdfast.studies.study_file import read
 
@@ -110,6 +110,8 @@ def run(
             for each in estimates(asked.cells, asked.seed):
                 found.append(each)
                 advance(len(found), len(asked.cells))
+        from holdfast.present.studies import console as said
+
         if json_:
             print_json(said.estimated(found))
         else:
@@ -120,10 +122,7 @@ def run(
     with _runner(scheduler) as runner, _stopping() as stop, _progress(json_) as progress:
         study = Study.create(out, asked.name, asked.seed, cells=asked.cells, source=asked.text)
         problems = study.run(asked.cells, runner, progress, stop=stop, part=share)
-    if json_:
-        print_json(said.status(study))
-    else:
-        said.show_status(study, console())
+    printed(study, json_)
     if problems:
         name, problem = next(iter(problems.items()))
         more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
@@ -139,14 +138,8 @@ def status(folders: FoldersArgument, json_: JsonOption = False) -> None:
     Example: holdfast study status tools
     """
     from holdfast.engine.study import Study
-    from holdfast.present.studies import console as said
 
-    studies = [Study.open(folder) for folder in folders]
-    if json_:
-        print_json(said.status(studies[0]) if len(studies) == 1 else [said.status(s) for s in studies])
-        return
-    for study in studies:
-        said.show_status(study, console())
+    printed_each([Study.open(folder) for folder in folders], json_)
 
 
 @command.command()
@@ -155,26 +148,12 @@ def verify(folders: FoldersArgument, json_: JsonOption = False) -> None:
 
     Example: holdfast study verify tools
     """
-    from holdfast.engine.study import Study
-    from holdfast.present.studies import console as said
+    from holdfast.engine.verification import verify as verified
 
-    found: list[dict[str, Any]] = []
-    for folder in folders:
-        study = Study.open(folder)
-        with _progress(json_) as progress:
-            damage = study.verify(progress)
-        found += said.damaged(folder, damage)
-        if not json_ and not damage:
-            typer.echo("\n".join(said.sound(folder, study)))
-    if json_:
-        print_json({"damaged": found})
-    for each in found:
-        typer.echo(said.sentence(each), err=True)
-    if found:
-        raise StoreError(
-            f"{len(found)} damaged chunk{'' if len(found) == 1 else 's'}, missing from now on; 'holdfast study run' computes "
-            "them again"
-        )
+    with _progress(json_) as progress:
+        found = verified(folders, progress)
+    printed(found, json_)
+    found.require_ok()
 
 
 @command.command()
@@ -189,20 +168,14 @@ def merge(
 
     Example: holdfast study merge whole machine1/tools machine2/tools
     """
-    from holdfast.engine.study import Study
     from holdfast.engine.union import merge as join
-    from holdfast.present.studies import console as said
 
     target, others = (folders[0], folders[1:]) if out is None else (out, folders)
     if not others:
         raise InputError("there is nothing to merge; name the folder to merge into and one or more to take from")
     with _progress(json_) as progress:
         found = join(target, others, progress)
-    study = Study.open(target)
-    if json_:
-        print_json(said.merged(found, study.makers))
-    else:
-        said.show_merged(study, found, console(), console(stderr=True))
+    printed(found, json_)
 
 
 @command.command()
@@ -216,11 +189,10 @@ def report(
     Example: holdfast study report tools
     """
     from holdfast.engine.study import Study
-    from holdfast.present.studies.page import write
 
     if to is not None and len(folders) > 1:
         raise InputError(f"--to names one file and there are {len(folders)} folders; leave it out")
-    pages = [write(Study.open(folder), to or folder / "report.html") for folder in folders]
+    pages = [Study.open(folder).report(to or folder / "report.html") for folder in folders]
     if json_:
         print_json({"reports": [str(p) for p in pages]})
         return

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
-from holdfast.present.printing import console, print_json
+from holdfast.present.printing import console, plain, print_json
 
 
 def command(json_: JsonOption = False) -> None:
@@ -14,7 +14,7 @@ def command(json_: JsonOption = False) -> None:
     from holdfast.present.arm.console import library, show_library
 
     if json_:
-        print_json(library())
+        print_json(plain(library()))
     else:
         show_library(console())
 
@@ -30,6 +30,6 @@ def describe(
 
     model = read_arm(arm, base, tip, hold)
     if json_:
-        print_json(to_dict(model))
+        print_json(plain(to_dict(model)))
     else:
         show(model, console())

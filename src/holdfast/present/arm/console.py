@@ -86,11 +86,12 @@ def redundant_task(arm: Arm) -> str | None:
 def show(arm: Arm, out: Console) -> None:
     """Its joints as a table, then what its structure and its data lack."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     source = f". Source: {escape(arm.source)}" if arm.source else ""
     out.print(f"[bold]{escape(arm.title)}[/]: {arm.n} joints{source}")
-    table = Table("", "joint", "type", "lower", "upper", "speed", "effort", "link mass", box=None, pad_edge=False)
+    table = Grid("", "joint", "type", "lower", "upper", "speed", "effort", "link mass")
     for k, (joint, link) in enumerate(zip(arm.joints, arm.links, strict=True)):
         factor, unit = joint.shown
         table.add_row(
@@ -129,9 +130,9 @@ def library() -> list[dict[str, Any]]:
 
 def show_library(out: Console) -> None:
     """The built-in arms as a table."""
-    from rich.table import Table
+    from holdfast.present.terminal import Grid
 
-    table = Table("name", "joints", "what it is", "licence", box=None, pad_edge=False)
+    table = Grid("name", "joints", "what it is", "licence")
     for e in library():
         table.add_row(e["name"], str(e["joints"]), e["summary"], e["licence"])
     out.print(table)

@@ -61,7 +61,8 @@ def next_steps(comparison: Comparison, name: str) -> list[str]:
 def show(comparison: Comparison, out: Console, thresholds: Thresholds = None, report: Path | None = None) -> None:
     """What differs, the table, and which joint deserves most."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     del thresholds, report
     first = comparison.assessments[0]
@@ -76,9 +77,9 @@ def show(comparison: Comparison, out: Console, thresholds: Thresholds = None, re
     samples = ("", "optimised_")[: 1 + optimised]
     titles = ["candidate", "task", "reached", f"{sign} {comparison.threshold:g}", "95 % interval"]
     titles += ["optimised", "95 % interval"] * optimised + ["median", *["optimised"] * optimised]
-    numbers = Table(*titles, *["left after a lock"] * survival, box=None, pad_edge=False)
+    numbers = Grid(*titles, *["left after a lock"] * survival)
     titles = ["candidate", "worst failure", *["optimised"] * optimised, "single point of failure", "protect first", "gain"]
-    joints = Table(*titles, box=None, pad_edge=False)
+    joints = Grid(*titles)
     for r in rows:
         cells = [escape(r["name"]), escape(r["task"]), _cell(r["reached"])]
         for b in samples:

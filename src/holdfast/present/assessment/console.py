@@ -120,7 +120,7 @@ def _optimised(result: Assessment, thresholds: Thresholds) -> dict[str, Any] | N
 
 
 def _clearance(result: Assessment) -> dict[str, Any] | None:
-    """How often the arm runs through itself; None if that was not looked at."""
+    """How often the arm collides with itself; None if that was not looked at."""
     found, clearance = result.collisions, result.plan.clearance
     if found is None or clearance is None:
         return None
@@ -177,7 +177,8 @@ def show(
 ) -> None:
     """What was asked, how the index is distributed, which failure is the worst, and what a lock leaves."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     del report  # is named with the files that were written
     d = result.distribution
@@ -216,7 +217,7 @@ def show(
     _show_clearance(result, out)
     sign = "at least" if result.index.better == "larger" else "at most"
     after = ["optimised", "95 % interval"] if result.optimised is not None else []
-    table = Table(result.index.name, "probability", "95 % interval", *after, box=None, pad_edge=False)
+    table = Grid(result.index.name, "probability", "95 % interval", *after)
     for h in _thresholds(result, thresholds):
         cells = []
         for optimised in (False, True)[: len(both)]:
@@ -227,7 +228,7 @@ def show(
     columns = [result.worst_counts, *([] if result.optimised_worst_counts is None else [result.optimised_worst_counts])]
     if any(c.sum() for c in columns):
         head = "is the worst in" + (" weight" if d.weighted else "")
-        table = Table("failure", head, *["optimised"][: len(columns) - 1], box=None, pad_edge=False)
+        table = Grid("failure", head, *["optimised"][: len(columns) - 1])
         for k, name in enumerate(result.index.failure_names):
             if any(c[k] for c in columns):
                 table.add_row(
@@ -236,7 +237,7 @@ def show(
         out.print(table)
     _show_upgrades(result, thresholds, out)
     if result.survivors is not None:
-        table = Table("once it has locked", "where", "poses still reached", "95 % interval", box=None, pad_edge=False)
+        table = Grid("once it has locked", "where", "poses still reached", "95 % interval")
         for name, share in result.survival().items():
             where = _where(result, name)
             table.add_row(escape(name), where, f"{share.value:.4f}", f"{share.low:.4f} to {share.high:.4f}")
@@ -256,7 +257,7 @@ def _where(result: Assessment, joint: str) -> str:
 
 
 def _show_clearance(result: Assessment, out: Console) -> None:
-    """How often the arm runs through itself."""
+    """How often the arm collides with itself."""
     from rich.markup import escape
 
     from holdfast.clearance.clearance import too_close
@@ -265,7 +266,7 @@ def _show_clearance(result: Assessment, out: Console) -> None:
     if found is None or clearance is None or not found.reached:
         return
     whole = found.reached
-    text = f"the arm runs through itself in {found.found / whole:.1%} of the {whole} configurations found"
+    text = f"the arm collides with itself in {found.found / whole:.1%} of the {whole} configurations found"
     if result.optimised is not None:
         text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {too_close(found.margin)}"
         text += ", so one that is clear was chosen instead" if found.blocked else ""
@@ -277,7 +278,8 @@ def _show_clearance(result: Assessment, out: Console) -> None:
 def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> None:
     """Which joint deserves a redundant motor or brake, at the first threshold."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     if not result.kept:
         out.print("the poses were not kept, so it is not known which joint deserves a redundant motor or brake", soft_wrap=True)
@@ -292,9 +294,7 @@ def _show_upgrades(result: Assessment, thresholds: Thresholds, out: Console) -> 
             out.print(f"no single joint that never fails would raise the probability of {condition}", soft_wrap=True)
         return
     after = ["optimised", "gain", "95 % interval"] if best else []
-    table = Table(
-        "if it never failed", f"probability of {condition}", "gain", "95 % interval", *after, box=None, pad_edge=False
-    )
+    table = Grid("if it never failed", f"probability of {condition}", "gain", "95 % interval", *after)
     for u in some:
         table.add_row(escape(u.joint), *_gain(u), *(_gain(best[u.joint]) if best else []))
     out.print(table)

@@ -46,7 +46,8 @@ def next_steps(curve: TradeOff, name: str) -> list[str]:
 def show(curve: TradeOff, out: Console) -> None:
     """A row for each allowed error."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     out.print(
         f"Arm {escape(curve.arm.title)}, task {escape(curve.task.describe())}: {len(curve.gain)} random configurations and "
@@ -58,7 +59,7 @@ def show(curve: TradeOff, out: Console) -> None:
         soft_wrap=True,
     )
     columns = ("allowed", "peak: median (95%)", "5 to 95 % of samples", "healthy: median")
-    table = Table(*columns, box=None, pad_edge=False)
+    table = Grid(*columns)
     (low, high), (q05, middle, q95) = curve.median_interval(), curve.quantiles(levels=(0.05, 0.5, 0.95))
     paid = np.median(curve.healthy_error, axis=0)
     for k, e in enumerate(curve.allowed):

@@ -226,7 +226,7 @@ def _method(c: LawComparison) -> list[Block]:
             "Time",
             f"control cycles, at most {first._setting.limit:g}" if first.cycles else f"at most {first._setting.limit:g} s",
         ),
-        ("Converged", f"error at most {c.arrives:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
+        ("Converged", f"error at most {c.accuracy:g} {'as a cycle begins' if first.cycles else 'at rest'}"),
         ("Undecided", "; ".join(f"{n}: {_reasons(c, n)}" for n in c.names)),
         ("Arm", c.arm.provenance),
         ("Fingerprint of the arm", c.arm.fingerprint),

@@ -108,13 +108,14 @@ def next_steps(d: Designs | ConvergenceDesigns, name: str) -> list[str]:
 def show(d: Designs | ConvergenceDesigns, out: Console) -> None:
     """The answer, and the given arm and the best design number by number."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     lines = d.describe()
     last = lines.pop() if isinstance(d, Designs) else ""
     for line in lines:
         out.print(escape(line), soft_wrap=True)
-    table = Table("parameter", "given arm", "best design", "bounds", box=None, pad_edge=False)
+    table = Grid("parameter", "given arm", "best design", "bounds")
     for p, before, after in zip(d.space.parameters, d.space.start.tolist(), d.values[d.best].tolist(), strict=True):
         side = at_bound(p, after) if isinstance(d, Designs) else ""
         mark = f" (at the {side} bound)" if side else ""

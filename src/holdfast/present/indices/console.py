@@ -110,12 +110,13 @@ def _show(
     out: Console,
 ) -> None:
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     out.print(f"{escape(measure.describe())}, arm {escape(measure.arm.title)}", soft_wrap=True)
     out.print(verdict, soft_wrap=True)
     print_outside(measure.arm, q, out)
-    table = Table(*head, box=None, pad_edge=False)
+    table = Grid(*head)
     for name, *cells in rows:
         table.add_row(escape(name), *cells)
     out.print(table)

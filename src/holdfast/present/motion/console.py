@@ -53,7 +53,7 @@ def key_table(t: Trajectory) -> Rows:
     rows = [
         [f"{t.objective.name}: {', '.join(facts)}", ", ".join(map(number, facts.values()))],
         ["largest norm of the joint rates", f"{number(t.peak_rate)} rad/s at {number(t.peak_time)} s"],
-        ["end effector off its path by at most", t.hand_error],
+        ["end effector off its path by at most", t.tool_error],
     ]
     return Rows(["", ""], rows)
 
@@ -67,13 +67,14 @@ def next_steps(t: Trajectory, name: str) -> list[str]:
 def show(t: Trajectory, out: Console) -> None:
     """Whether the end effector stays on its path, the objective as a table, and what happened."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     first, _, *rest = t.describe()
     look = "bold" if t.on_path else "bold red"
     out.print(f"[{look}]{escape(capitalised(first))}[/]", soft_wrap=True)
     facts = _facts(t.value)
-    table = Table(escape(t.objective.name), *facts, box=None, pad_edge=False)
+    table = Grid(escape(t.objective.name), *facts)
     unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
     table.add_row(escape(f"{t.method}{unit}"), *map(number, facts.values()))
     if t.best_value is not None:
@@ -97,7 +98,8 @@ def _facts(values: Array) -> dict[str, float]:
 
 def _show_slowness(t: Trajectory, bound: float, out: Console) -> None:
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     slowness = t.slowness(bound)
     worst = max(slowness, key=lambda s: s.time_scale)
@@ -111,7 +113,7 @@ def _show_slowness(t: Trajectory, bound: float, out: Console) -> None:
         f"For torques within {bound:g} N m of gravity's the motion is {verdict}; joint '{joint}' sets the limit.",
         soft_wrap=True,
     )
-    table = Table("joint", "time scale", "decided at", box=None, pad_edge=False)
+    table = Grid("joint", "time scale", "decided at")
     for name, s in zip(t.arm.joint_names, slowness, strict=True):
         table.add_row(escape(name), number(s.time_scale), f"{t.time[s.worst_time_index]:.4g} s" if s.time_scale > 0 else "")
     out.print(table)

@@ -96,7 +96,7 @@ class _Facts:
         rows += [
             ("Largest norm of the joint rates", f"{t.peak_rate:.4g} rad/s at {t.peak_time:.4g} s"),
             ("Median of that norm", f"{np.median(t.rate_norm):.4g} rad/s"),
-            ("End effector off its path by at most", t.hand_error),
+            ("End effector off its path by at most", t.tool_error),
         ]
         if t.rate_cap is not None:
             rows.append(("Self-motion slowed by the cap", f"{np.mean(t.self_motion < 1 - 1e-9):.1%} of the samples"))

@@ -57,19 +57,20 @@ def next_steps(run: PhysicalRun, name: str) -> list[str]:
 def show(run: PhysicalRun, out: Console) -> None:
     """The kinematic run, and both outcomes beside each other."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     told = run.kinematic
     simulation.show(told, out)
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
     size = "m and rad" if run.law.task.angular else "m"
-    table = Table("", "kinematic", "in MuJoCo", "", box=None, pad_edge=False)
+    table = Grid("", "kinematic", "in MuJoCo", "")
     reason = "" if run.reason == "none" else f" ({run.reason})"
     table.add_row("outcome", str(told.outcome), f"[bold]{run.outcome}[/]{reason}", "")
     table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), size)
     table.add_row("took", number(float(told.time)), number(run.time[-1]), "s")
     out.print(table)
-    facts = Table.grid(padding=(0, 2))
+    facts = Grid()
     facts.add_row("tool paths apart, at most", f"[bold]{number(1000 * run.path_distance, 3)}[/] mm")
     facts.add_row("tools apart at the end", f"{number(1000 * run.terminal_distance, 3)} mm")
     full = [f"{n} {s:.1%}" for n, s in zip(run.law.arm.joint_names, run.saturated, strict=True) if s > 0]

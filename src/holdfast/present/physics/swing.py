@@ -66,7 +66,8 @@ def next_steps(swing: FreeSwing, name: str) -> list[str]:
 def show(swing: FreeSwing, out: Console) -> None:
     """How it ended, and a table of the brake times."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     failed = swing.arm.joints[swing.joint]
     factor, shown = failed.shown
@@ -77,7 +78,7 @@ def show(swing: FreeSwing, out: Console) -> None:
 
     for line in swing.describe()[:2]:
         out.print(escape(line), soft_wrap=True)
-    facts = Table.grid(padding=(0, 2))
+    facts = Grid()
     if swing.settled:
         facts.add_row("displacement at the end", f"[bold]{amount(swing.rest_angle)}[/]")
     facts.add_row("largest displacement", amount(swing.peak))
@@ -86,7 +87,7 @@ def show(swing: FreeSwing, out: Console) -> None:
     facts.add_row("simulated", f"{number(swing.time[-1])} s")
     out.print(facts)
     if swing.drops:
-        table = Table("brakes engage after", "joint has moved", "at", "tool has dropped", "and moved", box=None, pad_edge=False)
+        table = Grid("brakes engage after", "joint has moved", "at", "tool has dropped", "and moved")
         for d in swing.drops:
             table.add_row(
                 f"{d.after_ms:g} ms",

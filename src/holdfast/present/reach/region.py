@@ -54,10 +54,11 @@ def next_steps(region: TolerantWorkspace, name: str) -> list[str]:
 def show(region: TolerantWorkspace, out: Console) -> None:
     """A table of the artificial limits, and of what the locks of each joint lose."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     out.print(escape(region.describe()[0]), soft_wrap=True)
-    table = Table("joint", "artificial limits", "points lost by its lock", box=None, pad_edge=False)
+    table = Grid("joint", "artificial limits", "points lost by its lock")
     for joint, limits, lost in zip(region.arm.joints, region.limits, region.lost_to, strict=True):
         table.add_row(escape(joint.name), ranges([limits], joint), f"{lost:.1%}")
     out.print(table)

@@ -90,7 +90,8 @@ def _rows(rows: RowsGivenUp | None) -> dict[str, float] | None:
 def show(recovery: Recovery, out: Console) -> None:
     """The sentences, what the replay of the motion found, and where the joints begin and end."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     first, verdict, *rest = recovery.describe()
     out.print(escape(first), soft_wrap=True)
@@ -101,7 +102,7 @@ def show(recovery: Recovery, out: Console) -> None:
         return
     for line in checks(recovery):
         out.print(escape(f"check: {line}"), soft_wrap=True)
-    table = Table("joint", "start", "end", "", box=None, pad_edge=False)
+    table = Grid("joint", "start", "end", "")
     for k, joint in enumerate(recovery.arm.joints):
         factor, unit = joint.shown
         cells = [f"{number(factor * x)} {unit}" for x in (recovery.q[0, k], recovery.q[-1, k])]

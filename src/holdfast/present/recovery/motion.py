@@ -119,5 +119,5 @@ def _motion(recovery: Recovery) -> Figure:
 
 def _title(recovery: Recovery) -> str:
     if len(recovery.q) < 2:
-        return f"{recovery.arm.name}: {recovery.ending.name}, no motion"
-    return f"{recovery.arm.name}: {recovery.ending.name}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"
+        return f"{recovery.arm.name}: {recovery.ending.phrase}, no motion"
+    return f"{recovery.arm.name}: {recovery.ending.phrase}, {len(recovery.q)} waypoints, {recovery.length:.3g} {recovery.unit}"

@@ -75,7 +75,8 @@ def next_steps(runs: Runs, name: str) -> list[str]:
 def show(runs: Runs, out: Console) -> None:
     """One run as tables; of many, the sentences."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     if runs.code.ndim:
         for line in runs.describe():
@@ -90,14 +91,14 @@ def show(runs: Runs, out: Console) -> None:
     if limits := escape(runs.limits_sentence()):
         out.print(f"[yellow]{limits}[/]" if runs.limits_passed.any() else limits, soft_wrap=True)
     size = "m and rad" if runs.law.task.angular else "m"
-    facts = Table.grid(padding=(0, 2))
+    facts = Grid()
     facts.add_row("error at the end", f"[bold]{number(float(runs.error))}[/] {size}")
     facts.add_row("least error that the failed arm can have", f"{number(float(runs.least_error()))} {size}")
     facts.add_row("least error on the way", f"{number(float(runs.closest))} {size}")
     facts.add_row("path of the end effector", f"{number(float(runs.path_length))} m")
     facts.add_row("took", f"{number(float(runs.time))} {unit}")
     out.print(facts)
-    table = Table("joint", "start", "end", "least", "greatest", "", box=None, pad_edge=False)
+    table = Grid("joint", "start", "end", "least", "greatest", "")
     for k, joint in enumerate(arm.joints):
         factor, shown = joint.shown
         cells = [f"{number(factor * x[k])} {shown}" for x in (runs.q0, runs.q_final, runs.q_low, runs.q_high)]

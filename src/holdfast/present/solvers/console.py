@@ -103,7 +103,8 @@ def next_steps(optima: Optima, name: str) -> list[str]:
 def show(optima: Optima, out: Console, asked: str = "") -> None:
     """One pose joint by joint, or a line for each."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     found = optima.rows
     value_before = found.value_before
@@ -114,7 +115,7 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
     if len(found.poses) == 1:
         _show_one(found, out, first, unit)
     else:
-        table = Table("pose", f"before{unit}", f"after{unit}", "starts agreeing", "", box=None, pad_edge=False)
+        table = Grid("pose", f"before{unit}", f"after{unit}", "starts agreeing", "")
         for k, status in enumerate(found.status):
             agreeing = "" if np.isnan(found.agreeing[k]) else f"{found.agreeing[k]:.0%} of {found.starts[k]}"
             ended = "" if status == Status.OK else _name(status).replace("_", " ")
@@ -131,7 +132,8 @@ def show(optima: Optima, out: Console, asked: str = "") -> None:
 
 def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     before = found.before[0]
     out.print(
@@ -141,7 +143,7 @@ def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
     )
     measures = list(_measures(found))
     columns = [f"{escape(label)} before" if k == 0 else "after" for label, *_ in measures for k in (0, 1)]
-    table = Table("joint", "before", "after", *columns, box=None, pad_edge=False)
+    table = Grid("joint", "before", "after", *columns)
     for i, joint in enumerate(found.arm.joints):
         cells = [shown_position(x[i], joint.unit) for x in (before, found.q[0])]
         cells += [_measure(x[0, i], units[i]) for _, units, *both in measures for x in both]
@@ -158,7 +160,7 @@ def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
 
 
 def _show_clearance(found: Optima, out: Console) -> None:
-    """What keeps the arm from running through itself, and where it would have."""
+    """What keeps the arm from colliding with itself, and where it would have."""
     from rich.markup import escape
 
     from holdfast.clearance.clearance import too_close

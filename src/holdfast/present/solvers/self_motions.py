@@ -63,16 +63,17 @@ def next_steps(motion: SelfMotion, name: str) -> list[str]:
 def show(motion: SelfMotion, out: Console) -> None:
     """A table of the curves, and one of where each joint may lock."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     out.print(escape(motion.describe()[0]), soft_wrap=True)
     if motion.components:
-        table = Table("curve", "length", "points", "", box=None, pad_edge=False)
+        table = Grid("curve", "length", "points", "")
         for k, c in enumerate(motion.components):
             table.add_row(str(k + 1), f"{number(c.length)} rad", str(len(c.q)), escape(motion.ends(k)))
         out.print(table)
     if motion.bounds is not None:
-        table = Table("joint", "may lock at", "", box=None, pad_edge=False)
+        table = Grid("joint", "may lock at", "")
         for joint, found, turns in zip(motion.arm.joints, motion.bounds, turning(motion.arm), strict=True):
             whole = list(found) in ([(joint.lower, joint.upper)], [(-np.pi, np.pi)] if turns else None)
             table.add_row(escape(joint.name), ranges(found, joint), "anywhere" if whole else "" if found else "nowhere")

@@ -25,7 +25,7 @@ from holdfast.studies import results
 from holdfast.studies.ranking import Ended, Key, Standing, counted_range, place, row_of, said, standings
 from holdfast.studies.results import Assessed, Driven
 from holdfast.studies.study_file import thresholds
-from holdfast.words import as_given, counted, either, number, percent
+from holdfast.words import as_given, counted, duration, either, number, percent
 
 T = TypeVar("T")
 
@@ -33,12 +33,13 @@ _ENDS = ("reaches the target", "stops elsewhere", "keeps moving", "undecided")
 
 
 @says("drawing the report")
-def write(study: Study, path: str | Path) -> Path:
-    """Write the report of a study, also of one that is not complete.
+def write(study: Study, path: str | Path, command: str = "") -> Path:
+    """Write the report of a study, also of one that is not complete; it says itself how it is made again.
 
     Raises:
         StoreError: Nothing is computed, a chunk is damaged, or the file cannot be written.
     """
+    del command
     return page.write(build(study), path)
 
 
@@ -322,9 +323,9 @@ def _laws(laws: Sequence[Driven]) -> list[Block]:
         first = next(x for x in laws if x.labels["arm"] == d.labels["arm"] and x.labels["task"] == d.labels["task"])
         better = None if d is first else results.gain(first, d)
         more = "–" if better is None else f"{better.value:+.3f} ({better.low:+.3f} to {better.high:+.3f})".replace("-", "−")
-        k = int(np.argmin([p.value for p in d.arrives[:-1]]))
-        worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.arrives[k].value:.3f}"
-        cells: list[Cell] = [_share(d.any), more, worst, _share(d.arrives[-1]), percent(d.in_reach)]
+        k = int(np.argmin([p.value for p in d.reaches[:-1]]))
+        worst = f"{d.joints[k] if k < len(d.joints) else k + 1}: {d.reaches[k].value:.3f}"
+        cells: list[Cell] = [_share(d.any), more, worst, _share(d.reaches[-1]), percent(d.in_reach)]
         rows.append([_whole(d.labels["arm"]), _whole(d.labels["law"]), d.labels["task"], *cells])
     head = ["Arm", "law", "task", "converges", "gain over the first law", "worst joint", "converges, none locked", "in reach"]
     caption = (
@@ -363,11 +364,11 @@ def _provenance(study: Study, found: Sequence[Assessed]) -> list[Block]:
         ("Study", f"{study.name}, seed {study.seed}, digest {study.digest}"),
         ("Cells", f"{len(cells):,}, {sum(s.chunks_done for s in cells):,} of {sum(s.chunks for s in cells):,} chunks"),
         ("Samples", f"{samples:,} rows (poses, motions, starts) in all"),
-        ("Time", f"{_hours(spent)} of one thread; runs that ended took {_hours(wall)}"),
+        ("Time", f"{duration(spent)} of one thread; runs that ended took {duration(wall)}"),
         ("On the disk", f"{size / 1e6:.3g} MB"),
     ]
     for n, run in enumerate(study.runs[-5:]):
-        when = f"{run['started']}: {run['chunks']:,} chunks in {_hours(run['seconds'])} on {run['on']}"
+        when = f"{run['started']}: {run['chunks']:,} chunks in {duration(run['seconds'])} on {run['on']}"
         facts.append(("Runs" if not n else "", when))
     for n, maker in enumerate(study.makers):
         versions = ", ".join(f"{k} {v}" for k, v in maker["versions"].items())
@@ -392,9 +393,3 @@ def _again(study: Study) -> list[Block]:
         ]
         return [*files, *blocks]
     return blocks
-
-
-def _hours(seconds: float) -> str:
-    if seconds < 120:
-        return f"{seconds:.3g} s"
-    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"

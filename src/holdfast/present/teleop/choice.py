@@ -32,18 +32,18 @@ def to_dict(choice: TaskChoice) -> dict[str, Any]:
 def _summary(bank: TaskBank) -> list[dict[str, Any]]:
     lines: list[dict[str, Any]] = []
     for k, s in enumerate(bank.scenarios):
-        arrived = ~np.isnan(bank.cpm[k])
-        middle = np.nanmedian(bank.measures[k], axis=0) if arrived.any() else np.full(bank.measures.shape[2], np.nan)
+        completed = ~np.isnan(bank.cpm[k])
+        middle = np.nanmedian(bank.measures[k], axis=0) if completed.any() else np.full(bank.measures.shape[2], np.nan)
         lines.append(
             {
                 "scenario": s.number,
                 "label": s.label,
-                "not_reached": int((~arrived).sum()),
+                "not_reached": int((~completed).sum()),
                 "time_cycles": middle[0],
                 "path_m": middle[1],
                 "velocity_error": middle[6],
                 "peak_direction_error_rad": middle[9],
-                "cpm": np.median(bank.cpm[k][arrived]) if arrived.any() else np.nan,
+                "cpm": np.median(bank.cpm[k][completed]) if completed.any() else np.nan,
             }
         )
     return lines
@@ -66,12 +66,13 @@ def next_steps(choice: TaskChoice, name: str) -> list[str]:
 def show(choice: TaskChoice, out: Console) -> None:
     """A row for each scenario, and what was chosen."""
     from rich.markup import escape
-    from rich.table import Table
+
+    from holdfast.present.terminal import Grid
 
     first, *rest = choice.describe()
     out.print(escape(first), soft_wrap=True)
     columns = ("time, cycles", "path, m", "velocity error", "peak direction error, deg", "CPM")
-    table = Table("scenario", "", "not completed", *columns, box=None, pad_edge=False)
+    table = Grid("scenario", "", "not completed", *columns)
     for r in _summary(choice.bank):
         cells = [number(r[k], 3) for k in ("time_cycles", "path_m", "velocity_error")]
         turn = f"{np.degrees(r['peak_direction_error_rad']):.1f}"

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 def _table(*head: str) -> Any:
-    from rich.table import Table
+    from holdfast.present.terminal import Grid
 
-    return Table(*head, box=None, pad_edge=False)
+    return Grid(*head)
 
 
 def show_experiment(records: Records, out: Console) -> None:

@@ -201,7 +201,7 @@ def can_be_steered(plant: Plant, task: PointTasks, seed: int = 0, *, tries: int 
         stick=Stick(),
         rules=Rules(cycle_limit=2000, patience=2000),
     )
-    return bool(trials.arrived.any())
+    return bool(trials.completed.any())
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -125,7 +125,7 @@ def measures(trials: Trials) -> Array:
         change[:-1] = np.linalg.norm(np.diff(v, axis=0), axis=1)
         change[first[begun] + sizes[begun] - 1] = 0.0
     out[:, 10] = total(change)
-    out[~trials.arrived] = np.nan
+    out[~trials.completed] = np.nan
     return out
 
 

@@ -88,7 +88,7 @@ class Trials:
         return np.diff(self.first)
 
     @property
-    def arrived(self) -> NDArray[np.bool_]:
+    def completed(self) -> NDArray[np.bool_]:
         """(N,) True where the end effector reached the target circle."""
         return np.asarray(self.end == End.ARRIVED)
 

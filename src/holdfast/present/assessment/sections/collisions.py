@@ -1,4 +1,4 @@
-"""How often the arm runs through itself, and what it was taken to be."""
+"""How often the arm collides with itself, and what it was taken to be."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from holdfast.present.assessment.facts import Facts
 from holdfast.report.page import Block, Callout, Table, Text
 from holdfast.words import counted, percent, share
 
-TITLE = "Does the arm run through itself?"
+TITLE = "Does the arm collide with itself?"
 _MOST_NAMED = 6  # pairs that are not checked, by name
 
 
 def blocks(f: Facts) -> list[Block]:
-    """How often the arm runs through itself; that nobody looked, if the run chose configurations without looking."""
+    """How often the arm collides with itself; that nobody looked, if the run chose configurations without looking."""
     found, clearance = f.a.collisions, f.a.plan.clearance
     if found is None or clearance is None:
         if f.a.optimised is None:
             return []
-        return [Text("Not checked: nothing kept the best configurations from running the arm through itself.")]
+        return [Text("Not checked: nothing kept the best configurations from a collision of the arm with itself.")]
     if not found.reached:
         return []
     arm, capsules = f.a.arm, clearance.capsules
@@ -32,7 +32,7 @@ def blocks(f: Facts) -> list[Block]:
             "1/20 of the sum of the link lengths. Give the real one by --capsules, or its radius by --radius."
         )
         blocks.append(Callout(text))
-    facts = [("Configurations found that run the arm through itself", share(found.found, found.reached))]
+    facts = [("Configurations found that bring the arm into collision with itself", share(found.found, found.reached))]
     if f.a.optimised is not None:
         close = too_close(found.margin)
         facts += [
@@ -46,7 +46,7 @@ def blocks(f: Facts) -> list[Block]:
         ]
     closest = _closest(f, clearance)
     if closest:
-        facts.append(("Closest where the arm runs through itself", closest))
+        facts.append(("Closest where the arm collides with itself", closest))
     facts += [
         ("Capsules", capsules.describe(arm)),
         ("Checked", counted(len(clearance.pairs), "pair") + " of capsules"),
@@ -60,7 +60,7 @@ def blocks(f: Facts) -> list[Block]:
 
 
 def _closest(f: Facts, clearance: Clearance) -> str:
-    """The pair that is closest most often where the arm runs through itself, or nothing."""
+    """The pair that is closest most often where the arm collides with itself, or nothing."""
     if f.rows is None:
         return ""
     q = f.rows.q[f.rows.reached]

@@ -44,7 +44,7 @@ def _kept(f: Facts) -> str:
     """What the best configurations keep besides the pose."""
     clearance, margin = f.a.plan.clearance, f.a.plan.margin
     if clearance is None:
-        return " and the joint limits, even where the arm runs through itself"
+        return " and the joint limits, even where the arm collides with itself"
     apart = f"a clearance of {margin:g} m" if margin else "the arm clear of itself"
     return f", the joint limits and {apart} ({clearance.capsules.describe(f.a.arm)})"
 
