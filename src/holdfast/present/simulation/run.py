@@ -201,6 +201,7 @@ class _RunReport:
         )
         speed = (motion.time[-1] - motion.time[0]) / view.data["seconds"]
         unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as in reality"
+        unit = "in real time" if not self.runs.cycles and abs(speed - 1) < 1e-9 else unit
         caption = (
             f"Orange: joints that are locked, the target, and the straight line to it; blue: path of the tool. Played {unit}."
         )

@@ -99,7 +99,7 @@ function makeSortable(table) {
         region.tabIndex = region.scrollWidth > region.clientWidth + 1 ? 0 : -1;
       });
     });
-    document.querySelectorAll(".scroll").forEach(function (region) { seen.observe(region); });
+    document.querySelectorAll(".scroll, .plate").forEach(function (region) { seen.observe(region); });
   }
 
   function contents() {

@@ -54,4 +54,4 @@ def _turned(f: Facts) -> Picture:
     text = f"The arm {f.representative[1]}; drag to turn it."
     if poses:
         text += f" A dot is a {f.noun} that can be chosen; what is chosen above moves the arm."
-    return Picture(view.html(pointing.VIEW, f"{f.a.arm.name} and its region in three dimensions"), text)
+    return Picture(view.html(pointing.VIEW, f"{f.a.arm.name} and its region in three dimensions"), text, screen=True)
