@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast import arms
+from holdfast.arms.spec import default_task
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.commands import task_option
 from holdfast.report.figures import frame
@@ -50,7 +51,7 @@ def blocks(f: Facts, figure: Figure) -> list[Block]:
     arm = f.a.arm
     spec, words, remark = arms.command_words(arm)
     task = task_option(arm, f.index.task)
-    if task is not None:
+    if task is not None and task != default_task(arm.name, arm):
         words = [*words, f"--task {shlex.quote(task)}"]
     data = {
         "view": VIEW,
