@@ -21,7 +21,8 @@ _HTML = Markup("""\
 <p><label>Move the threshold: index {sign} <strong class="asked">{asked}</strong>{unit}
 <input type="range" min="0" max="{last}" value="{start}" step="1"></label></p>
 <dl class="answers">{answers}</dl>
-<p class="quiet">An interval is that of one threshold, chosen beforehand; of all at once it is the band of the curve, ±{band:.3f}.</p>
+<p class="quiet">An interval is that of one threshold, chosen beforehand; for all at once
+the band of the curve holds, ±{band:.3f}.</p>
 {bars}""")
 
 _BAR = Markup("""\
