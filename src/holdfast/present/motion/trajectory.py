@@ -31,6 +31,8 @@ _SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularit
 
 def figures(t: Trajectory) -> dict[str, Figure]:
     """The arm at start and end, the way of its tool, and the objective over time."""
+    from holdfast.present.stick_figure import views_of
+    from holdfast.report.animations import Motion
     from holdfast.report.motions import Panel, drawn_motion
 
     chain = t.arm.frames(t.q)[..., :3, 3]
