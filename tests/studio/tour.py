@@ -1,4 +1,4 @@
-"""The pictures of ``docs/guide/studio.md``: ``python -m tests.studio.tour docs/guide/studio``.
+"""The pictures of ``docs/how-to/studio.md``: ``python -m tests.studio.tour docs/how-to/studio``.
 
 The test suite takes the first of them as well, so that the tour cannot fall behind the page.
 """
