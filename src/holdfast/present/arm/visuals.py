@@ -14,9 +14,11 @@ from holdfast.arm.tree import Held, Tree
 from holdfast.arm.urdf import read_origin, read_tree, robot_element
 from holdfast.errors import ArmError
 from holdfast.present.arm.body import LINK, Color, Part, ball, box, stick_parts, tube
+from holdfast.report.viewer import thinned
 
 Array = NDArray[np.float64]
 MOST_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
+MOST_BYTES = 100 << 20  # of one file
 
 
 def body_of(arm: Arm, size: float, meshes: bool = True) -> tuple[list[Part], str]:
@@ -32,7 +34,7 @@ def body_of(arm: Arm, size: float, meshes: bool = True) -> tuple[list[Part], str
         return sticks, ""
     shapes, missing = urdf_parts(arm.chain.file, arm, arm.chain.base, meshes)
     if not shapes:
-        return sticks, f"no mesh was found ({missing[0]}), so the arm is drawn as sticks" if missing else ""
+        return sticks, f"no mesh was found or read ({missing[0]}), so the arm is drawn as sticks" if missing else ""
     if missing:
         clad = {p.frame for p in shapes}
         shapes += [p for p in sticks if p.frame not in clad]
@@ -112,15 +114,20 @@ def _mesh(element: ElementTree.Element, file: Path | None) -> tuple[Array, NDArr
     found = None if file is None else find_mesh(name, file)
     if found is None:
         raise ArmError(name)
-    import trimesh
-
+    if found.stat().st_size > MOST_BYTES:
+        raise ArmError(f"{name} ({found.stat().st_size >> 20} MB; at most {MOST_BYTES >> 20} MB are read)")
+    try:
+        import trimesh
+    except ImportError as error:
+        raise ArmError(f"{name} (meshes are read by trimesh, which comes with holdfast[view])") from error
     try:
         loaded: Any = trimesh.load(found, force="mesh")
         vertices, faces = np.asarray(loaded.vertices, dtype=np.float64), np.asarray(loaded.faces, dtype=np.int64)
     except Exception as error:  # readers of meshes raise whatever they like
         raise ArmError(f"{name} (cannot be read: {type(error).__name__})") from error
-    if not len(faces) or len(faces) > MOST_TRIANGLES or not np.isfinite(vertices).all():
-        raise ArmError(f"{name} ({len(faces):,} triangles)")
+    if not len(faces) or not np.isfinite(vertices).all():
+        raise ArmError(f"{name} (no triangles of finite numbers)")
+    vertices, faces = thinned(vertices, faces, MOST_TRIANGLES)
     scale = _floats(element, "scale") if element.get("scale") else [1.0, 1.0, 1.0]
     return vertices * np.array(scale), faces
 
