@@ -7,7 +7,7 @@ WORKERS ?= 3
 MINUTES ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check lint types house docs page bench soak clean lock
+.PHONY: help demo test check lint types house docs page bench soak release clean lock
 
 help:  ## Show the commands.
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/  make \1\t\2/'
@@ -82,6 +82,16 @@ soak: $(VENV)/test.stamp  ## The attacks in full: 10 minutes of load, 1,500 sile
 	$(BIN)/python tests/soak.py
 	$(BIN)/python -m tests.studio.soak --minutes $(MINUTES)
 
+SCHEMA = $(VENV)-release/bin/check-jsonschema --builtin-schema vendor.
+
+release: $(VENV)/run.stamp  ## Try a release: what must agree, wheel and sdist, the main job from them in a bare environment. TAG=--tag tags.
+	$(PYTHON) -m venv $(VENV)-release
+	$(VENV)-release/bin/python -m pip install --quiet "check-jsonschema>=0.39"
+	$(SCHEMA)github-workflows .github/workflows/*.yml
+	$(SCHEMA)github-issue-forms $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml))
+	$(SCHEMA)citation-file-format CITATION.cff
+	$(BIN)/python -m tools.release $(TAG)
+
 # One resolution for every Python from 3.11 on and every system; the locks of tests and documentation hold what run does not.
 LOCK = $(VENV)-lock/bin/uv pip compile pyproject.toml --quiet --universal --python-version 3.11 --fork-strategy fewest \
 	--generate-hashes --no-annotate --no-header
@@ -89,12 +99,13 @@ MORE = $(LOCK) --constraint $(VENV)-lock/all $$(sed -nE 's/^([a-z0-9.-]+)==.*/--
 
 lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock && $(PYTHON) -m venv $(VENV)-lock
-	$(VENV)-lock/bin/python -m pip install --quiet uv
+	$(VENV)-lock/bin/python -m pip install --quiet uv packaging
 	$(LOCK) --group build --group test --group docs --output-file $(VENV)-lock/all
 	$(LOCK) --constraint $(VENV)-lock/all --group build --output-file requirements.lock
 	$(MORE) --group test --output-file requirements-test.lock
 	$(MORE) --group docs --output-file requirements-docs.lock
+	$(VENV)-lock/bin/python -m tools.wheels
 	rm -rf $(VENV)-lock
 
 clean:  ## Remove what the commands made.
-	rm -rf $(VENV) $(VENV)-bench page/node_modules demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache
+	rm -rf $(VENV) $(VENV)-bench $(VENV)-release page/node_modules demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache

@@ -1,11 +1,22 @@
 import { resolve } from "node:path";
-import { defineConfig } from "vite";
+import { defineConfig, type UserConfig } from "vite";
 
 // `vite build --mode station` builds index.html into station.js and station.css beside the Python server; another page is
 // built by a call with its own mode, so that no chunk is shared. All names are fixed: the server knows them.
 const pages: Record<string, string> = { station: "index.html", experimenter: "experimenter.html" };
 
-export default defineConfig(({ mode }) => ({
+// `vite build --mode viewer` builds the small 3-D view that reports and notebooks hold: one script that runs where it is put.
+const viewer: UserConfig = {
+  publicDir: false,
+  build: {
+    outDir: resolve(import.meta.dirname, "../src/holdfast/report/templates"),
+    emptyOutDir: false,
+    target: "es2022",
+    lib: { entry: "src/viewer/main.ts", formats: ["iife"], name: "holdfastView", fileName: () => "viewer.js" },
+  },
+};
+
+export default defineConfig(({ mode }) => mode === "viewer" ? viewer : ({
   base: "./",
   worker: { rolldownOptions: { output: { entryFileNames: "worker.js" } } },
   build: {

@@ -124,6 +124,16 @@ def test_an_empty_headline_names_the_worst_joint_and_the_next_figures():
     best = facts.Facts(case("optimised"), 0.47).headline
     median = np.nanquantile(case("optimised").dataset["optimised_index"].values, 0.5, method="inverted_cdf")
     assert f"at the best configuration of each pose it is {median:.3f}, and the probability" in best
+    data = case("weighted").dataset
+    left = np.average(data["survives"].values == 1, axis=0, weights=data["weight"].values)
+    name = NINE.joint_names[left.argmin()]
+    assert (
+        f"Once {name} has locked, {100 * left.min():.1f} % of the poses are still reached."
+        in facts.Facts(case("weighted"), 0.57).headline
+    )
+    assert headline(text("panda")).startswith(
+        "Hardly any pose" if case("panda").probability(0.19) else "None of the 250 poses drawn keeps"
+    )
 
 
 def test_a_headline_that_is_zero_by_structure_names_the_joint():

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import tomllib
+from importlib import resources
 from pathlib import Path
 
 import pytest
@@ -37,6 +38,16 @@ def test_the_built_page_is_the_page(tmp_path, mode, html):
     assert {html, f"{mode}.js", f"{mode}.css"} <= built.keys()
     for name, content in built.items():
         assert (STATIC / name).read_bytes() == content, f"'{name}' is not what 'npm run build' makes; run it and commit"
+
+
+@pytest.mark.usefixtures("node")
+def test_the_built_view_is_the_view(tmp_path):
+    command = ["node_modules/.bin/vite", "build", "--mode", "viewer", "--outDir", str(tmp_path), "--logLevel", "error"]
+    subprocess.run(command, cwd=PAGE, check=True, capture_output=True)
+    [built] = tmp_path.iterdir()
+    kept = resources.files("holdfast.report").joinpath("templates", built.name).read_bytes()
+    assert built.read_bytes() == kept, f"'{built.name}' is not what 'npm run build' makes; run it and commit"
+    assert len(kept) < 25_000  # every report holds it
 
 
 @pytest.mark.usefixtures("node")

@@ -14,6 +14,7 @@ from holdfast.arguments import checked, checked_class
 from holdfast.arm.dh import DH, build
 from holdfast.arm.machine import GRAVITY, Link, Machine, transform
 from holdfast.caching import cached_property
+from holdfast.files.html import Html
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
@@ -142,6 +143,25 @@ class Arm(Shown, Machine):
         """``arm``, ``base`` and ``tip`` by name, and the joints ``held``: what a JSON answer about the arm begins with."""
         base, tip, held = (None, None, ()) if self.chain is None else (self.chain.base, self.chain.tip, self.chain.held)
         return {"arm": self.name, "base": base, "tip": tip, "held": dict(held)}
+
+    # ---- how it looks ------------------------------------------------------------------------------------------
+
+    def show(self, q: ArrayLike | None = None, **options: Any) -> Html:
+        """The arm in a small 3-D view, one page that needs no server, no network and no other file.
+
+        In a notebook it is seen as it is; ``arm.show().save("arm.html")`` writes it. Without WebGL there is a drawing.
+
+        Args:
+            q: (n,) rad and m; (A, n) several, the first solid and the others see-through; with ``time`` a motion (F, n), or
+                (A, F, n) several; a configuration in which nothing is special if not given.
+            options: What else is shown: ``labels``, ``locked``, ``targets``, ``region``, ``path``, ``time``, ...; see
+                :func:`holdfast.present.arm.view.scene`.
+
+        Raises:
+            InputError: Options that do not fit the arm or each other.
+        """
+        page: Html = self._presented("page", q, **options)
+        return page
 
     # ---- kinematics --------------------------------------------------------------------------------------------
 

@@ -34,6 +34,10 @@ class Sampled(Protocol):
     def optimised(self) -> Distribution | None: ...  # noqa: D102
     @property
     def worst_counts(self) -> NDArray[Any]: ...  # noqa: D102
+    @property
+    def survivors(self) -> NDArray[Any] | None: ...  # noqa: D102
+
+    def survival(self) -> dict[str, Interval]: ...  # noqa: D102
 
     def default_threshold(self) -> float: ...  # noqa: D102
     def if_never_fails(self, joint: str | int) -> Distribution: ...  # noqa: D102
@@ -119,13 +123,31 @@ class Answer:
             verdict = f"the worst-case {name} is {worst} at each {noun} reached{lost}."
             return f"No {noun} of the region tolerates every failure: {verdict} {self.why}".rstrip()
         bound = f"at {'least' if self.larger else 'most'} {as_given(self.threshold)}{self.unit}"
-        kept = f"keeps {article(name)} {name} of {bound} {self.failures}{lost}."
-        text = f"With probability {interval(self.answer)} a {noun} of the region {kept}"
-        return f"{text} {self.why}" if self.answer.value < EMPTY else text
+        kept = f"keeps {article(name)} {name} of {bound} {self.failures}"
+        chance = f"probability {interval(self.answer)}"
+        if self.answer.value >= EMPTY:
+            return f"With {chance} a {noun} of the region {kept}{lost}."
+        few = f"Hardly any {noun} of the region" if self.answer.value else f"None of the {d.samples:,} {noun}s drawn"
+        return f"{few} {kept}: {chance}{lost}. {self.why}"
 
     @cached_property
     def why(self) -> str:
         """Why the answer is nothing, joint or structure, and the next informative numbers."""
+        if self.costliest is None:
+            return self._cause
+        name, left = self.costliest
+        return f"{self._cause} Once {name} has locked, {percent(left)} of the poses are still reached."
+
+    @cached_property
+    def costliest(self) -> tuple[str, float] | None:
+        """The joint whose lock leaves fewest poses, and what share of them; None if the run did not ask."""
+        if self.a.survivors is None or not self.d.reached:
+            return None
+        left = {name: share.value for name, share in self.a.survival().items()}
+        return min(left.items(), key=lambda each: each[1])
+
+    @property
+    def _cause(self) -> str:
         a, index, names = self.a, self.index, self.a.plan.arm.joint_names
         own = self.structures[0]
         ends = [k for k in own.fatal if any(k in s for s in index.failures)]

@@ -11,7 +11,7 @@ from typing import Any
 # `results`. Of what an analysis is asked with there are words alone, for notebooks.
 PRESENTERS = {
     "Analysis": ("teleop.numbers", "teleop.page"),
-    "Arm": ("arm.console", ""),
+    "Arm": ("arm.console", "arm.view"),
     "Assessment": ("assessment.console", "assessment.page"),
     "Basins": ("equilibria.basins", "equilibria.basins"),
     "Comparison": ("assessment.comparison_console", "assessment.comparison"),

@@ -19,6 +19,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.files.output import replaced
+from holdfast.report.viewer import with_library
 
 Cell = str | Markup
 FOOTER = "Written by holdfast. This file needs no network and no other file."
@@ -230,7 +231,7 @@ def _source(file: str) -> Markup:
 
 def render(page: Page) -> str:
     """The page as HTML that needs nothing else: no files, no network."""
-    return environment().get_template("page.html").render(page=page)
+    return with_library(environment().get_template("page.html").render(page=page))
 
 
 def write(page: Page, path: str | Path) -> Path:

@@ -14,8 +14,8 @@ from holdfast.present.assessment import method
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures as drawing
 from holdfast.report import page, scenes
-from holdfast.report.page import Callout, Page, Section
-from holdfast.words import interval
+from holdfast.report.page import Callout, Cell, Page, Section
+from holdfast.words import either, interval, number, percent
 
 # The sections, in order: files of `sections` with a TITLE and blocks(facts: Facts) -> list[Block]; one without is left out.
 SECTIONS = (
@@ -50,6 +50,7 @@ def build(assessment: Assessment, threshold: float | None = None) -> Page:
         parts,
         subtitle=a.region.name,
         warnings=_alerts(facts),
+        facts=_numbers(facts),
         method=method.blocks(facts),
         again=method.again(a),
     )
@@ -64,6 +65,38 @@ def _verdict(f: Facts) -> Callout:
     if own.never:
         title = "The task is impossible for this arm"
     return Callout(text, "bad" if fatal else "good", title)
+
+
+def _numbers(f: Facts) -> list[tuple[Cell, Cell]]:
+    """The answer in a few numbers: never only a zero."""
+    a, d = f.a, f.d
+    if not d.reached:
+        return []
+    found: list[tuple[Cell, Cell]] = []
+    fatal = f.structures[0].fatal
+    if fatal:
+        names = either([a.arm.joint_names[k] for k in fatal])
+        found.append((names if len(fatal) < 4 else f"{len(fatal)} joints", "whose lock ends the task everywhere, by structure"))
+    if f.decided and f.answer.value:
+        p = f.answer
+        said = f"of the {f.noun}s have an {f.condition}; {percent(p.low)} to {percent(p.high)}, 95 %"
+        found.append((percent(p.value), said))
+    if not f.nothing:
+        bound = "" if f.index.bound is None else f", of at most {f.index.bound:.3f}"
+        found.append((number(float(d.quantile(0.5))), f"median index of the {f.reached}{bound}"))
+    best = a.optimised
+    if best is not None and best.reached and not f.nothing:
+        p = a.interval(**{f"at_{'least' if f.larger else 'most'}": f.threshold}, optimised=True)  # type: ignore[arg-type]
+        said = f"median at the best configurations; {percent(p.value)} of the {f.noun}s have an {f.condition}"
+        found.append((number(float(best.quantile(0.5))), said))
+    if f.costliest is not None:
+        name, left = f.costliest
+        found.append((percent(left), f"of the poses are still reached once {name} has locked, the lock that costs most"))
+    if a.worst_counts.sum() > 0:
+        k = int(a.worst_counts.argmax())
+        often = percent(float(a.worst_counts[k] / a.worst_counts.sum()))
+        found.append((f.index.failure_names[k], f"whose lock is the worst failure at {often} of the {f.reached}"))
+    return found
 
 
 def _alerts(f: Facts) -> list[Callout]:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.indices.lost_directions import Loss, manipulability_kept
 from holdfast.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
 from holdfast.studio.scene.machine import Bars, Reading
-from holdfast.studio.scene.measures import Loss, manipulability_kept
 
 Array = NDArray[np.float64]
 _STYLE = f"font:12px/1.35 system-ui,sans-serif;color:{INK};padding:2px 12px 6px"

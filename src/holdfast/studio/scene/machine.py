@@ -20,13 +20,13 @@ from holdfast.control.law import Law
 from holdfast.errors import ArmError, HoldfastError, InputError, TaskError
 from holdfast.indices import susceptibility
 from holdfast.indices.index import Index, by_name
+from holdfast.indices.lost_directions import Ellipsoid, Loss, ellipsoid, losses, null_directions
 from holdfast.indices.objective import Objective
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.recall import recalled
 from holdfast.present.arm.body import stretched
 from holdfast.registry import INDICES, LAWS
 from holdfast.solvers.inverse_kinematics import solver
-from holdfast.studio.scene.measures import Ellipsoid, Loss, ellipsoid, losses, null_directions
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-6  # m and rad, of an end effector that is dragged

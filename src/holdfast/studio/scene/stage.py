@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from holdfast.indices.lost_directions import Ellipsoid, Loss
 from holdfast.present.arm.body import Color, Part, ball, stick_parts
 from holdfast.studio.scene.body import Figure, quaternions
 from holdfast.studio.scene.cloud import Cloud
 from holdfast.studio.scene.machine import Machine, Reading
-from holdfast.studio.scene.measures import Ellipsoid, Loss
 
 Array = NDArray[np.float64]
 

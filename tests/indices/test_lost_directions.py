@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg
 
 import holdfast as hf
-from holdfast.studio.scene.measures import ellipsoid, losses, manipulability_kept, null_directions
+from holdfast.indices.lost_directions import ellipsoid, losses, manipulability_kept, null_directions
 
 
 def test_ellipsoid_is_the_gram_matrix_of_the_joints_that_move(rng):

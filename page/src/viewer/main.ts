@@ -1,0 +1,22 @@
+/** Makes what is written into a page as a picture a view that can be turned, where the browser can. */
+
+import type { Scene } from "./scene";
+import { View } from "./view";
+
+type Box = HTMLElement & { view3d?: View };
+
+for (const box of document.querySelectorAll<Box>(".view3d")) {
+  const canvas = box.querySelector("canvas");
+  const data = box.querySelector("script[type='application/json']");
+  if (box.view3d || !canvas || !data) continue;
+  const hint = box.querySelector<HTMLElement>(".view3d-hint");
+  try {
+    box.view3d = new View(box, canvas, JSON.parse(data.textContent ?? "") as Scene);
+    box.classList.add("view3d-live");
+    if (hint) {
+      hint.textContent = "Drag or use the arrow keys to turn, + and - or the wheel to zoom, 0 to reset; Shift and drag to move.";
+    }
+  } catch {
+    if (hint) hint.textContent = "This picture could be turned if the browser had WebGL; it is off, or this machine has none.";
+  }
+}

@@ -1,0 +1,229 @@
+/** Draws triangles, lines and dots with WebGL. One for all views of a page: browsers keep only a few contexts alive. */
+
+import type { Triangles } from "./shapes";
+import type { Pose, Vector } from "./scene";
+
+/** One colour, `width` in pixels; two points a segment. */
+export interface Lines {
+  points: Vector[];
+  color: Vector;
+  width: number;
+  opacity?: number;
+}
+
+const SOLID = `
+attribute vec3 place, normal;
+uniform mat4 seen, pose;
+varying vec3 n, p;
+void main() {
+  vec4 world = pose * vec4(place, 1.0);
+  n = mat3(pose[0].xyz, pose[1].xyz, pose[2].xyz) * normal;
+  p = world.xyz;
+  gl_Position = seen * world;
+}`;
+const SHADED = `
+precision mediump float;
+uniform vec3 color, eye, up, side;
+uniform float opacity;
+varying vec3 n, p;
+void main() {
+  vec3 way = normalize(eye - p);
+  vec3 m = normalize(n);
+  float front = dot(m, way);
+  if (front < 0.0) { m = -m; front = -front; }
+  float lamp = max(dot(m, normalize(way + 0.7 * up + 0.5 * side)), 0.0);
+  float light = 0.46 + 0.16 * dot(m, up) + 0.46 * lamp;
+  light *= 0.55 + 0.45 * smoothstep(0.0, 0.45, front);
+  gl_FragColor = vec4(color * light, 1.0) * opacity;
+}`;
+const LINE = `
+attribute vec3 place, other;
+attribute float side;
+uniform mat4 seen;
+uniform vec2 pixels;
+uniform float width;
+void main() {
+  vec4 a = seen * vec4(place, 1.0), b = seen * vec4(other, 1.0);
+  vec2 way = normalize((b.xy / b.w - a.xy / a.w) * pixels + vec2(1e-9, 0.0));
+  a.xy += side * width * vec2(-way.y, way.x) / pixels * a.w;
+  a.z -= 2e-4 * a.w;
+  gl_Position = a;
+}`;
+const FLAT = `
+precision mediump float;
+uniform vec3 color;
+uniform float opacity;
+void main() { gl_FragColor = vec4(color, 1.0) * opacity; }`;
+const DOT = `
+attribute vec3 place, paint;
+uniform mat4 seen;
+uniform float width;
+varying vec3 c;
+void main() { c = paint; gl_Position = seen * vec4(place, 1.0); gl_PointSize = width; }`;
+const ROUND = `
+precision mediump float;
+varying vec3 c;
+void main() {
+  float r = length(gl_PointCoord - 0.5);
+  if (r > 0.5) discard;
+  gl_FragColor = vec4(c * (r > 0.38 ? 0.7 : 1.0), 1.0);
+}`;
+
+export class Painter {
+  readonly canvas = document.createElement("canvas");
+  private readonly gl: WebGLRenderingContext;
+  private readonly programs: Record<"solid" | "line" | "dot", WebGLProgram>;
+  private readonly buffers = new Map<Triangles, WebGLBuffer>();
+  private readonly scratch: WebGLBuffer;
+  private program: WebGLProgram;
+  private pixels: [number, number] = [1, 1];
+  private matrix: Float32Array = new Float32Array(16);
+
+  /** Throws where there is no WebGL. */
+  constructor() {
+    const gl = this.canvas.getContext("webgl", { alpha: true, antialias: true, premultipliedAlpha: true });
+    if (!gl) throw new Error("no WebGL");
+    this.gl = gl;
+    this.programs = { solid: this.built(SOLID, SHADED), line: this.built(LINE, FLAT), dot: this.built(DOT, ROUND) };
+    this.program = this.programs.solid;
+    this.scratch = gl.createBuffer() as WebGLBuffer;
+    gl.enable(gl.DEPTH_TEST);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthFunc(gl.LEQUAL);
+  }
+
+  get lost(): boolean {
+    return this.gl.isContextLost();
+  }
+
+  private built(vertex: string, fragment: string): WebGLProgram {
+    const gl = this.gl;
+    const program = gl.createProgram() as WebGLProgram;
+    for (const [kind, text] of [
+      [gl.VERTEX_SHADER, vertex],
+      [gl.FRAGMENT_SHADER, fragment],
+    ] as const) {
+      const shader = gl.createShader(kind) as WebGLShader;
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program) ?? "WebGL");
+    return program;
+  }
+
+  begin(width: number, height: number, matrix: Float32Array): void {
+    const { canvas, gl } = this;
+    // Only ever larger: a new size is a new picture for the graphics card.
+    if (canvas.width < width) canvas.width = width;
+    if (canvas.height < height) canvas.height = height;
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.depthMask(true);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    this.matrix = matrix;
+    this.pixels = [width / 2, height / 2];
+  }
+
+  /** What was drawn, onto a canvas of the size that `begin` was told. */
+  finish(onto: CanvasRenderingContext2D, width: number, height: number): void {
+    onto.drawImage(this.canvas, 0, this.canvas.height - height, width, height, 0, 0, width, height);
+  }
+
+  private use(name: "solid" | "line" | "dot"): void {
+    this.program = this.programs[name];
+    this.gl.useProgram(this.program);
+    this.gl.uniformMatrix4fv(this.uniform("seen"), false, this.matrix);
+  }
+
+  private uniform(name: string): WebGLUniformLocation | null {
+    return this.gl.getUniformLocation(this.program, name);
+  }
+
+  private attributes(layout: [string, number][]): void {
+    const gl = this.gl;
+    const stride = 4 * layout.reduce((n, [, size]) => n + size, 0);
+    let offset = 0;
+    for (let k = 0; k < 3; k++) gl.disableVertexAttribArray(k);
+    for (const [name, size] of layout) {
+      const at = gl.getAttribLocation(this.program, name);
+      if (at >= 0) {
+        gl.enableVertexAttribArray(at);
+        gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset);
+      }
+      offset += 4 * size;
+    }
+  }
+
+  /** Bodies, each where a pose puts it. See-through ones hide what is behind their own front. */
+  solids(bodies: { shape: Triangles; pose: Pose; color: Vector }[], eye: Vector, up: Vector, side: Vector, opacity = 1): void {
+    const gl = this.gl;
+    this.use("solid");
+    gl.uniform3fv(this.uniform("eye"), eye);
+    gl.uniform3fv(this.uniform("up"), up);
+    gl.uniform3fv(this.uniform("side"), side);
+    gl.uniform1f(this.uniform("opacity"), opacity);
+    const pose = this.uniform("pose");
+    const color = this.uniform("color");
+    for (const painted of opacity < 1 ? [false, true] : [true]) {
+      gl.colorMask(painted, painted, painted, painted);
+      for (const body of bodies) {
+        this.bound(body.shape);
+        this.attributes([["place", 3], ["normal", 3]]);
+        const m = body.pose;
+        gl.uniformMatrix4fv(pose, false, [0, 1, 2, 3].flatMap((k) => [m[k], m[4 + k], m[8 + k], k === 3 ? 1 : 0]));
+        gl.uniform3fv(color, body.color);
+        gl.drawArrays(gl.TRIANGLES, 0, body.shape.length / 6);
+      }
+    }
+  }
+
+  private bound(shape: Triangles): void {
+    const gl = this.gl;
+    const known = this.buffers.get(shape);
+    gl.bindBuffer(gl.ARRAY_BUFFER, known ?? gl.createBuffer());
+    if (known) return;
+    gl.bufferData(gl.ARRAY_BUFFER, shape, gl.STATIC_DRAW);
+    this.buffers.set(shape, gl.getParameter(gl.ARRAY_BUFFER_BINDING) as WebGLBuffer);
+  }
+
+  lines({ points, color, width, opacity = 1 }: Lines): void {
+    const gl = this.gl;
+    const data: number[] = [];
+    for (let k = 0; k + 1 < points.length; k += 2) {
+      const [a, b] = [points[k], points[k + 1]];
+      // Seen from b the sides are swapped.
+      const corners = [[...a, ...b, 1], [...a, ...b, -1], [...b, ...a, 1], [...b, ...a, -1]];
+      for (const j of [0, 1, 2, 0, 2, 3]) data.push(...corners[j]);
+    }
+    if (!data.length) return;
+    this.use("line");
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
+    this.attributes([["place", 3], ["other", 3], ["side", 1]]);
+    gl.uniform2fv(this.uniform("pixels"), this.pixels);
+    gl.uniform1f(this.uniform("width"), width / 2);
+    gl.uniform3fv(this.uniform("color"), color);
+    gl.uniform1f(this.uniform("opacity"), opacity);
+    gl.drawArrays(gl.TRIANGLES, 0, data.length / 7);
+  }
+
+  dots(points: Vector[], colors: Vector[], width: number): void {
+    if (!points.length) return;
+    const gl = this.gl;
+    this.use("dot");
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.scratch);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(points.flatMap((p, k) => [...p, ...colors[k]])), gl.DYNAMIC_DRAW);
+    this.attributes([["place", 3], ["paint", 3]]);
+    gl.uniform1f(this.uniform("width"), width);
+    gl.drawArrays(gl.POINTS, 0, points.length);
+  }
+
+  /** Whatever is drawn next hides nothing, and is hidden by nothing, or as usual again. */
+  over(on: boolean): void {
+    if (on) this.gl.disable(this.gl.DEPTH_TEST);
+    else this.gl.enable(this.gl.DEPTH_TEST);
+  }
+}

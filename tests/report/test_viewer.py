@@ -1,0 +1,185 @@
+"""The small 3-D view: what stands in the page, and what a browser makes of it."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import numpy as np
+import pytest
+from wellformed import check
+
+import chromium
+import holdfast as hf
+import oracles
+from holdfast import arms
+from holdfast.arm import generic_configuration
+from holdfast.errors import InputError
+from holdfast.present.arm.view import scene
+from holdfast.report import page, viewer
+
+
+def data(html):
+    return json.loads(re.search(r'<script type="application/json">(.*?)</script>', html, re.DOTALL)[1])
+
+
+def test_the_page_is_whole_and_asks_no_other_host():
+    shown = arms.load("panda").show(locked=["panda_joint4"])
+    html = shown.to_html()
+    check(html, scripts=1)
+    assert not re.search(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}", html)
+    assert len(html) < 45_000
+    assert "</script" not in json.dumps(data(html))
+    frame = shown._repr_html_()
+    assert frame.startswith("<iframe srcdoc=")
+    assert "<script" not in frame
+
+
+def test_the_library_is_in_a_page_once_and_only_where_there_are_views():
+    arm = arms.load("planar-3r")
+    views = [page.Picture(scene(arm).html(f"view{k}", "An arm <b>"), "c") for k in range(3)]
+    html = page.render(page.Page("t", "h", [page.Section("", views)]))
+    assert html.count("</script>") == 5  # of the page, of each view, and of all views
+    assert html.count('class="view3d"') == 3
+    bare = page.render(page.Page("t", "h", [page.Section("", [page.Text("none")])]))
+    assert "view3d" not in bare
+
+
+def test_a_file_is_written_whole(tmp_path):
+    shown = arms.load("planar-3r").show([0.1, 0.2, 0.3])
+    assert shown.save(tmp_path / "arm.html").read_text() == shown.to_html()
+    with pytest.raises(hf.StoreError, match="page"):
+        shown.save(tmp_path / "none" / "arm.html")
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"q": np.zeros(3)}, r"q for 'panda' has shape \(3,\)"),
+        ({"q": np.full(7, np.nan)}, "finite"),
+        ({"q": np.zeros((4, 7)), "time": [0, 1, 2]}, "time has 3 moments and the motion 4"),
+        ({"labels": ["a", "b"]}, "labels must be 1"),
+        ({"locked": ["elbow"]}, "no joint 'elbow'"),
+        ({"targets": [np.zeros(2)]}, "a target has shape"),
+        ({"points": np.zeros((4, 3)), "colors": np.zeros((2, 3))}, "colors are 2"),
+    ],
+)
+def test_bad_input_gets_a_sentence(options, sentence):
+    with pytest.raises(InputError, match=sentence):
+        scene(arms.load("panda"), **options)
+
+
+def test_meshes_are_thinned_and_packed(rng):
+    t = np.linspace(0, np.pi, 120)
+    around = np.linspace(0, 2 * np.pi, 240)
+    sphere = np.stack(
+        [np.outer(np.sin(t), np.cos(around)), np.outer(np.sin(t), np.sin(around)), np.outer(np.cos(t), around**0)], -1
+    )
+    k = np.arange(119 * 239)
+    a = k // 239 * 240 + k % 239
+    faces = np.concatenate([np.stack([a, a + 240, a + 1], 1), np.stack([a + 1, a + 240, a + 241], 1)])
+    vertices = 3 * sphere.reshape(-1, 3) + rng.normal(size=3)
+    few, corners = viewer.thinned(vertices, faces, 2000)
+    assert 800 < len(corners) <= 2000
+    assert corners.max() == len(few) - 1
+    radius = np.linalg.norm(few - (vertices.max(axis=0) + vertices.min(axis=0)) / 2, axis=1)
+    assert np.abs(radius - 3).max() < 0.15
+    same, all_faces = viewer.thinned(few, corners, 2000)
+    assert same is few
+    assert all_faces is corners
+
+
+# ---- in Chromium ---------------------------------------------------------------------------------------------------------
+
+COUNT = """canvas => {
+  const c = canvas.getContext("2d"), d = c.getImageData(0, 0, canvas.width, canvas.height).data;
+  const shades = new Set(); let sum = 0;
+  for (let k = 0; k < d.length; k += 4) if (d[k + 3]) { shades.add(d[k] + 256 * d[k + 1] + 65536 * d[k + 2]); sum += k * d[k]; }
+  return [shades.size, sum];
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium.opened(chromium.required, scenes=True) as opened:
+        yield opened
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """``opened(html)``: a page that shows it, whose errors fail the test."""
+    made = []
+
+    def show(html, **options):
+        context = browser.new_context(viewport={"width": 700, "height": 900}, **options)
+        made.append(context)
+        context.route(re.compile("^(?!file:)"), lambda route: pytest.fail(f"the page asks for {route.request.url}"))
+        found = context.new_page()
+        found.on("pageerror", lambda error: pytest.fail(str(error)))
+        file = tmp_path / f"{len(made)}.html"
+        file.write_text(html, encoding="utf-8")
+        found.goto(file.as_uri())
+        return found
+
+    yield show
+    for context in made:
+        context.close()
+
+
+def painted(found):
+    """What is on the canvas, once something is."""
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[0] > 50")
+    return found.locator("canvas").first.evaluate(COUNT)
+
+
+def test_it_draws_the_arm_where_it_is_and_moves_it(opened, rng):
+    arm = arms.load("ur5-rail")
+    q = generic_configuration(arm)
+    found = opened(arm.show(q, locked=[2]).to_html())
+    first = painted(found)
+    assert first[0] > 200
+
+    def frames():
+        return np.array(found.evaluate("document.querySelector('.view3d').view3d.frames()")).reshape(-1, 3, 4)
+
+    np.testing.assert_allclose(frames(), np.array(oracles.frames(arm, q[None]))[:, 0, :3], atol=1e-6)
+    found.get_by_text("Move the joints").click()
+    slider = found.get_by_role("slider", name=arm.joint_names[1])
+    slider.press("Home")
+    moved = np.where(np.arange(arm.n) == 1, arm.lower, q)
+    np.testing.assert_allclose(frames(), np.array(oracles.frames(arm, moved[None]))[:, 0, :3], atol=1e-6)
+    assert found.get_by_role("slider", name=arm.joint_names[2]).is_disabled()
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {first[1]}")
+    second = painted(found)
+    found.locator("canvas").press("ArrowLeft")
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {second[1]}")
+
+
+def test_a_motion_follows_its_slider_and_plays(opened):
+    arm = arms.load("planar-3r")
+    time = np.linspace(0, 2, 21)
+    q = np.stack([np.sin(time), 0.5 * time, 0.3 + 0 * time], axis=1)
+    html = scene(arm, [q, 0.5 * q], labels=["one", "other"], time=time, locked={2: 1.0}, readings=[f"{t:.1f} s" for t in time])
+    found = opened(viewer.page(html.html("motion", "An arm moving"), "t"))
+    before = painted(found)
+    slider = found.get_by_role("slider", name="Time of the motion")
+    slider.press("End")
+    assert slider.get_attribute("aria-valuetext") == "2.0 s"
+    found.wait_for_function(f"(({COUNT})(document.querySelector('canvas')))[1] !== {before[1]}")
+    last = found.evaluate("document.querySelector('.view3d').view3d.configurations()")
+    np.testing.assert_allclose(last, [q[-1], 0.5 * q[-1]], atol=1e-6)
+    found.get_by_role("button", name="Play").click()
+    found.wait_for_function("Number(document.querySelector('input').value) > 1")
+    found.get_by_role("button", name="Pause").click()
+
+
+@pytest.mark.parametrize("off", ["script", "webgl"])
+def test_without_a_script_or_webgl_there_is_a_drawing(opened, off):
+    html = arms.load("panda").show().to_html()
+    if off == "webgl":
+        html = html.replace("<script>", "<script>HTMLCanvasElement.prototype.getContext = () => null;", 1)
+    found = opened(html, java_script_enabled=off == "webgl")
+    assert found.locator(".view3d-stage svg").is_visible()
+    assert not found.locator("canvas").is_visible()
+    sentence = "if the browser had WebGL" if off == "webgl" else "Where JavaScript is on"
+    assert sentence in found.locator(".view3d-hint").inner_text()

@@ -1,0 +1,33 @@
+"""The loops of README and documentation are there, and say what made them."""
+
+from itertools import islice
+
+import pytest
+from PIL import Image
+from tools.loops import LOOPS
+from tools.loops.film import OUT, SIZE, write
+from tools.loops.two_laws import shots
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_a_loop_is_there_and_small(name):
+    file = OUT / f"{name}.webp"
+    made = file.with_suffix(".txt").read_text(encoding="utf-8")
+    assert made.startswith(f"python -m tools.loops {name}, holdfast ")
+    with Image.open(file) as picture:
+        assert picture.size == SIZE
+        assert picture.n_frames > 20
+    assert file.stat().st_size < (1_000_000 if name == "studio" else 620_000)
+
+
+def test_every_file_is_a_loop_that_a_script_writes():
+    assert {file.stem for file in OUT.iterdir()} == set(LOOPS)
+
+
+def test_a_loop_is_drawn_and_begins_with_what_is_shown_longest(tmp_path, monkeypatch):
+    monkeypatch.setattr("tools.loops.film.OUT", tmp_path)
+    taken = list(islice(shots(2), 2))
+    with Image.open(write("two-laws", taken)) as picture:
+        assert picture.n_frames == 2
+        picture.load()  # Pillow knows how long a picture is shown once it has read it
+        assert picture.info["duration"] == max(ms for _, ms in taken)

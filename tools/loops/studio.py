@@ -1,0 +1,85 @@
+"""A joint locks, the lost direction appears, and the stance of the same tool point that is optimised keeps it.
+
+The real studio in headless Chromium, with its server; needs what ``tests/studio`` needs.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+import holdfast as hf
+from holdfast.motion import GradientProjection
+from holdfast.report.palette import INK, ORANGE
+from tools.loops.film import SIZE, TICK, Shot, caption
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
+import chromium
+
+START = np.deg2rad([0, 20, 0, -120, 0, 150, 45]) + 0.05 * np.sin(1 + np.arange(7))
+JOINT = 1
+EYE, CENTRE = (1.14, -1.31, 0.56), (0.70, 0.12, 0.28)  # m; the controls cover the right side
+FIELD = 0.72  # rad
+
+
+def climb(arm: hf.Arm, index: hf.indices.Index, q: np.ndarray, count: int) -> np.ndarray:
+    """(count, n) from q up the gradient of the index, the tool point still; evenly spaced in joint space."""
+    law = GradientProjection(arm, index, gain=3.0, task="position", rate_cap=0.8, period=0.02)
+    step, point, way = law.prepare(), arm.forward_kinematics(q)[:3, 3], [q]
+    for _ in range(400):
+        back = 5.0 * (point - arm.forward_kinematics(way[-1])[:3, 3])
+        way.append(way[-1] + law.period * step(way[-1], np.r_[back, 0, 0, 0]))
+    best = int(np.argmax(index(np.array(way))))
+    path = np.array(way[: best + 1])
+    length = np.r_[0, np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))]
+    eased = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, count))
+    return np.stack([np.interp(eased * length[-1], length, column) for column in path.T], axis=1)
+
+
+def shots(count: int = 32) -> Iterator[Shot]:
+    """Locked, sliding, locked again, and back."""
+    from holdfast.studio import State, serve
+
+    arm = hf.arms.load("panda")
+    index = hf.indices.relative_manipulability(arm, "position")
+    way = climb(arm, index, START, count)
+    state = State("panda", arm.joint_names, tuple(START), task="position")
+    with chromium.opened(scenes=True) as browser, serve(arm, state, port=0) as served:
+        page = browser.new_context(viewport={"width": SIZE[0], "height": SIZE[1]}).new_page()
+        page.goto(served.url)
+        while not served.windows:
+            page.wait_for_timeout(50)
+        window = next(iter(served.windows.values()))
+        window.settle(120)
+        close = page.get_by_role("alert").get_by_role("button")  # the browser says that it draws without a graphics card
+        if close.count():
+            close.first.click()
+        page.get_by_role("tab", name="Fail").click()
+        window.stage.gizmo.visible = False
+        window.client.camera.position, window.client.camera.look_at = EYE, CENTRE
+        window.client.camera.fov = FIELD
+
+        def shot(q: np.ndarray, text: str, ms: int, locked: bool = False) -> Shot:
+            window.live.put("at", lambda: window._place(q))
+            window.ask("fail", (JOINT, "locked" if locked else "healthy"))
+            window.ask("losses", locked)
+            window.settle(30)
+            window.stage.before.visible = True
+            page.evaluate("() => new Promise(f => requestAnimationFrame(() => requestAnimationFrame(f)))")
+            page.wait_for_timeout(120)
+            shown = Image.open(BytesIO(page.screenshot())).convert("RGB")
+            return caption(shown, text, color=ORANGE if locked else INK), ms
+
+        shot(START, "", 0, locked=True)
+        left = [f"{100 * index.by_joint(q)[JOINT]:.0f} % of the speed is left" for q in (way[0], way[-1])]
+        yield shot(way[0], f"Joint 2 locks: {left[0]}\nalong the orange line, which it loses most", 2600, locked=True)
+        for q in way:
+            yield shot(q, "While healthy: choose a better stance\nthe tool point stays where it is", TICK)
+        yield shot(way[-1], f"Joint 2 locks: {left[1]}\nthe same failure, in the optimised stance", 2600, locked=True)
+        for q in way[::-2]:
+            yield shot(q, "While healthy\nback to the first stance", TICK // 2)
