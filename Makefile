@@ -108,4 +108,4 @@ lock:  ## Write the requirements*.lock anew from pyproject.toml.
 	rm -rf $(VENV)-lock
 
 clean:  ## Remove what the commands made.
-	rm -rf $(VENV) $(VENV)-bench $(VENV)-release page/node_modules demo docs/_build docs/gallery .mypy_cache .ruff_cache .pytest_cache
+	rm -rf $(VENV) $(VENV)-bench $(VENV)-release page/node_modules demo docs/_build docs/gallery docs/commands docs/api/classes .mypy_cache .ruff_cache .pytest_cache

@@ -23,6 +23,11 @@ extensions = [
     "docstrings",
     "mathsvg",
     "live",
+    "commands",
+    "classes",
+    "equations",
+    "moved",
+    "sidebar",
 ]
 exclude_patterns = ["_build", "_ext", "examples"]
 nitpicky = True
@@ -38,8 +43,8 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(optional|default.*)"),
     (r"py:.*", r"(Indices|Arm|Missing|Paths|Why|pd\.DataFrame|sqlite3\.Connection|Mapping\[str|MetricName)"),
     (r"py:.*", r"holdfast\.engine\..*"),
-    (r"py:.*", r"holdfast\.studio\.scene\.(machine|body)\..*"),
-    (r"py:class", r"holdfast\.probability\.intervals\.Sums"),
+    (r"py:.*", r"holdfast\.(studio\.scene|present\.arm)\.(machine|body)\..*"),
+    (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
     (r"py:class", r"_?Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
     (r"py:.*", r"TypeAliasForwardRef"),
@@ -54,6 +59,37 @@ html_css_files = ["holdfast.css"]
 html_math_renderer = "svg"
 html_show_sourcelink = False
 html_copy_source = False
+html_use_index = False  # every equation has a dozen entries for the search; nobody reads them as a list
+python_maximum_signature_line_length = 60  # longer ones have a line for each parameter
+moved = {
+    f"guide/{old}": new
+    for old, new in {
+        "first-report": "how-to/assess-a-region",
+        "reading-a-report": "how-to/read-a-report",
+        "tasks-and-failures": "how-to/tasks-and-failures",
+        "your-poses": "how-to/poses-and-weights",
+        "choose-configurations": "how-to/choose-configurations",
+        "configure-and-follow": "how-to/follow-a-path",
+        "control-laws": "how-to/control-laws",
+        "closed-loop": "how-to/unnoticed-lock",
+        "where-it-ends": "how-to/where-it-ends",
+        "workspace": "how-to/workspace",
+        "after-a-lock": "how-to/what-a-lock-leaves",
+        "reachable-after-a-lock": "how-to/what-a-lock-leaves",
+        "recover": "how-to/recover",
+        "before-a-joint-swings-free": "how-to/free-swinging-joints",
+        "which-measure": "how-to/which-measure",
+        "what-really-happens": "how-to/simulate-a-fall",
+        "own-arm": "how-to/bring-your-arm",
+        "compare": "how-to/compare",
+        "design-an-arm": "how-to/design-an-arm",
+        "long-runs": "how-to/long-runs",
+        "laptop-to-cluster": "how-to/laptop-to-cluster",
+        "run-your-own-experiment": "how-to/run-your-own-experiment",
+        "teleoperation": "tutorials/experiment",
+        "studio": "how-to/studio",
+    }.items()
+}
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0a5a8c", "color-brand-content": "#0a5a8c"},
     "dark_css_variables": {"color-brand-primary": "#6bb8e8", "color-brand-content": "#6bb8e8"},
@@ -68,7 +104,7 @@ _picture = HERE / "_static" / "assess-pa10.png"
 myst_substitutions = {
     "picture": (
         "```{image} _static/assess-pa10.png\n:alt: Probability that the nine-joint PA10 keeps a given relative manipulability "
-        "when any one joint locks\n:width: 100%\n```"
+        "when any one joint locks\n:width: 100%\n:class: drawn\n```"
         if _picture.exists()
         else ""
     )
@@ -83,6 +119,7 @@ python_use_unqualified_type_names = True
 napoleon_google_docstring = True
 napoleon_numpy_docstring = False
 napoleon_use_ivar = True
+napoleon_attr_annotations = False  # the signature has the types
 napoleon_custom_sections = [("Source", "Notes")]
 
 sphinx_gallery_conf = {

@@ -13,6 +13,7 @@ from sphinx.ext.napoleon import GoogleDocstring
 _VALUES = ("property", "attribute", "data")
 _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 _SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.registry\.Parameter\(.*?\)\]")
+_ARRAY = re.compile(r"[~\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]")
 _QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
 
@@ -58,7 +59,7 @@ def plain_names(
     app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
 ) -> tuple[str | None, str | None]:
     """Sphinx 9 shows an alias as ``TypeAliasForwardRef('ArrayLike')``, and a full name where it cannot parse a default."""
-    shown = [x and _SETTING.sub(kind_of, _ALIAS.sub(r"\1", x)) for x in (signature, returns)]
+    shown = [x and _ARRAY.sub("ArrayLike", _SETTING.sub(kind_of, _ALIAS.sub(r"\1", x))) for x in (signature, returns)]
     if shown[0] and "<factory>" in shown[0]:
         shown[0] = _QUALIFIED.sub(r"\1", shown[0])
     return shown[0], shown[1]
@@ -79,6 +80,12 @@ def thing(name: str) -> Any:
     return None
 
 
+@cache
+def described(names: tuple[str, ...]) -> dict[int, str]:
+    """The first name under which each thing is described."""
+    return {id(found): name for name in reversed(names) if (found := thing(name)) is not None}
+
+
 def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
     """What is described under another of its names, or in the base class that it comes from."""
     if node.get("refdomain") != "py":
@@ -87,9 +94,10 @@ def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
     names = [".".join([*before[:k], node["reftarget"]]) for k in range(len(before) + 1)]
     wanted = [found for found in map(thing, names) if found is not None]
     domain = env.get_domain("py")
-    for name in domain.objects if wanted else ():
-        if any(thing(name) is each for each in wanted):
-            return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", name, node, shown)
+    known = described(tuple(domain.objects)) if wanted else {}
+    for each in wanted:
+        if id(each) in known:
+            return domain.resolve_xref(env, node["refdoc"], app.builder, "obj", known[id(each)], node, shown)
     return None
 
 

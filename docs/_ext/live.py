@@ -12,7 +12,7 @@ Every page has one Python session and one temporary folder, shared by its direct
 ``registered``: the documented constructors of a registry, ``INDICES``, ``LAWS`` or ``SUSCEPTIBILITIES``.
 ``registry``: everything of a kind that has a name (``index``, ``law`` or ``susceptibility``), as a table.
 
-The role ``cite`` refers to an entry of the list of references.
+The role ``cite`` refers to an entry of the list of references. ``-D live_run=0`` runs nothing, to look at pages while writing.
 """
 
 from __future__ import annotations
@@ -75,6 +75,8 @@ class Run(_Live):
 
     def run(self) -> list[nodes.Node]:
         code = "\n".join(self.content)
+        if not self.config.live_run:
+            return [self.block(code, "python", "live-code")]
         out = io.StringIO()
         tree = ast.parse(code)
         last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
@@ -113,6 +115,8 @@ class Shell(_Live):
     option_spec: ClassVar = {"exit": int, "head": int}
 
     def run(self) -> list[nodes.Node]:
+        if not self.config.live_run:
+            return [self.block("\n".join(self.content), "console", "live-shell")]
         expected, head = self.options.get("exit", 0), self.options.get("head")
         environment = {**os.environ, "COLUMNS": str(WIDTH), "NO_COLOR": "1", "TERM": "dumb"}
         environment["PATH"] = str(Path(sys.executable).parent) + os.pathsep + environment.get("PATH", "")
@@ -225,6 +229,7 @@ class Cite(SphinxRole):
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_config_value("live_run", True, "env", bool)
     app.add_directive("run", Run)
     app.add_directive("shell", Shell)
     app.add_directive("file", File)

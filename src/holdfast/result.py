@@ -69,7 +69,7 @@ class Result(Shown):
             options: What :meth:`figures` takes.
 
         Returns:
-            A matplotlib figure of its own, which pyplot does not know of: ``figure.savefig("file.png")`` writes it.
+            A matplotlib figure of its own; pyplot does not know of it. ``figure.savefig("file.png")`` writes it.
 
         Raises:
             InputError: It has no figure of that name, or none; the message says what to ask instead.

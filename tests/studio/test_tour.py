@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import tour
 
-DOCS = Path(__file__).parents[2] / "docs" / "guide"
+DOCS = Path(__file__).parents[2] / "docs" / "how-to"
 
 
 def coloured(file):

@@ -1,4 +1,4 @@
-"""The pictures of ``docs/guide/studio.md``: ``python -m tests.studio.tour docs/guide/studio``.
+"""The pictures of ``docs/how-to/studio.md``: ``python -m tests.studio.tour docs/how-to/studio``.
 
 The test suite takes the first of them as well, so that the tour cannot fall behind the page.
 """
@@ -80,7 +80,7 @@ def panda_rest(served, page, window, folder):
     window.ask("heal")
     window.ask("region")
     window.settle(240)
-    best = int(np.nanargmax(window._cloud.values))
+    best = int(np.nanargmax(window.cloud.values))
     window.ask("point", best)
     take(page, window, "Region", folder / "panda-region.png")
     served.stop()

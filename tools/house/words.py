@@ -36,7 +36,7 @@ RETIRED_NAMES = {
     "stand": r"(^|_)stands(_|$)",
 }
 STUDY = r"\bstud(y|ies)\b"  # of people: an experiment
-GUIDES = {"run-your-own-experiment.md", "teleoperation.md"}
+GUIDES = {"run-your-own-experiment.md", "experiment.md"}
 # A pattern is tried where one of these is in the text: most texts have none.
 STEMS = {
     "stand": ("stand", "stood"),

@@ -167,6 +167,10 @@ export class Painter {
     gl.uniform1f(this.uniform("opacity"), opacity);
     const pose = this.uniform("pose");
     const color = this.uniform("color");
+    // Where a see-through body is at the place of a solid one, the solid one is seen.
+    if (opacity < 1) gl.enable(gl.POLYGON_OFFSET_FILL);
+    else gl.disable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 8);
     for (const painted of opacity < 1 ? [false, true] : [true]) {
       gl.colorMask(painted, painted, painted, painted);
       for (const body of bodies) {

@@ -32,7 +32,7 @@ const css = (color: Vector, opacity = 1): string => `rgba(${color.map((x) => Mat
 
 export class View {
   readonly camera: Camera;
-  names = true;
+  names: boolean;
   private at = 0; // frame of the motion, with its fraction
   private posed: number[] | null = null;
   private chosen = -1;
@@ -52,6 +52,8 @@ export class View {
     painter();
     this.camera = new Camera(scene);
     this.floor = floor(scene);
+    // Several arms, or a phone, leave too little room.
+    this.names = scene.arms.length === 1 && matchMedia("(min-width: 600px)").matches;
     this.listen();
     this.show = controls(this);
     new IntersectionObserver((seen) => {
@@ -231,7 +233,7 @@ export class View {
       const letter = label.text.length < 2;
       onto.font = `${label.strong ? "bold " : ""}${tall}px Arial, Helvetica, "Liberation Sans", sans-serif`;
       const long = onto.measureText(label.text).width;
-      const gap = 11 * ratio;
+      const gap = 14 * ratio;
       const tries = letter
         ? [[p[0] - long / 2, p[1]]]
         : [

@@ -1,0 +1,69 @@
+"""One page a class: ``class-page`` takes the name and options of ``autoclass`` and leaves a line that links to the page.
+
+The pages, in ``docs/api/classes``, are written before the others are read, and are not kept in git.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from pathlib import Path
+from typing import Any, ClassVar
+
+from docstrings import thing
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+from sphinx.util.docutils import SphinxDirective
+
+ASKED = re.compile(r"^\.\. class-page:: (\S+)\n((?:   :.*\n)*)", re.M)
+
+
+def summary(name: str) -> str:
+    """The first sentence of a class's docstring, as reStructuredText."""
+    found = thing(name)
+    if found is None:
+        raise ExtensionError(f"a page asks for the class '{name}', which is not there")
+    return " ".join((inspect.getdoc(found) or "").split("\n\n")[0].split())
+
+
+class ClassPage(SphinxDirective):
+    required_arguments = 1
+    option_spec: ClassVar = dict.fromkeys(
+        ["members", "inherited-members", "undoc-members", "show-inheritance"], directives.unchanged
+    )
+
+    def run(self) -> list[nodes.Node]:
+        name = self.arguments[0]
+        text = f":py:class:`~{name}`\n   {summary(name)}\n\n.. toctree::\n   :hidden:\n\n   classes/{name}\n"
+        shown = self.parse_text_to_nodes(text)
+        module, _, kind = name.rpartition(".")
+        for each in shown:  # names in the sentence are those of the class, or beside it
+            for reference in each.findall(addnodes.pending_xref):
+                reference["py:module"], reference["py:class"] = module, kind
+        return shown
+
+
+def write(app: Sphinx) -> None:
+    folder = Path(app.srcdir) / "api"
+    pages = {}
+    for source in sorted(folder.glob("*.md")):
+        for name, options in ASKED.findall(source.read_text(encoding="utf-8")):
+            title = name.rpartition(".")[2]
+            pages[name] = f"{title}\n{'=' * len(title)}\n\n.. autoclass:: {name}\n{options}"
+    (folder / "classes").mkdir(exist_ok=True)
+    for old in (folder / "classes").glob("*.rst"):
+        if old.stem not in pages:
+            old.unlink()
+    for name, text in pages.items():
+        path = folder / "classes" / f"{name}.rst"
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_directive("class-page", ClassPage)
+    app.connect("builder-inited", write)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,146 @@
+"""The command reference: a page for each command, written from the program itself before the pages are read.
+
+Nothing in ``docs/commands`` is written by hand or kept in git. A page has the command's help, its examples and every option
+with its default, under the panel in which ``--help`` has it; the role ``option`` refers to one, ``holdfast-assess --poses``.
+``command-examples`` is the first example of each.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import typer
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+from holdfast.cli.program import COMMANDS, PANELS, assembled
+
+EXAMPLE = re.compile(r"^Examples?:\s*", re.M)
+
+
+def escaped(text: str) -> str:
+    """Text that reStructuredText leaves alone."""
+    return re.sub(r"([\\*`|_<>])", r"\\\1", " ".join(text.split()))
+
+
+def paragraphs(text: str) -> Iterator[str]:
+    """The help of a command: paragraphs, and examples as a terminal has them."""
+    for part in re.split(r"\n\s*\n", text.replace("\b", "").strip()):
+        if not EXAMPLE.match(part):
+            yield escaped(part) + "\n"
+            continue
+        lines = [line.strip() for line in EXAMPLE.sub("", part).replace("\\\n", " ").splitlines()]
+        shown = [f"$ {line}" if line.startswith("holdfast") else line for line in lines if line]
+        yield ".. code-block:: console\n\n" + textwrap.indent("\n".join(shown), "   ") + "\n"
+
+
+def default(parameter: Any, context: Any) -> str:
+    """What holds if the option is not given, in the words of ``--help``."""
+    if parameter.required:
+        return "Required."
+    value = parameter.get_default(context)
+    if "Default:" in (parameter.help or "") or value is None or value == () or (parameter.is_flag and not value):
+        return "May be given again." if parameter.multiple and "again" not in (parameter.help or "") else ""
+    return f"Default: ``{value}``."
+
+
+def options(command: Any, context: Any, program: str) -> Iterator[str]:
+    """Arguments, then options, in the panels of ``--help``."""
+    yield f".. program:: {program}\n"
+    panel = None
+    for parameter in command.params:
+        if parameter.hidden:
+            continue
+        argument = parameter.param_type_name == "argument"
+        where = parameter.rich_help_panel or ("Arguments" if argument else "Options")
+        if where != panel:
+            panel = where
+            yield f".. rubric:: {panel}\n"
+        if argument:
+            names = parameter.metavar or parameter.name.upper()
+            yield f".. describe:: {names}\n\n   {escaped(parameter.help or '')}\n"
+            continue
+        kind = re.sub(r"LIST|[][<>]", "", parameter.display_type(context).upper()).replace("STR", "TEXT")
+        value = "" if parameter.is_flag else f" {parameter.metavar or kind}"
+        names = ", ".join([f"{name}{value}" for name in parameter.opts] + parameter.secondary_opts)
+        words = " ".join(filter(None, [escaped(parameter.help or ""), default(parameter, context)]))
+        yield f".. option:: {names}\n\n   {words}\n"
+
+
+def page(name: str, command: Any, context: Any, level: str = "=") -> Iterator[str]:
+    """A command with all it takes; of a group its commands, each with a heading."""
+    here = typer._click.Context(command, info_name=name, parent=context)
+    title = here.command_path
+    yield f"{title}\n{level * len(title)}\n"
+    yield from paragraphs(command.help or "")
+    commands = getattr(command, "commands", {})
+    if not commands:
+        usage = " ".join(command.collect_usage_pieces(here))
+        yield f".. code-block:: text\n\n   {title} {usage}\n"
+    yield from options(command, here, title.replace(" ", "-"))
+    for sub, each in commands.items():
+        yield from page(sub, each, here, "-")
+
+
+def first(text: str, plain: bool = False) -> str:
+    part = " ".join(re.split(r"\n\s*\n", text.strip())[0].split())
+    return part if plain else escaped(part)
+
+
+def written() -> dict[str, str]:
+    """The text of every page by its name."""
+    program = typer.main.get_command(assembled())
+    context = typer._click.Context(program, info_name="holdfast")
+    pages = {f"holdfast-{name}": "\n".join(page(name, command, context)) for name, command in program.commands.items()}
+    index = ["Commands\n========\n", *paragraphs(program.help), "Every command has ``--help`` with an example.\n"]
+    for folder, title in PANELS.items():
+        index += [f"{title}\n{'-' * len(title)}\n", ".. list-table::\n   :widths: 25 75\n"]
+        for name in COMMANDS:
+            if COMMANDS[name].startswith(f"{folder}."):
+                index.append(f"   * - :doc:`{name} <holdfast-{name}>`\n     - {first(program.commands[name].help)}")
+        index.append("")
+    index += [".. toctree::\n   :hidden:\n", *(f"   {name} <holdfast-{name}>" for name in COMMANDS), ""]
+    return {**pages, "index": "\n".join(index)}
+
+
+class Examples(SphinxDirective):
+    """The first example of every command, with what the command does."""
+
+    def run(self) -> list[nodes.Node]:
+        self.env.note_reread()  # what it shows is not in this page
+        program = typer.main.get_command(assembled())
+        lines = []
+        for folder, title in PANELS.items():
+            lines += [f"**{title}**", "", ".. code-block:: sh", ""]
+            for name in (name for name in COMMANDS if COMMANDS[name].startswith(f"{folder}.")):
+                command = program.commands[name]
+                for each in getattr(command, "commands", {name: command}).values():
+                    example = EXAMPLE.split(each.help or "")[1:2]
+                    shown = " ".join(example[0].split("\n\n")[0].split()) if example else ""
+                    lines += [f"   # {first(each.help, plain=True)}", f"   {shown}"] if shown else []
+            lines.append("")
+        return self.parse_text_to_nodes("\n".join(lines))
+
+
+def write(app: Sphinx) -> None:
+    folder = Path(app.srcdir) / "commands"
+    folder.mkdir(exist_ok=True)
+    pages = written()
+    for old in folder.glob("*.rst"):
+        if old.stem not in pages:
+            old.unlink()
+    for name, text in pages.items():
+        path = folder / f"{name}.rst"
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_directive("command-examples", Examples)
+    app.connect("builder-inited", write)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

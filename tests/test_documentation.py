@@ -1,0 +1,85 @@
+"""What the documentation makes from the code: commands with every option, equations with the functions that compute them."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, get_args, get_origin, get_type_hints
+
+import pytest
+import typer
+
+from holdfast.cli.program import COMMANDS
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "docs" / "_ext"))
+commands, equations = pytest.importorskip("commands"), pytest.importorskip("equations")
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return commands.written()
+
+
+def functions(name):
+    """The functions of a command, or of the commands of a group, with how each is called."""
+    module, _, function = COMMANDS[name].partition(":")
+    found = getattr(import_module(f"holdfast.cli.{module}"), function or "command")
+    if not isinstance(found, typer.Typer):
+        return {name: found}
+    return {
+        f"{name} {each.name or each.callback.__name__.replace('_', '-')}": each.callback for each in found.registered_commands
+    }
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_page_of_a_command_has_every_option_with_its_default(pages, name):
+    page = pages[f"holdfast-{name}"]
+    for called, function in functions(name).items():
+        part = page.split(f"\nholdfast {called}\n")[-1].split("\nholdfast ")[0] if " " in called else page
+        shown = dict(re.findall(r"^\.\. option:: (.+)\n\n   (.*)$", part, re.M))
+        signature = inspect.signature(function)
+        hints = get_type_hints(function, include_extras=True)
+        for argument, hint in hints.items():
+            info = next((x for x in get_args(hint)[1:] if isinstance(x, typer.models.OptionInfo)), None)
+            if get_origin(hint) is not Annotated or info is None or info.hidden:
+                continue
+            names = info.param_decls or [f"--{argument.strip('_').replace('_', '-')}"]
+            text = [text for head, text in shown.items() if re.split(r"[ ,/]", names[0])[0] in re.split(r"[ ,]+", head)]
+            assert text, f"{called} {names}"
+            value = signature.parameters[argument].default
+            if isinstance(value, str | int | float) and not isinstance(value, bool) and "Default:" not in (info.help or ""):
+                assert f"``{value}``" in text[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (
+            "Source: Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9). The search is ours.",
+            [("Goel2003", 8), ("Goel2003", 9)],
+        ),
+        (
+            "Goel et al. 2005, eq. (18) to (20); English (1998), eq. (1)-(3)",
+            [("Goel2005", k) for k in (18, 19, 20)] + [("English1998", k) for k in (1, 2, 3)],
+        ),
+        ("(N,) PKE, eq. (8): the largest.", [(None, 8)]),
+        ("Smith 1990, (3) joints (2012)", []),
+    ],
+)
+def test_equations_are_read_as_people_cite_them(text, found):
+    assert list(equations.cited(text)) == found
+
+
+def test_an_equation_is_found_by_its_number_in_any_spelling():
+    table = equations.table()
+    assert "holdfast.indices.susceptibility.torque" in table["English1998"][12]
+    assert "holdfast.indices.relative_manipulability" in table["Abdi2012"][4]
+    assert "holdfast.joint_bounds" in table["Goel2005"][8]
+    assert (
+        "holdfast.control.Deviations.peak_velocity_error" in table["Goel2003"][8]
+    )  # "eq. (8)", of a module that names one paper
+    spelled = {text.lower() for text in equations.spellings("English1998", 12)}
+    assert spelled >= {"english 1998 eq. 12", "english 1998 eq. (12)", "english and maciejewski 1998 equation 12", "eq. (12)"}
