@@ -10,7 +10,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from holdfast.cli.completion import offer
 
-_FEW = 8  # options that stay in one panel
+_FEW = 7  # options that stay in one panel
 _PANELS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
@@ -22,7 +22,15 @@ _TYPES = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBE
 
 
 class LaidOut(TyperCommand):
-    """A command that lays out its help when it is asked for, and not before; and tells a shell what its parameters take."""
+    """A command with its options in panels, that lays out its help when it is asked for; and tells a shell what it takes."""
+
+    def __init__(self, name: str | None, **settings: Any) -> None:
+        super().__init__(name, **settings)
+        options: list[Any] = [each for each in self.params if each.param_type_name == "option"]
+        for each in options if len(options) > _FEW else ():
+            each.rich_help_panel = _PANEL.get(each.opts[0])
+        order = [None, *_PANELS]
+        self.params.sort(key=lambda each: order.index(getattr(each, "rich_help_panel", None)))
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write it."""
@@ -53,7 +61,6 @@ def _lay_out(command: Any, ctx: Any) -> None:
         each.display_type_rich = lambda ctx: ""
     for each in options:
         each.display_type_rich = lambda ctx, shown=each.metavar or _TYPES.get(each.bare_type(), "TEXT"): shown
-        each.rich_help_panel = _PANEL.get(each.opts[0]) if len(options) > _FEW else None
     command.help = _literal(_flowing(command.help or ""))
 
 
