@@ -15,7 +15,7 @@ _PANELS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
     "climbs fresh designs chunk rotation spacing metric",
-    "Output": "out json csv parquet plot check show at-least",
+    "Output": "out json csv parquet plot at-least",
 }
 _PANEL = {f"--{name}": panel for panel, names in _PANELS.items() for name in names.split()}
 _TYPES = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBER", "path": "PATH", "Path": "PATH"}
