@@ -10,7 +10,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from holdfast.cli.completion import offer
 
-_FEW = 7  # options that stay in one panel
+_FEW = 8  # options that stay in one panel
 _PANELS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
@@ -26,11 +26,8 @@ class LaidOut(TyperCommand):
 
     def __init__(self, name: str | None, **settings: Any) -> None:
         super().__init__(name, **settings)
-        options: list[Any] = [each for each in self.params if each.param_type_name == "option"]
-        for each in options if len(options) > _FEW else ():
-            each.rich_help_panel = _PANEL.get(each.opts[0])
-        order = [None, *_PANELS]
-        self.params.sort(key=lambda each: order.index(getattr(each, "rich_help_panel", None)))
+        panels = {id(each): panel(each, self) for each in self.params}
+        self.params.sort(key=lambda each: [None, *_PANELS].index(panels[id(each)]))
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write it."""
@@ -53,6 +50,17 @@ class LaidOutGroup(TyperGroup):
         super().format_help(ctx, formatter)
 
 
+def panel(option: Any, command: Any) -> str | None:
+    """The panel of an option: by what it is about, where a command has many."""
+    many = sum(each.param_type_name == "option" for each in command.params) >= _FEW  # and --help
+    return _PANEL.get(option.opts[0]) if many else None
+
+
+def kind(option: Any) -> str:
+    """What an option takes, in capitals; nothing where it takes nothing."""
+    return str(option.metavar or _TYPES.get(option.bare_type(), "TEXT"))
+
+
 def _lay_out(command: Any, ctx: Any) -> None:
     parameters = command.get_params(ctx)
     options = [each for each in parameters if each.param_type_name == "option"]
@@ -60,7 +68,8 @@ def _lay_out(command: Any, ctx: Any) -> None:
         each.help = _literal(each.help or "")
         each.display_type_rich = lambda ctx: ""
     for each in options:
-        each.display_type_rich = lambda ctx, shown=each.metavar or _TYPES.get(each.bare_type(), "TEXT"): shown
+        each.display_type_rich = lambda ctx, shown=kind(each): shown
+        each.rich_help_panel = panel(each, command)
     command.help = _literal(_flowing(command.help or ""))
 
 
