@@ -27,7 +27,7 @@ def data(html):
 def test_the_page_is_whole_and_asks_no_other_host():
     shown = arms.load("panda").show(locked=["panda_joint4"])
     html = shown.to_html()
-    check(html, scripts=1)
+    check(html)
     assert not re.search(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}", html)
     assert len(html) < 45_000
     assert "</script" not in json.dumps(data(html))

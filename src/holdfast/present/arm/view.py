@@ -138,6 +138,12 @@ def scene(
     return Scene(data, frames, tuple(notes))
 
 
+def picture(arm: Arm, about: str, region: Region | None = None) -> str:
+    """A still drawing of the arm, with a region, as SVG; seen on light and dark ground."""
+    drawn = viewer.drawing(scene(arm, region=region, meshes=False), about)
+    return f'<div style="max-width:30em">{drawn}</div>'
+
+
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
     """A page of the arm alone, its joints on sliders where nothing moves."""
     from markupsafe import Markup
