@@ -56,6 +56,7 @@ html_theme = "furo"
 html_title = f"holdfast {release}"
 html_static_path = ["_static"]
 html_css_files = ["holdfast.css"]
+html_js_files = ["holdfast.js"]
 html_math_renderer = "svg"
 html_show_sourcelink = False
 html_copy_source = False
