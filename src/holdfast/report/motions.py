@@ -1,4 +1,4 @@
-"""Figures of motions over time: lines with levels to compare them to and moments picked out."""
+"""Figures of motions: a chain of links at its start and end; over time, lines with levels to compare them to."""
 
 from __future__ import annotations
 
@@ -10,11 +10,33 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.animations import Motion
 from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, plain, style
 from holdfast.report.views import View
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A chain of links over time.
+
+    Attributes:
+        time: (F,) s, evenly spaced.
+        chain: (F, K, 3) corners of the chain, base first and tool last, m.
+        square: (K,) corners drawn as squares.
+        path: (P, 3) where the tool was to be, m.
+        readings: (F,) a short text for each frame.
+        marked: (F, K) corners between base and tool that are drawn filled, or None.
+        goal: (3,) a place marked by a ring, m, or None.
+    """
+
+    time: Array
+    chain: Array
+    square: NDArray[np.bool_]
+    path: Array
+    readings: Sequence[str]
+    marked: NDArray[np.bool_] | None = None
+    goal: Array | None = None
 
 
 @dataclass(frozen=True)
