@@ -47,6 +47,7 @@ nitpick_ignore_regex = [
     (r"py:class", r"holdfast\.probability\.intervals\.Sums|holdfast\.report\.viewer\.Scene"),
     (r"py:class", r"P|holdfast\.kernels\.recall\.[KT]|holdfast\.registry\.[PT]"),
     (r"py:class", r"_?Motion|Setting|RestSystem"),  # what a run keeps so that it can be run again
+    (r"py:class", r"holdfast\.control\.export\._Law"),
     (r"py:.*", r"TypeAliasForwardRef"),
     (r"py:attr", r"failures"),
 ]
@@ -56,6 +57,7 @@ html_theme = "furo"
 html_title = f"holdfast {release}"
 html_static_path = ["_static"]
 html_css_files = ["holdfast.css"]
+html_js_files = ["holdfast.js"]
 html_math_renderer = "svg"
 html_show_sourcelink = False
 html_copy_source = False

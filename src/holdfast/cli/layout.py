@@ -15,14 +15,19 @@ _PANELS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
     "climbs fresh designs chunk rotation spacing metric",
-    "Output": "out json csv parquet plot check show at-least",
+    "Output": "out json csv parquet plot at-least",
 }
 _PANEL = {f"--{name}": panel for panel, names in _PANELS.items() for name in names.split()}
 _TYPES = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBER", "path": "PATH", "Path": "PATH"}
 
 
 class LaidOut(TyperCommand):
-    """A command that lays out its help when it is asked for, and not before; and tells a shell what its parameters take."""
+    """A command with its options in panels, that lays out its help when it is asked for; and tells a shell what it takes."""
+
+    def __init__(self, name: str | None, **settings: Any) -> None:
+        super().__init__(name, **settings)
+        panels = {id(each): panel(each, self) for each in self.params}
+        self.params.sort(key=lambda each: [None, *_PANELS].index(panels[id(each)]))
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write it."""
@@ -45,6 +50,17 @@ class LaidOutGroup(TyperGroup):
         super().format_help(ctx, formatter)
 
 
+def panel(option: Any, command: Any) -> str | None:
+    """The panel of an option: by what it is about, where a command has many."""
+    many = sum(each.param_type_name == "option" for each in command.params) >= _FEW  # and --help
+    return _PANEL.get(option.opts[0]) if many else None
+
+
+def kind(option: Any) -> str:
+    """What an option takes, in capitals; nothing where it takes nothing."""
+    return str(option.metavar or _TYPES.get(option.bare_type(), "TEXT"))
+
+
 def _lay_out(command: Any, ctx: Any) -> None:
     parameters = command.get_params(ctx)
     options = [each for each in parameters if each.param_type_name == "option"]
@@ -52,8 +68,8 @@ def _lay_out(command: Any, ctx: Any) -> None:
         each.help = _literal(each.help or "")
         each.display_type_rich = lambda ctx: ""
     for each in options:
-        each.display_type_rich = lambda ctx, shown=each.metavar or _TYPES.get(each.bare_type(), "TEXT"): shown
-        each.rich_help_panel = _PANEL.get(each.opts[0]) if len(options) > _FEW else None
+        each.display_type_rich = lambda ctx, shown=kind(each): shown
+        each.rich_help_panel = panel(each, command)
     command.help = _literal(_flowing(command.help or ""))
 
 
