@@ -6,8 +6,7 @@ import numpy as np
 from wellformed import check
 
 from holdfast.report import svg
-from holdfast.report.animations import Motion
-from holdfast.report.motions import Panel, drawn_motion
+from holdfast.report.motions import Motion, Panel, drawn_motion
 from holdfast.report.outcomes import Gains, Spread, Stack, gain_figure, spread_figure, stack_figure
 from holdfast.report.views import View
 

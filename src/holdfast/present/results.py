@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from holdfast.errors import InputError
 from holdfast.files.output import made
 from holdfast.notice import says
+from holdfast.present import presenter
 from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
 from holdfast.result import Result, Shown
 
@@ -85,8 +86,8 @@ def figures(result: Result) -> dict[str, Figure]:
 
 
 @says("drawing the report")
-def write(result: Result, path: Path, command: str = "") -> Path:
-    """A page of the sentences, the tables and the figures."""
+def write(result: Result, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Path:
+    """A page of the sentences, the tables and the figures, which may be drawn already."""
     from holdfast.report import page
 
     first, *others = result.describe()
@@ -97,7 +98,7 @@ def write(result: Result, path: Path, command: str = "") -> Path:
             page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=len(rows[0]) > _NARROW)
         )
     title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
-    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result)])], again=command), path)
+    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, drawn)])], again=command), path)
 
 
 def _beside(cell: str) -> str:
@@ -106,21 +107,23 @@ def _beside(cell: str) -> str:
     return f"{value} ({_HARD.join(below.split())})" if below else value
 
 
-def shown(result: Result) -> list[Any]:
-    """The figures as blocks of a page."""
+def shown(result: Result, drawn: Mapping[str, Figure] | None = None) -> list[Any]:
+    """The figures as blocks of a page, those drawn already if they are given."""
     from holdfast.report.figures import svg
     from holdfast.report.page import Picture
 
-    return [Picture(svg(figure, name, name), "") for name, figure in result.figures().items()]
+    return [Picture(svg(figure, name, name), "") for name, figure in (drawn or result.figures()).items()]
 
 
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:
     """The figures as pictures, and the page."""
     from holdfast.report.figures import save_png
 
-    folder = made(folder)
-    pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in result.figures().items()]
-    return [*pictures, result.report(folder / "report.html", command=command)]
+    folder, drawn = made(folder), result.figures()
+    pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
+    page = folder / "report.html"
+    common = presenter([each.__name__ for each in type(result).__mro__], "write") is write
+    return [*pictures, write(result, page, command, drawn) if common else result.report(page, command=command)]
 
 
 def plot(result: Result, name: str = "", **options: Any) -> Figure:
@@ -148,14 +151,27 @@ def sentences(thing: Any) -> list[str]:
 
 
 def key_table(result: Result) -> Rows:
-    """The first of its tables."""
-    return next(iter(result._presented("tables")), Rows([], []))
+    """The first of its tables; of what has none the single numbers of its ``to_dict``."""
+    for table in result._presented("tables"):
+        return table  # type: ignore[no-any-return]
+    rows = [
+        [key.replace("_", " "), str(value)] for key, value in result.to_dict().items() if isinstance(value, (str, int, float))
+    ]
+    return Rows(["", ""], rows)
 
 
 def next_steps(result: Result, name: str) -> list[str]:
     """All that it says."""
     del result
     return [f"{name}.describe()"]
+
+
+def picture(thing: Shown, about: str) -> str:
+    """The main figure of a result as HTML, if it has one."""
+    from holdfast.present.notebook import image
+
+    drawn = thing._presented("main_figure") if isinstance(thing, Result) else {}
+    return "".join(image(figure, f"{name}: {about}") for name, figure in drawn.items())
 
 
 def in_notebook(thing: Shown) -> str:

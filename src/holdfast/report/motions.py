@@ -1,4 +1,4 @@
-"""Figures of motions over time: lines with levels to compare them to and moments picked out."""
+"""Figures of motions: a chain of links at its start and end; over time, lines with levels to compare them to."""
 
 from __future__ import annotations
 
@@ -10,11 +10,33 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.animations import Motion
 from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, plain, style
 from holdfast.report.views import View
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A chain of links over time.
+
+    Attributes:
+        time: (F,) s, evenly spaced.
+        chain: (F, K, 3) corners of the chain, base first and tool last, m.
+        square: (K,) corners drawn as squares.
+        path: (P, 3) where the tool was to be, m.
+        readings: (F,) a short text for each frame.
+        marked: (F, K) corners between base and tool that are drawn filled, or None.
+        goal: (3,) a place marked by a ring, m, or None.
+    """
+
+    time: Array
+    chain: Array
+    square: NDArray[np.bool_]
+    path: Array
+    readings: Sequence[str]
+    marked: NDArray[np.bool_] | None = None
+    goal: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -66,13 +88,18 @@ def draw_panel(axes: Axes, panel: Panel, xlabel: str) -> None:
     axes.margins(y=0.12)
 
 
-def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str) -> Figure:
-    """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time."""
+def drawn_motion(
+    motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str, *, wanted: str = "straight way"
+) -> Figure:
+    """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time.
+
+    The path of the motion, dashed, is what the tool was ``wanted`` to do.
+    """
     with style():
         figure = Figure(figsize=(WIDTH * (1.0 if len(views) == 1 else 1.4), 4.4))
         *left, right = figure.subplots(1, len(views) + 1)
         for axes, view in zip(left, views, strict=True):
-            _draw_view(axes, motion, view)
+            _draw_view(axes, motion, view, wanted)
         draw_panel(right, panel, xlabel)
         handles, labels = left[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), columnspacing=2.0)
@@ -80,7 +107,7 @@ def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: s
         return finished(figure)
 
 
-def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
+def _draw_view(axes: Axes, motion: Motion, view: View, wanted: str) -> None:
     def flat(points: Array) -> Array:
         return view.of(points).T
 
@@ -96,7 +123,7 @@ def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
                 axes.plot(*chain[:, chosen], shape, color=filled, markeredgecolor=color, markersize=6, zorder=3 if k else 1.6)
         axes.plot(*chain[:, :1], "s", color=color, markersize=8, zorder=3)
     axes.plot(*flat(motion.chain[:, -1]), color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
-    axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label="straight way", zorder=2.4)
+    axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=wanted, zorder=2.4)
     axes.plot(*flat(motion.chain[last, -1:]), "D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=3.2)
     if motion.goal is not None:
         axes.plot(*flat(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from markupsafe import Markup
@@ -13,17 +14,32 @@ from holdfast.files.output import made
 from holdfast.motion.slowness import SlowMotion
 from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.notice import says
-from holdfast.present.stick_figure import views_of
+from holdfast.present.arm.view import scene
 from holdfast.provenance import versions
 from holdfast.report import page
-from holdfast.report.animations import Motion, animation, shown_seconds
 from holdfast.report.page import Block, Callout, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
 from holdfast.words import as_given, capitalised
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _FRAMES = 201
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
 _SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+
+
+def figures(t: Trajectory) -> dict[str, Figure]:
+    """The arm at start and end, the way of its tool, and the objective over time."""
+    from holdfast.present.stick_figure import views_of
+    from holdfast.report.motions import Motion, Panel, drawn_motion
+
+    chain = t.arm.frames(t.q)[..., :3, 3]
+    moving = Motion(t.time, chain, np.r_[False, t.arm.prismatic, False], t.poses[:, :3, 3], [])
+    unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
+    panel = Panel(t.time, t.value, f"{t.objective.name}{unit}", f"{capitalised(t.objective.better)} is better")
+    caption = f"{t.arm.name}, {t.method}, {len(t.time):,} samples"
+    return {"motion": drawn_motion(moving, views_of(t.arm, chain), panel, caption, "time, s", wanted="path asked for")}
 
 
 @says("drawing the report")
@@ -108,23 +124,18 @@ class _Facts:
     # ---- the arm -----------------------------------------------------------------------------------------------
 
     def motion(self) -> list[Block]:
-        """The arm as a stick figure, moving."""
+        """The arm, moving."""
         t = self.t
         few = np.unique(np.linspace(0, len(t.time) - 1, min(_FRAMES, len(t.time))).astype(int))
         unit = "" if t.objective.unit in ("1", "mixed") or len(t.objective.unit) > 12 else f" {t.objective.unit}"
         readings = [
             f"{t.time[k]:.2f} s, {t.objective.name} {t.value[k]:.4g}{unit}, joint rates {t.rate_norm[k]:.3g} rad/s" for k in few
         ]
-        square = np.r_[False, t.arm.prismatic, False]
-        moving = Motion(t.time[few], t.arm.frames(t.q[few])[..., :3, 3], square, t.poses[few][:, :3, 3], readings)
-        drawn = animation(moving, views_of(t.arm, moving.chain), "motion", f"{t.arm.name} moving along its path")
-        speed = t.time[-1] / shown_seconds(t.time)
+        view = scene(t.arm, t.q[few], time=t.time[few], path=t.poses[few][:, :3, 3], readings=readings)
+        speed = t.time[-1] / view.data["seconds"]
         how = "in real time" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as in reality"
-        caption = (
-            f"The arm with its joints (circles; squares slide), base (black square) and tool (orange). Dashed: the path asked "
-            f"for; blue: path of the tool; grey: the middle and the end. Played {how}. The slider moves with the arrow keys."
-        )
-        return [Picture(drawn, caption)]
+        caption = f"Orange: the path asked for; blue: path of the tool. Played {how}. The slider moves with the arrow keys."
+        return [Picture(view.html("motion", f"{t.arm.name} moving along its path"), caption)]
 
     # ---- curves ------------------------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,14 +41,14 @@ def figures(recovery: Recovery) -> dict[str, Figure]:
     return {"motion": _motion(recovery), **({} if recovery.left is None else recovery.left.figures())}
 
 
-def write(recovery: Recovery, path: Path, command: str = "") -> Path:
+def write(recovery: Recovery, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Path:
     """The page: what came of it first, then why, the pictures, and what a replay of the motion found."""
     asked, verdict, *rest = recovery.describe()
     found = [page.Text(capitalised(line)) for line in rest]
     checked = (
         [page.Section("Independent replay", [page.Text(capitalised(x)) for x in checks(recovery)])] if len(recovery.q) else []
     )
-    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery))]
+    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, drawn))]
     made = page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked, again=command)
     return page.write(made, path)
 
@@ -55,9 +56,10 @@ def write(recovery: Recovery, path: Path, command: str = "") -> Path:
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
     """recovery.json, motion.png, waypoints.csv if there is a motion, left.png if that was asked for, and report.html."""
     (file,) = put(folder, {"recovery.json": json.dumps(recovery.to_dict(), indent=2) + "\n"})
-    motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in figures(recovery).items()]
+    drawn = figures(recovery)
+    motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in drawn.items()]
     waypoints = [recovery.to_csv(folder / "waypoints.csv")] if len(recovery.q) else []
-    return [file, motion, *waypoints, *left, write(recovery, folder / "report.html", command)]
+    return [file, motion, *waypoints, *left, write(recovery, folder / "report.html", command, drawn)]
 
 
 def _motion(recovery: Recovery) -> Figure:

@@ -13,12 +13,12 @@ from holdfast.caching import cached_property
 from holdfast.files.output import made, write_table
 from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
+from holdfast.present.arm.view import scene
 from holdfast.present.stick_figure import views_of
 from holdfast.provenance import versions
 from holdfast.report import page
-from holdfast.report.animations import Motion, animation, shown_seconds
 from holdfast.report.figures import save_png, svg
-from holdfast.report.motions import Panel, drawn_motion, motion_figure
+from holdfast.report.motions import Motion, Panel, drawn_motion, motion_figure
 from holdfast.report.page import Block, Page, Picture, Section, Table
 from holdfast.report.timelines import Line, Timeline, small_multiples
 from holdfast.simulation.runs import Outcome, Path, Reason, Runs
@@ -116,11 +116,16 @@ class _RunReport:
         ended = f"The end effector {Outcome(int(self._of('code'))).sentence}{why}; its error at the end is {error}."
         return f"{ended} {self.runs.limits_sentence(self.k)}".rstrip()
 
+    @property
+    def _few(self) -> NDArray[np.int64]:
+        """Samples that are drawn."""
+        return np.unique(np.linspace(0, len(self.seen.time) - 1, _FRAMES).astype(int))
+
     @cached_property
     def motion(self) -> Motion:
         """The stick figure over time."""
         seen, law = self.seen, self.runs.law
-        few = np.unique(np.linspace(0, len(seen.time) - 1, _FRAMES).astype(int))
+        few = self._few
         chain = self.arm.frames(seen.q[few])[..., :3, 3]
         start = chain[0, -1]
         linear = law.task.rows[:, :3]
@@ -185,17 +190,24 @@ class _RunReport:
 
     def _animation(self) -> Picture:
         motion = self.motion
-        drawn = animation(motion, views_of(self.arm, motion.chain), "motion", f"{self.arm.name} moving")
-        speed = (motion.time[-1] - motion.time[0]) / shown_seconds(motion.time)
+        view = scene(
+            self.arm,
+            self.seen.q[self._few],
+            time=motion.time,
+            path=motion.path,
+            targets=[] if motion.goal is None else [motion.goal],
+            locked=dict(enumerate(self._lock_time.tolist())),
+            readings=motion.readings,
+        )
+        speed = (motion.time[-1] - motion.time[0]) / view.data["seconds"]
         unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as in reality"
+        unit = "in real time" if not self.runs.cycles and abs(speed - 1) < 1e-9 else unit
         caption = (
-            "The arm with its joints (circles; squares slide; orange: locked), base (black square) and tool (orange diamond). "
-            f"Ring: the target; dashed: the straight line to it; blue: path of the tool; grey: the middle and the end. "
-            f"Played {unit}."
+            f"Orange: joints that are locked, the target, and the straight line to it; blue: path of the tool. Played {unit}."
         )
         if self.seen.time[-1] < 0.99 * float(self._of("time")):
             caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; no visible motion follows."
-        return Picture(drawn, caption)
+        return Picture(view.html("motion", f"{self.arm.name} moving"), caption)
 
     def _error(self) -> Picture:
         seen = self.seen
