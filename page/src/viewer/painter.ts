@@ -22,7 +22,7 @@ void main() {
   gl_Position = seen * world;
 }`;
 const SHADED = `
-precision mediump float;
+precision highp float;
 uniform vec3 color, eye, up, side;
 uniform float opacity;
 varying vec3 n, p;
@@ -50,7 +50,7 @@ void main() {
   gl_Position = a;
 }`;
 const FLAT = `
-precision mediump float;
+precision highp float;
 uniform vec3 color;
 uniform float opacity;
 void main() { gl_FragColor = vec4(color, 1.0) * opacity; }`;
@@ -61,7 +61,7 @@ uniform float width;
 varying vec3 c;
 void main() { c = paint; gl_Position = seen * vec4(place, 1.0); gl_PointSize = width; }`;
 const ROUND = `
-precision mediump float;
+precision highp float;
 varying vec3 c;
 void main() {
   float r = length(gl_PointCoord - 0.5);

@@ -151,14 +151,27 @@ def sentences(thing: Any) -> list[str]:
 
 
 def key_table(result: Result) -> Rows:
-    """The first of its tables."""
-    return next(iter(result._presented("tables")), Rows([], []))
+    """The first of its tables; of what has none the single numbers of its ``to_dict``."""
+    for table in result._presented("tables"):
+        return table  # type: ignore[no-any-return]
+    rows = [
+        [key.replace("_", " "), str(value)] for key, value in result.to_dict().items() if isinstance(value, (str, int, float))
+    ]
+    return Rows(["", ""], rows)
 
 
 def next_steps(result: Result, name: str) -> list[str]:
     """All that it says."""
     del result
     return [f"{name}.describe()"]
+
+
+def picture(thing: Shown, about: str) -> str:
+    """The main figure of a result as HTML, if it has one."""
+    from holdfast.present.notebook import image
+
+    drawn = thing._presented("main_figure") if isinstance(thing, Result) else {}
+    return "".join(image(figure, f"{name}: {about}") for name, figure in drawn.items())
 
 
 def in_notebook(thing: Shown) -> str:

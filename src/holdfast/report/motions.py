@@ -88,13 +88,18 @@ def draw_panel(axes: Axes, panel: Panel, xlabel: str) -> None:
     axes.margins(y=0.12)
 
 
-def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str) -> Figure:
-    """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time."""
+def drawn_motion(
+    motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str, *, wanted: str = "straight way"
+) -> Figure:
+    """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time.
+
+    The path of the motion, dashed, is what the tool was ``wanted`` to do.
+    """
     with style():
         figure = Figure(figsize=(WIDTH * (1.0 if len(views) == 1 else 1.4), 4.4))
         *left, right = figure.subplots(1, len(views) + 1)
         for axes, view in zip(left, views, strict=True):
-            _draw_view(axes, motion, view)
+            _draw_view(axes, motion, view, wanted)
         draw_panel(right, panel, xlabel)
         handles, labels = left[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), columnspacing=2.0)
@@ -102,7 +107,7 @@ def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: s
         return finished(figure)
 
 
-def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
+def _draw_view(axes: Axes, motion: Motion, view: View, wanted: str) -> None:
     def flat(points: Array) -> Array:
         return view.of(points).T
 
@@ -118,7 +123,7 @@ def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
                 axes.plot(*chain[:, chosen], shape, color=filled, markeredgecolor=color, markersize=6, zorder=3 if k else 1.6)
         axes.plot(*chain[:, :1], "s", color=color, markersize=8, zorder=3)
     axes.plot(*flat(motion.chain[:, -1]), color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
-    axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label="straight way", zorder=2.4)
+    axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=wanted, zorder=2.4)
     axes.plot(*flat(motion.chain[last, -1:]), "D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=3.2)
     if motion.goal is not None:
         axes.plot(*flat(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3)

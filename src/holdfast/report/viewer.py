@@ -57,7 +57,8 @@ class Scene:
         colors = ["#8b96a1", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
         legend = [swatch.format(colors[k % 5], escape(x)) for k, x in enumerate(labels)] if len(labels) > 1 else []
         marked = [j["name"] for j, t in zip(self.data["joints"], self.data["locked"], strict=True) if t is not None]
-        lines = [*self.notes, *([f"Locked: {', '.join(marked)}."] if marked else [])]
+        free = [self.data["joints"][k]["name"] for k in self.data["free"]]
+        lines = [*self.notes, *(f"{w}: {', '.join(x)}." for w, x in (("Locked", marked), ("Swinging freely", free)) if x)]
         parts = _json(self.data["parts"])
         key = sha256(parts.encode()).hexdigest()[:12]
         text = _json({**self.data, "parts": key})

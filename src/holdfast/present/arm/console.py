@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from holdfast.arm.soundness import check
 from holdfast.arm.task import plane_normal
 from holdfast.assessment.single_points import explain, structures
 from holdfast.grammar import TASKS
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -66,12 +67,14 @@ def key_table(arm: Arm) -> Rows:
 
 
 def next_steps(arm: Arm, name: str) -> list[str]:
-    """How it tolerates failures of the largest task for which it is redundant."""
+    """What it looks like, and how it tolerates failures of the largest task for which it is redundant."""
     task = redundant_task(arm)
+    seen = f"{name}.show()  # a view to turn, with a slider for each joint"
     if task is None:
-        return [f"{name}.forward_kinematics({[0.0] * arm.n})  # not redundant for any task of its kind"]
+        return [seen]
     return [
-        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves, configuration by configuration",
+        seen,
+        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves",
         f"hf.assess({name}, task={task!r}, poses=200)  # and over a region about its home",
     ]
 
@@ -141,6 +144,13 @@ def show_library(out: Console) -> None:
 def shown_position(value: float, unit: str) -> str:
     """A joint's position, or an angle, for a table."""
     return f"{number(value)} m" if unit == "m" else f"{number(value)} rad ({number(np.degrees(value))} deg)"
+
+
+def shown_positions(values: NDArray[np.float64], units: Sequence[str], digits: int = 5) -> list[str]:
+    """A column of positions, or of measures of joints; angles are in degrees too."""
+    degrees = iter(alike(np.degrees([x for x, unit in zip(values, units, strict=True) if unit == "rad"]), "deg"))
+    pairs = zip(alike(values, units, digits), units, strict=True)
+    return [f"{text} ({next(degrees)})" if unit == "rad" else text for text, unit in pairs]
 
 
 def print_outside(arm: Arm, q: NDArray[np.float64], out: Console, when: str = "") -> None:

@@ -37,6 +37,7 @@ def scene(
     *,
     labels: Sequence[str] = (),
     locked: Sequence[str | int] | Mapping[Any, float] = (),
+    free: Sequence[str | int] = (),
     task: str | Task | None = None,
     lost: bool = True,
     targets: Sequence[ArrayLike] = (),
@@ -57,6 +58,7 @@ def scene(
             (A, F, n) several. :func:`holdfast.arm.generic_configuration` if not given.
         labels: (A,) what each of several is.
         locked: Joints, by name or index from 0, that are marked as locked; in a motion also ``{joint: s from which}``.
+        free: Joints that are marked as swinging freely.
         task: Rows of the pose in which directions are lost; the arm's own if not given.
         lost: Mark the directions in which the locked joints take speed from the first arm, where nothing moves.
         targets: Poses (4, 4) or points (3,) that are marked, m.
@@ -120,6 +122,7 @@ def scene(
         "parts": parts,
         "arms": [{"label": labels[k] if labels else "", "q": numbers(motion)} for k, motion in enumerate(rows)],
         "locked": since,
+        "free": list(arm.joint_indices(free)),
         "time": numbers(seconds[few]) if moving else [],
         "seconds": float(np.clip(seconds[-1] - seconds[0], 3.0, 20.0)) if moving else 0.0,
         "readings": [readings[k] for k in few] if readings else [],
@@ -133,6 +136,12 @@ def scene(
         "camera": _camera(arm, up, np.vstack(seen), frames, 0.45 * size),
     }
     return Scene(data, frames, tuple(notes))
+
+
+def picture(arm: Arm, about: str, region: Region | None = None) -> str:
+    """A still drawing of the arm, with a region, as SVG; seen on light and dark ground."""
+    drawn = viewer.drawing(scene(arm, region=region, meshes=False), about)
+    return f'<div style="max-width:30em">{drawn}</div>'
 
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
