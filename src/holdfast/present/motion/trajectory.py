@@ -32,8 +32,7 @@ _SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularit
 def figures(t: Trajectory) -> dict[str, Figure]:
     """The arm at start and end, the way of its tool, and the objective over time."""
     from holdfast.present.stick_figure import views_of
-    from holdfast.report.animations import Motion
-    from holdfast.report.motions import Panel, drawn_motion
+    from holdfast.report.motions import Motion, Panel, drawn_motion
 
     chain = t.arm.frames(t.q)[..., :3, 3]
     moving = Motion(t.time, chain, np.r_[False, t.arm.prismatic, False], t.poses[:, :3, 3], [])

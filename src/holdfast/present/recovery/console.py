@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -103,10 +103,9 @@ def show(recovery: Recovery, out: Console) -> None:
     for line in checks(recovery):
         out.print(escape(f"check: {line}"), soft_wrap=True)
     table = Grid("joint", "start", "end", "")
-    for k, joint in enumerate(recovery.arm.joints):
-        factor, unit = joint.shown
-        cells = [f"{number(factor * x)} {unit}" for x in (recovery.q[0, k], recovery.q[-1, k])]
-        table.add_row(escape(joint.name), *cells, "locked" if joint.name in recovery.locked else "")
+    factors, units = zip(*(joint.shown for joint in recovery.arm.joints), strict=True)
+    for name, *cells in zip(recovery.arm.joint_names, *(alike(factors * x, units) for x in recovery.q[[0, -1]]), strict=True):
+        table.add_row(escape(name), *cells, "locked" if name in recovery.locked else "")
     out.print(table)
 
 
