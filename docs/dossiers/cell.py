@@ -106,8 +106,8 @@ def main(out, poses=500):
     )
     report.write(page, out / "index.html")
     text = [answer, *(f"{name}: protect {gain}; the lock that leaves least: {least}" for name, gain, least in protect)]
-    (out / "cell.txt").write_text("\n".join(text) + "\n", encoding="utf-8")
-    print(*text, sep="\n")
+    (out / "cell.txt").write_text("\n\n".join(text) + "\n", encoding="utf-8")
+    print(*text, sep="\n\n")
 
 
 if __name__ == "__main__":
