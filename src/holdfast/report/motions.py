@@ -10,11 +10,29 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from holdfast.report.animations import Motion
 from holdfast.report.figures import BLUE, INK, ORANGE, SOFT, WIDTH, finished, plain, style
 from holdfast.report.views import View
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A chain of links over time.
+
+    Attributes:
+        chain: (F, K, 3) corners of the chain, base first and tool last, m.
+        square: (K,) corners drawn as squares.
+        marked: (K,) corners that are drawn filled at the end.
+        path: (P, 3) where the tool was to be, m.
+        goal: (3,) a place marked by a ring, m.
+    """
+
+    chain: Array
+    square: NDArray[np.bool_]
+    marked: NDArray[np.bool_]
+    path: Array
+    goal: Array
 
 
 @dataclass(frozen=True)
@@ -85,7 +103,7 @@ def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
         return view.of(points).T
 
     last = len(motion.chain) - 1
-    marked = np.zeros(len(motion.square), dtype=bool) if motion.marked is None else motion.marked[last]
+    marked = motion.marked
     for k, color, width, label in ((0, "#b9c0c7", 2.4, "at the start"), (last, INK, 2.6, "at the end")):
         chain = flat(motion.chain[k])
         axes.plot(*chain, color=color, linewidth=width, solid_joinstyle="round", label=label, zorder=2 if k else 1.5)
@@ -98,8 +116,7 @@ def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
     axes.plot(*flat(motion.chain[:, -1]), color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
     axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label="straight way", zorder=2.4)
     axes.plot(*flat(motion.chain[last, -1:]), "D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=3.2)
-    if motion.goal is not None:
-        axes.plot(*flat(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3)
+    axes.plot(*flat(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3)
     if marked.any():
         axes.plot([], [], "o", color=ORANGE, markeredgecolor=INK, markersize=6, label="locked")
     axes.set_aspect("equal", adjustable="datalim")
