@@ -56,6 +56,7 @@ html_theme = "furo"
 html_title = f"holdfast {release}"
 html_static_path = ["_static"]
 html_css_files = ["holdfast.css"]
+html_js_files = ["holdfast.js"]
 html_math_renderer = "svg"
 html_show_sourcelink = False
 html_copy_source = False
@@ -126,12 +127,29 @@ sphinx_gallery_conf = {
     "examples_dirs": ["examples"],
     "gallery_dirs": ["gallery"],
     "filename_pattern": r"[\\/]\d\d_",
+    # The headings of the how-to pages, in their order.
+    "subsection_order": [
+        f"examples/{name}"
+        for name in (
+            "before_a_failure",
+            "unnoticed_lock",
+            "known_failure",
+            "free_swinging_joints",
+            "choosing_and_designing",
+            "large_studies",
+            "experiments",
+        )
+    ],
     "within_subsection_order": "FileNameSortKey",
+    "image_scrapers": ("matplotlib", "pictures"),
+    "reset_modules": ("matplotlib", "pictures.look"),
+    "first_notebook_cell": "# The first time: %pip install holdfast\n%matplotlib inline",
     "abort_on_example_error": True,
     "capture_repr": (),
     "download_all_examples": False,
     "remove_config_comments": True,
-    "min_reported_time": 1e9,
+    "min_reported_time": 0,
+    "thumbnail_size": (560, 392),
     "show_memory": False,
     "show_signature": False,
     "write_computation_times": False,

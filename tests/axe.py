@@ -10,6 +10,9 @@ SCRIPT = Path(__file__).parents[1] / "page/node_modules/axe-core/axe.min.js"
 def serious(page) -> list[str]:
     """Its serious and critical problems, each with the elements that have it; none is good."""
     assert SCRIPT.exists(), f"pages are checked by axe-core, and there is none in {SCRIPT.parent}: 'make test' installs it"
+    page.evaluate(
+        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )  # what follows a change
     page.evaluate(SCRIPT.read_text(encoding="utf-8"))
     found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
     return [

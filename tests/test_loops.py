@@ -1,6 +1,7 @@
-"""The loops of README and documentation are there, and say what made them."""
+"""The loops of README and documentation are there and say what made them; the examples are short."""
 
 from itertools import islice
+from pathlib import Path
 
 import pytest
 from PIL import Image
@@ -31,3 +32,18 @@ def test_a_loop_is_drawn_and_begins_with_what_is_shown_longest(tmp_path, monkeyp
         assert picture.n_frames == 2
         picture.load()  # Pillow knows how long a picture is shown once it has read it
         assert picture.info["duration"] == max(ms for _, ms in taken)
+
+
+EXAMPLES = sorted((Path(__file__).parents[1] / "docs" / "examples").glob("*/[0-9][0-9]_*.py"))
+
+
+def test_there_are_examples_of_everything():
+    assert len(EXAMPLES) >= 24
+
+
+@pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: f"{file.parent.name}/{file.stem}")
+def test_an_example_is_short_and_in_a_group_of_the_gallery(file):
+    assert len(file.read_text(encoding="utf-8").splitlines()) < 40
+    conf = (file.parents[2] / "conf.py").read_text(encoding="utf-8")
+    assert f'"{file.parent.name}"' in conf
+    assert (file.parent / "GALLERY_HEADER.rst").is_file()

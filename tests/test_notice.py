@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+import sys
 import threading
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -127,6 +129,63 @@ def test_it_can_be_switched_off(clock, said, monkeypatch):
     with working("thinking"), notice.long("compiling", 100.0):
         look(clock, 2.0)
     assert said() == []
+
+
+@pytest.fixture
+def cell(monkeypatch):
+    """What the kernel of a notebook is told to show: the line, whether in place of another one, and which."""
+    shown = []
+
+    class Kernel:
+        kernel = object()
+
+        class display_pub:
+            @staticmethod
+            def publish(data, *, transient, update):
+                assert data["text/plain"].startswith("holdfast: ")
+                shown.append((data["text/html"], update, transient["display_id"]))
+
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: Kernel))
+    return shown
+
+
+def test_in_a_notebook_one_line_changes_in_place(clock, said, cell):
+    with working("<thinking>") as advance:
+        look(clock, 0.9)
+        assert cell == []
+        look(clock, 0.2)
+        assert "&lt;thinking&gt;</div>" in cell[-1][0]
+        clock.now = 5.0
+        advance(1, 10)
+        assert "about 45 s more" in cell[-1][0]
+        assert 'max="1" value="0.100"' in cell[-1][0]
+        clock.now = 6.0
+    assert cell[-1][0] == '<div style="opacity:.75">&lt;thinking&gt;: 6 s</div>'
+    assert [update for _, update, _ in cell] == [False, True, True]
+    assert len({which for *_, which in cell}) == 1
+
+    def interrupted():
+        with working("again"), Count("parts", 2) as tell:
+            tell(1)
+            look(clock, 3.0)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert "again, so far 1 of 2 parts<" in cell[-2][0]
+    assert "again: stopped after 3 s<" in cell[-1][0]
+    with working("short"), notice.long("compiling", 3.0):
+        clock.now += 0.5
+    assert "compiling, about 3 s<" in cell[-2][0]
+    assert "compiling: 0 s<" in cell[-1][0]
+    assert said() == []
+
+
+def test_a_notebook_may_be_told_nothing(clock, said, cell, monkeypatch):
+    monkeypatch.setenv("HOLDFAST_NOTICES", "off")
+    with working("thinking"):
+        look(clock, 9.0)
+    assert said() == cell == []
 
 
 def test_how_far_it_has_come_is_said_where_nobody_knows_the_time(clock, said):

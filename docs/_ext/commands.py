@@ -18,6 +18,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+from holdfast.cli.layout import kind, panel
 from holdfast.cli.program import COMMANDS, PANELS, assembled
 
 EXAMPLE = re.compile(r"^Examples?:\s*", re.M)
@@ -52,24 +53,26 @@ def default(parameter: Any, context: Any) -> str:
 def options(command: Any, context: Any, program: str) -> Iterator[str]:
     """Arguments, then options, in the panels of ``--help``."""
     yield f".. program:: {program}\n"
-    panel = None
+    shown: dict[str, list[Any]] = {"Arguments": [], "Options": []}
     for parameter in command.params:
-        if parameter.hidden:
-            continue
-        argument = parameter.param_type_name == "argument"
-        where = parameter.rich_help_panel or ("Arguments" if argument else "Options")
-        if where != panel:
-            panel = where
-            yield f".. rubric:: {panel}\n"
-        if argument:
-            names = parameter.metavar or parameter.name.upper()
-            yield f".. describe:: {names}\n\n   {escaped(parameter.help or '')}\n"
-            continue
-        kind = re.sub(r"LIST|[][<>]", "", parameter.display_type(context).upper()).replace("STR", "TEXT")
-        value = "" if parameter.is_flag else f" {parameter.metavar or kind}"
-        names = ", ".join([f"{name}{value}" for name in parameter.opts] + parameter.secondary_opts)
-        words = " ".join(filter(None, [escaped(parameter.help or ""), default(parameter, context)]))
-        yield f".. option:: {names}\n\n   {words}\n"
+        where = "Arguments" if parameter.param_type_name == "argument" else panel(parameter, command) or "Options"
+        if not parameter.hidden:
+            shown.setdefault(where, []).append(parameter)
+    for where, parameters in shown.items():
+        if parameters:
+            yield f".. rubric:: {where}\n"
+        for parameter in parameters:
+            yield described(parameter, context)
+
+
+def described(parameter: Any, context: Any) -> str:
+    """An argument or option with what it takes, what it is for, and its default."""
+    if parameter.param_type_name == "argument":
+        return f".. describe:: {parameter.metavar or parameter.name.upper()}\n\n   {escaped(parameter.help or '')}\n"
+    value = "" if parameter.is_flag else f" {kind(parameter)}"
+    names = ", ".join([f"{name}{value}" for name in parameter.opts] + parameter.secondary_opts)
+    words = " ".join(filter(None, [escaped(parameter.help or ""), default(parameter, context)]))
+    return f".. option:: {names}\n\n   {words}\n"
 
 
 def page(name: str, command: Any, context: Any, level: str = "=") -> Iterator[str]:

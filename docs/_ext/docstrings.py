@@ -14,6 +14,7 @@ _VALUES = ("property", "attribute", "data")
 _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 _SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.registry\.Parameter\(.*?\)\]")
 _ARRAY = re.compile(r"[~\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]")
+_PARAMETERS = re.compile(r'(<span class="sig-paren">\(</span>)\s*<dl>(.*?)</dl>\s*(<span class="sig-paren">\))', re.S)
 _QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
 
@@ -101,10 +102,22 @@ def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
     return None
 
 
+def plain_parameters(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """Parameters one a line as spans: Sphinx makes them definitions without terms, which screen readers stumble on."""
+    if "body" in context:
+        context["body"] = _PARAMETERS.sub(_spans, context["body"])
+
+
+def _spans(match: re.Match[str]) -> str:
+    inside = match[2].replace("<dd>", '<span class="sig-line">').replace("</dd>", "</span>")
+    return f"{match[1]}{inside}{match[3]}"
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-docstring", repair, priority=400)
     app.connect("autodoc-process-signature", plain_names)
     app.connect("missing-reference", same_thing)
+    app.connect("html-page-context", plain_parameters)
     plain = GoogleDocstring.__init__
 
     # Napoleon takes the words before a colon in the docstring of a property or constant for its type; ours are sentences.

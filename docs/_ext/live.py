@@ -23,9 +23,11 @@ import importlib
 import inspect
 import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 import traceback
 from pathlib import Path
 from typing import Any, ClassVar
@@ -37,6 +39,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 WIDTH = 92
+TERMINAL: dict[str, Any] = {"drop_whitespace": True, "replace_whitespace": False, "break_on_hyphens": False, "tabsize": 8}
 
 # What a person writes in CasADi; tried one by one when the pages are built.
 SPELLINGS = """
@@ -48,6 +51,17 @@ a < b | a <= b | a == b | a != b | ca.logic_not(a) | ca.logic_and(a, b) | ca.log
 ca.fabs(a) | ca.sign(a) | ca.fmin(a, b) | ca.fmax(a, b)
 ca.floor(a) | ca.ceil(a) | ca.fmod(a, b) | ca.remainder(a, b) | ca.copysign(a, b) | ca.erfinv(a)
 """
+
+
+def continued(command: str) -> list[str]:
+    """A long command line on several, broken between its words as a shell reads them."""
+    lines: list[str] = [""]
+    for word in re.findall(r"""(?:"[^"]*"|'[^']*'|[^\s"'])+""", command):
+        if lines[-1] and len(lines[-1]) + len(word) > WIDTH - 3:
+            lines[-1] += " \\"
+            lines.append("   ")
+        lines[-1] += f" {word}" if lines[-1] else word
+    return lines
 
 
 class _Live(SphinxDirective):
@@ -127,10 +141,11 @@ class Shell(_Live):
             done = subprocess.run(line[2:], shell=True, cwd=self.folder, env=environment, capture_output=True, text=True)
             if done.returncode != expected:
                 raise self.error(f"'{line}' ended with {done.returncode} instead of {expected}:\n{done.stdout}{done.stderr}")
-            lines = [x.rstrip() for x in (done.stderr + done.stdout).rstrip().splitlines()]
+            told = (done.stderr + done.stdout).rstrip().splitlines()
+            lines = [part for x in told for part in textwrap.wrap(x, WIDTH, **TERMINAL) or [""]]
             if head is not None and len(lines) > head:
                 lines = [*lines[:head], "..."]
-            shown += [line, *lines]
+            shown += [*continued(line), *lines]
         return [self.block("\n".join(shown), "console", "live-shell")]
 
 

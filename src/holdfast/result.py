@@ -93,7 +93,7 @@ class Result(Shown):
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         """What IPython prints: the sentences, and not all the arrays."""
         del cycle
-        printer.text("\n".join(self.describe()))
+        printer.text("\n".join(self._presented("sentences")))
 
     def require_ok(self) -> Self:
         """Itself, unless it holds no answer; where that may be, the class says so and raises."""

@@ -53,11 +53,11 @@ def test_a_run_with_its_lock_is_a_page_with_the_arm_moving(cli, tmp_path):
     assert (code, err) == (0, "")
     assert all(str(out / name) in said for name in ("run.csv", "run.png", "report.html"))
     page = (out / "report.html").read_text(encoding="utf-8")
-    check(page, scripts=1)
+    check(page)
     assert "stops elsewhere" in page
     assert "locked: joint1" in page
-    data = json.loads(re.search(r"var data = (\{.*\});", page)[1])
-    assert data["marked"][0] == [1]
+    data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page)[1])
+    assert data["locked"] == [0, None]
     assert "holdfast simulate planar-2r" in page
     assert matplotlib.image.imread(out / "run.png").shape[1] > 900
     assert np.loadtxt(out / "run.csv", delimiter=",", skiprows=1)[-1, -1] == pytest.approx(1.133893, abs=1e-5)
@@ -106,9 +106,10 @@ def test_a_lock_on_the_way_is_marked_from_then_on(cli, tmp_path):
     code, _, _ = cli("simulate", "planar-3r", "--start", "0.3 0.7 1", "--target", "-0.5,1", "--lock", "2@0.5", "--out", out)
     assert code == 0
     page = (out / "report.html").read_text(encoding="utf-8")
-    marked = json.loads(re.search(r"var data = (\{.*\});", page)[1])["marked"]
-    assert marked[0] == []
-    assert marked[-1] == [2]
+    data = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page)[1])
+    assert data["locked"] == [None, 0.5, None]
+    assert "locked" not in data["readings"][0]
+    assert data["readings"][-1].endswith("locked: joint2")
     assert "joint2 locks" in page
 
 

@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import holdfast as hf
+from cards import check_card
 from holdfast.control import damped, pseudoinverse
 from holdfast.convergence.analysis import Job, _sinks
 from holdfast.convergence.healthy_motion import HealthyPaths
@@ -51,6 +52,10 @@ def small(law):
         "brute": hf.workspace(law, [1.5, 1.5], method="brute", **options),
         "procedure": hf.workspace(law, [1.5, 1.5], method="procedure", sinks=sinks, **options),
     }
+
+
+def test_a_notebook_shows_its_maps(small):
+    check_card(small["procedure"])
 
 
 def test_the_lattice_has_the_points_of_the_paper(arm, law):

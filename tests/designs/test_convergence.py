@@ -13,6 +13,7 @@ import pytest
 
 import holdfast as hf
 import oracles
+from cards import check_card
 from holdfast.convergence.places import read_places
 from holdfast.designs import DesignJoints, LawOfDesigns, PlanarRest, design_for_convergence, design_space
 from holdfast.designs.failures import Failures
@@ -128,6 +129,7 @@ def test_equal_links_are_guaranteed_and_unequal_ones_are_not():
 def test_search_keeps_its_bounds_and_finds_what_is_guaranteed():
     vary, options = {f"a{k}": (0.5, 1.6) for k in (1, 2, 3)}, {"designs": 4, "keep_reach": True, "seed": 3}
     found = design_for_convergence(planar(), vary, climbs=1, **options)
+    check_card(found)
     np.testing.assert_allclose(found.values.sum(axis=1), 3.0)
     assert (found.values >= 0.5 - 1e-9).all()
     assert (found.values <= 1.6 + 1e-9).all()

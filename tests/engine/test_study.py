@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from toy import Toy, cells
 
+from cards import check_card
 from holdfast.engine import Cell, Column, Store, Study, Threads, journal, merge
 from holdfast.engine.folder import digest, held
 from holdfast.engine.journal import Entry, Journal, Lines
@@ -37,6 +38,10 @@ def straight(tmp_path_factory) -> Study:
     assert study.run(cells(), Threads(1)) == {}
     assert study.complete
     return study
+
+
+def test_a_notebook_says_how_far_it_is(straight):
+    check_card(straight, False)
 
 
 def test_the_rows_are_those_of_the_seeds_of_the_chunks(straight):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from cards import check_card
 from holdfast.equilibria import Kind, orbit
 from holdfast.errors import InputError
 
@@ -73,6 +74,7 @@ def test_an_arm_that_turns_for_ever(three, angle, rate):
     assert found.label == "turning"
     assert found.windings.tolist() == [-1, 0, 0]
     assert found.rates[0] == pytest.approx(rate, rel=0.02)
+    check_card(found, False)
     assert found.rates[0] == pytest.approx(-2 * np.pi / found.period, rel=1e-6)
 
 

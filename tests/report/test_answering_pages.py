@@ -8,19 +8,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from markupsafe import Markup
 from matplotlib.figure import Figure
 
 import axe
 import chromium
 import holdfast as hf
+from holdfast.present.arm.view import scene
 from holdfast.report import figures
-from holdfast.report.page import Callout, Code, Page, Section, Table, write
+from holdfast.report.page import Callout, Code, Page, Picture, Section, Table, write
 from holdfast.words import interval
 
 NINE = hf.arms.load("pa10-9dof")
 REGION = hf.Region.box([0.968, 0, 0.041], 0.5, np.deg2rad([0, 174, 0]), np.deg2rad([90, 90, 90]))
 CELLS = ["2 b", "1 a", "10 c", "3 d"]
-NUMBERS = ["−1.5", "1,200 (3 to 4)", "–", "<0.1 %"]
+NUMBERS: list[str | Markup] = [Markup("−1.5<br>900"), "1,200 (3 to 4)", "–", "<0.1 %"]
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +32,7 @@ def found() -> hf.Assessment:
 
 @pytest.fixture(scope="module")
 def browser():
-    with chromium.opened(chromium.required) as opened:
+    with chromium.opened(chromium.required, scenes=True) as opened:
         yield opened
 
 
@@ -142,6 +144,44 @@ def test_poses_are_pointed_at_pinned_and_reached_with_the_keyboard(report):
     assert told.text_content() == first
 
 
+def test_the_arm_in_three_dimensions_takes_the_pose_that_is_chosen(report, found):
+    box = report.locator("[data-extra=poses]")
+    box.locator("input").press("End")
+    command = box.locator("pre").text_content()
+    q = [float(x) for x in re.search(r"--q=(\S+)", command)[1].split(",")]
+    shown = report.evaluate("document.getElementById('arm').view3d.configurations()")
+    np.testing.assert_allclose(shown, [q], atol=1e-5)
+    report.evaluate("document.getElementById('arm').dispatchEvent(new CustomEvent('view3d:point', {detail: 3}))")
+    third = np.sort(found.dataset["index"].values)[3]
+    assert f"index {float(f'{third:.3g}'):g}, " in box.locator(".told").text_content()
+
+
+BUSY = "setInterval(() => { const t = performance.now(); while (performance.now() - t < 25); }, 30);"
+
+
+def test_play_plays_every_time_also_on_a_busy_page(browser, tmp_path):
+    """While a page is busy, the first frame after a click carries a time from before the click."""
+    time = np.linspace(0, 2, 11)
+    view = scene(hf.arms.load("planar-3r"), np.stack([time, 0 * time, time], axis=1), time=time)
+    file = write(Page("t", "h", [Section("", [Picture(view.html("motion", "An arm"), "c")])]), tmp_path / "motion.html")
+    opened, errors = browser.new_page(viewport={"width": 240, "height": 300}), []
+    opened.on("pageerror", lambda error: errors.append(str(error)))
+    opened.add_init_script(BUSY)
+    opened.goto(file.as_uri())
+    slider, button = opened.locator("#motion input"), opened.locator("#motion button").first
+    for _ in range(3):
+        button.click()
+        opened.wait_for_function("() => document.querySelector('#motion input').value > 0")
+        button.click()
+        assert button.inner_text() == "Play"
+        slider.fill("0")
+    button.click()
+    opened.wait_for_function("() => document.querySelector('#motion button').textContent === 'Play'")
+    assert slider.input_value() == "10"
+    assert not errors
+    opened.close()
+
+
 def test_where_the_axes_are_in_the_svg():
     """Matplotlib itself writes where it draws a marker."""
     figure = Figure(figsize=(5, 3))
@@ -177,10 +217,10 @@ def test_tables_are_sorted_by_their_heads(small):
     assert small.locator("th[aria-sort=ascending]").text_content() == "name"
     number = small.locator("th button", has_text="number")
     number.press("Enter")
-    assert column(small, 1) == ["1,200 (3 to 4)", "<0.1 %", "−1.5", "–"]
+    assert column(small, 1) == ["1,200 (3 to 4)", "<0.1 %", "−1.5900", "–"]
     assert small.locator("th[aria-sort=descending]").text_content() == "number"
     number.press("Enter")
-    assert column(small, 1) == ["−1.5", "<0.1 %", "1,200 (3 to 4)", "–"]  # nothing is last either way
+    assert column(small, 1) == ["−1.5900", "<0.1 %", "1,200 (3 to 4)", "–"]  # nothing is last either way
     number.press("Enter")
     assert column(small, 0) == CELLS
     assert small.locator("table.sortable").count() == 1  # not the one without a head
@@ -192,6 +232,8 @@ def test_the_theme_is_the_systems_until_it_is_chosen(small):
     dark = small.evaluate(colour)
     small.locator(".theme").click()
     assert small.evaluate(colour) == "rgb(255, 255, 255)" != dark
+    assert small.evaluate("localStorage.getItem('holdfast-theme')") == "light"
+    small.add_init_script("localStorage.setItem('holdfast-theme', 'light')")  # the browser writes when it likes
     small.reload()
     assert small.evaluate(colour) == "rgb(255, 255, 255)"
     assert small.locator(".theme").text_content() == "Dark theme"

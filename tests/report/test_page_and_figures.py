@@ -36,6 +36,7 @@ from holdfast.report import (
     write,
 )
 from holdfast.report.figures import plain
+from holdfast.result import Result
 from holdfast.words import article, as_given, counted, either, fixed, number, percent, share
 
 NASTY = '<script>alert("x")</script> & $\\frac$'
@@ -117,6 +118,31 @@ def test_png(tmp_path: Path) -> None:
     assert path.read_bytes().startswith(b"\x89PNG")
     with pytest.raises(StoreError, match=r"cannot write picture .*No such file"):
         save_png(bar_figure(["a"], [1], "b"), tmp_path / "no" / "a.png")
+
+
+class Told(Result):
+    """A result without a presenter of its own."""
+
+    def __init__(self) -> None:
+        self.asked = 0
+
+    def describe(self) -> list[str]:
+        return ["The answer.", "More."]
+
+    def figures(self) -> dict[str, Figure]:  # type: ignore[override]
+        self.asked += 1
+        return {"bars": bar_figure(["a"], [1], "b")}
+
+
+def test_a_folder_and_its_page_hold_the_same_figure_drawn_once(tmp_path: Path) -> None:
+    told = Told()
+    picture, page = told.save(tmp_path, command="holdfast arms", dpi=150)
+    assert told.asked == 1
+    assert int.from_bytes(picture.read_bytes()[16:20]) == 1200  # 8 inches
+    html = page.read_text(encoding="utf-8")
+    check(html)
+    assert str(svg(told.figures()["bars"], "bars", "bars")) in html
+    assert html.index("The answer.") < html.index("More.") < html.index("<svg") < html.index("<pre>holdfast arms")
 
 
 def test_writing_is_all_or_nothing(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 import dynamics
 import holdfast as hf
 import oracles
+from cards import check_card
 from holdfast.physics.model import mujoco_model
 
 G, LENGTH, MASS = 9.81, 0.7, 2.0
@@ -82,6 +83,7 @@ def test_very_stiff_friction_creeps_and_does_not_blow_up():
 
 def test_the_drop_is_that_of_a_fall_and_the_brakes_stop_it_there():
     swing = hf.free_swing(pendulum(), [0.0], 0, damping=0.0, duration=1.0, brake_after=(20, 50, 1000))
+    check_card(swing)
     for drop, t in zip(swing.drops[:2], (0.02, 0.05), strict=True):
         assert drop.drop == pytest.approx(G * t * t / 2, rel=1e-3)
         assert drop.distance == pytest.approx(drop.drop, rel=0.01)

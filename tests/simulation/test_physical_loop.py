@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 import dynamics
 import holdfast as hf
 import oracles
+from cards import check_card
 from holdfast.errors import ArmError, InputError
 from holdfast.physics.loop import _Plant, _verdict
 from holdfast.physics.servos import leads
@@ -186,6 +187,7 @@ def test_compensated_gravity_is_no_gravity(law, panda, home, goal):
     weightless = replace(panda, gravity=np.zeros(3))
     same = hf.control.pseudoinverse(weightless, "position", gain=2.0, speed_limit=0.1)
     runs = [hf.simulate_physics(x, home, goal, locked=[4], time_limit=1.0) for x in (law, same)]
+    check_card(runs[0])
     np.testing.assert_allclose(runs[0].q, runs[1].q, atol=1e-8)
     weight = dynamics.gravity_torque(panda, home)
     weight[4] = 0

@@ -52,6 +52,8 @@ def test_arms_whose_intervals_overlap_are_level_and_the_page_says_so():
     text = render(Page("t", headline([first, second]), [Section("s", _standings([first, second]))]))
     assert "level with a" in text
     assert "a reaches its target most often, under damped:0.1" in text
+    none = headline(standings([], [driven("a", 0.0), driven("b", 0.0)], {}))
+    assert "hardly any motion reaches its target under any law: of 200 motions × 2 joints 0.00" in none
 
 
 def test_smaller_is_better_where_the_index_says_so_and_units_are_said():

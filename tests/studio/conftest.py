@@ -42,9 +42,9 @@ def visit(browser):
     """``visit(studio)``: a page that has opened it, and the window behind that page."""
     contexts = []
 
-    def go(served, width=900, height=620):
+    def go(served, width=900, height=620, **options):
         before = set(served.windows)
-        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True)
+        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **options)
         contexts.append(context)
         page = context.new_page()
         page.set_default_timeout(60_000)

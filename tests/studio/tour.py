@@ -80,7 +80,7 @@ def panda_rest(served, page, window, folder):
     window.ask("heal")
     window.ask("region")
     window.settle(240)
-    best = int(np.nanargmax(window._cloud.values))
+    best = int(np.nanargmax(window.cloud.values))
     window.ask("point", best)
     take(page, window, "Region", folder / "panda-region.png")
     served.stop()

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 import holdfast as hf
+from cards import check_card
 from holdfast.errors import HoldfastError, InputError, StoreError
 from holdfast.present.teleop.motions import ring
 from holdfast.teleop.analysis import analyse
@@ -78,6 +79,7 @@ def computer(rng):
 
 def test_cells_are_means_of_the_cpm_over_tasks(table, computer):
     a = analyse(table, computer)
+    check_card(a)
     mine = table.assign(cpm=cpm(table[NAMES].to_numpy()).values)
     np.testing.assert_allclose(a.observed.normalisers, table[NAMES].max())
     third = mine[mine["scenario"] == 3].groupby("task")["cpm"].median().sort_values()

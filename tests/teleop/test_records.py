@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import holdfast as hf
+from cards import check_card
 from holdfast.teleop.protocol.protocol import Training, read_protocol
 from holdfast.teleop.records.check import replay
 from holdfast.teleop.records.entries import Kind, State
@@ -97,6 +98,7 @@ def test_replay_gives_the_recorded_path(made):
     result = replay(made)
     assert len(result.entries) > 6 * 12
     np.testing.assert_array_equal(result.difference, 0.0)
+    check_card(result, False)
 
 
 def test_replay_finds_a_changed_record(records):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import holdfast as hf
-from holdfast.teleop.bank.selection import binning, can_be_steered, most_disorienting, select, trapped
+from cards import check_card
+from holdfast.teleop.bank.selection import binning, can_be_steered, choose_tasks, most_disorienting, select, trapped
 from holdfast.teleop.bank.tasks import random_tasks, task_bank
 from holdfast.teleop.trials.driving import Computer, Rules, drive
 from holdfast.teleop.trials.plant import Plant
@@ -67,6 +68,10 @@ def test_cells_cover_the_plane(bank):
         assert cells.difficulty[column] - 1e-12 <= bank.difficulty[k] <= cells.difficulty[column + 1] + 1e-12
         assert cells.ratio[row] - 1e-12 <= bank.ratio[k] <= cells.ratio[row + 1] + 1e-12
     assert 10 <= len(cells.occupied) <= 26
+
+
+def test_a_notebook_shows_the_bank(arm, bank):
+    check_card(choose_tasks(bank, arm, count=5, special=False))
 
 
 @pytest.mark.parametrize("count", [5, 22, 40])

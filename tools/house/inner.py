@@ -22,8 +22,9 @@ def sources(root: Path) -> Iterator[tuple[str, str]]:
     """Python of users: where it is, and the text; of a page each block."""
     paths = [root / "README.md", *(path for folder in FOLDERS for path in sorted((root / folder).rglob("*")))]
     for path in paths:
-        name = path.relative_to(root).as_posix()
-        if path.suffix not in (".py", ".md") or name in OLD or {"_build", "gallery"} & set(path.parts) or not path.exists():
+        inside = path.relative_to(root)  # the checkout itself may lie anywhere
+        name = inside.as_posix()
+        if path.suffix not in (".py", ".md") or name in OLD or {"_build", "gallery"} & set(inside.parts) or not path.exists():
             continue
         text = path.read_text(encoding="utf-8")
         blocks = [text] if path.suffix == ".py" else [_OPTION.sub("", found) for found in _BLOCK.findall(text)]

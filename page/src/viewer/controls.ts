@@ -58,7 +58,7 @@ export function controls(view: View): (k: number) => void {
     view.camera.reset();
     view.draw();
   });
-  const names = h("button", { type: "button", "aria-pressed": "true" }, "Names");
+  const names = h("button", { type: "button", "aria-pressed": "false" }, "Names");
   names.addEventListener("click", () => {
     view.names = !view.names;
     names.setAttribute("aria-pressed", String(view.names));

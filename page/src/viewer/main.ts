@@ -11,7 +11,11 @@ for (const box of document.querySelectorAll<Box>(".view3d")) {
   if (box.view3d || !canvas || !data) continue;
   const hint = box.querySelector<HTMLElement>(".view3d-hint");
   try {
-    box.view3d = new View(box, canvas, JSON.parse(data.textContent ?? "") as Scene);
+    const scene = JSON.parse(data.textContent ?? "") as Scene & { parts: unknown };
+    // Views of the same body share it.
+    const body = document.querySelector(`.view3d-body[data-key="${scene.parts}"] script`);
+    scene.parts = JSON.parse(body?.textContent ?? "") as Scene["parts"];
+    box.view3d = new View(box, canvas, scene);
     box.classList.add("view3d-live");
     if (hint) {
       hint.textContent = "Drag or use the arrow keys to turn, + and - or the wheel to zoom, 0 to reset; Shift and drag to move.";

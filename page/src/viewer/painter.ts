@@ -22,7 +22,7 @@ void main() {
   gl_Position = seen * world;
 }`;
 const SHADED = `
-precision mediump float;
+precision highp float;
 uniform vec3 color, eye, up, side;
 uniform float opacity;
 varying vec3 n, p;
@@ -50,7 +50,7 @@ void main() {
   gl_Position = a;
 }`;
 const FLAT = `
-precision mediump float;
+precision highp float;
 uniform vec3 color;
 uniform float opacity;
 void main() { gl_FragColor = vec4(color, 1.0) * opacity; }`;
@@ -61,7 +61,7 @@ uniform float width;
 varying vec3 c;
 void main() { c = paint; gl_Position = seen * vec4(place, 1.0); gl_PointSize = width; }`;
 const ROUND = `
-precision mediump float;
+precision highp float;
 varying vec3 c;
 void main() {
   float r = length(gl_PointCoord - 0.5);
@@ -167,6 +167,10 @@ export class Painter {
     gl.uniform1f(this.uniform("opacity"), opacity);
     const pose = this.uniform("pose");
     const color = this.uniform("color");
+    // Where a see-through body is at the place of a solid one, the solid one is seen.
+    if (opacity < 1) gl.enable(gl.POLYGON_OFFSET_FILL);
+    else gl.disable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 8);
     for (const painted of opacity < 1 ? [false, true] : [true]) {
       gl.colorMask(painted, painted, painted, painted);
       for (const body of bodies) {

@@ -54,6 +54,8 @@ export interface Scene extends Chain {
   arms: Arm[];
   /** For each joint the time from which it is locked; none if it is healthy. */
   locked: (number | null)[];
+  /** Joints, from 0, that swing freely. */
+  free: number[];
   time: number[];
   seconds: number;
   readings: string[];

@@ -32,7 +32,7 @@ const css = (color: Vector, opacity = 1): string => `rgba(${color.map((x) => Mat
 
 export class View {
   readonly camera: Camera;
-  names = true;
+  names: boolean | null = null;
   private at = 0; // frame of the motion, with its fraction
   private posed: number[] | null = null;
   private chosen = -1;
@@ -103,17 +103,25 @@ export class View {
   draw(): void {
     this.waiting ||= requestAnimationFrame(() => {
       this.waiting = 0;
-      if (this.visible) this.paint();
+      if (!this.visible) return;
+      try {
+        this.paint();
+      } catch {
+        this.box.classList.remove("view3d-live"); // the graphics card is gone: the drawing is there
+      }
     });
   }
 
   // ---- drawing -----------------------------------------------------------------------------------------------------
 
-  private locked(k: number): boolean {
-    const from = this.scene.locked[k];
-    if (from === null || from === undefined) return false;
-    const { time } = this.scene;
-    return !time.length || between(time.map((t) => [t]), this.at)[0] >= from - 1e-9;
+  /** What has happened to a joint; nothing has to a healthy one. */
+  private condition(k: number | undefined): "locked" | "free" | null {
+    const { free, locked, time } = this.scene;
+    if (k === undefined) return null;
+    if (free.includes(k)) return "free";
+    const from = locked[k];
+    if (from === null) return null;
+    return !time.length || between(time.map((t) => [t]), this.at)[0] >= from - 1e-9 ? "locked" : null;
   }
 
   private paint(): void {
@@ -123,10 +131,16 @@ export class View {
     const onto = canvas.getContext("2d");
     if (!width || !height || !onto) return;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+    if (this.names === null) {
+      // Several arms, or a phone, leave too little room; how wide it is a page knows only now.
+      this.names = scene.arms.length === 1 && canvas.clientWidth >= 520;
+      this.box.querySelector("[aria-pressed]")?.setAttribute("aria-pressed", String(this.names));
+    }
     onto.clearRect(0, 0, width, height);
     const text = getComputedStyle(this.box).color.match(/[\d.]+/g)?.map(Number) ?? [0, 0, 0];
     const dark = text[0] + text[1] + text[2] > 384;
     const paint = dark ? DARK : LIGHT;
+    const failed = { locked: paint.orange, free: paint.purple };
     const colors = [paint.ink, paint.green, paint.blue, paint.purple, paint.orange];
     const brush = painter();
     const matrix = camera.matrix(width / height);
@@ -137,11 +151,11 @@ export class View {
     const places = this.configurations().map((q) => frames(scene, q));
     const bodies = (k: number, marks: boolean): { shape: Triangles; pose: number[]; color: Vector }[] =>
       this.shapes
-        .filter(({ part }) => (marks ? part.mark && this.locked(part.joint as number) : !part.mark) && !(k && !part.frame))
+        .filter(({ part }) => (marks ? part.mark && this.condition(part.joint) : !part.mark) && !(k && !part.frame))
         .map(({ part, shape }) => {
-          const locked = part.joint !== undefined && this.locked(part.joint);
+          const condition = this.condition(part.joint);
           const own = part.color.map((x) => (dark ? 0.25 + (0.75 * x) / 255 : x / 255)) as Vector;
-          return { shape, pose: places[k][part.frame], color: locked ? paint.orange : k ? colors[k % colors.length] : own };
+          return { shape, pose: places[k][part.frame], color: condition ? failed[condition] : k ? colors[k % colors.length] : own };
         });
     const line = (points: Vector[], color: Vector, thick: number, opacity = 1): void =>
       brush.lines({ points, color, width: thick * ratio, opacity });
@@ -190,7 +204,7 @@ export class View {
         labels.push({ text: arm.label, at: middle, color: colors[k % colors.length], strong: true });
       });
     }
-    labels.push(...this.jointLabels(places[0], paint.ink, paint.orange));
+    labels.push(...this.jointLabels(places[0], paint.ink, failed));
     this.write(onto, labels, matrix, ratio, paint.paper);
     onto.font = `${12 * ratio}px Arial, Helvetica, "Liberation Sans", sans-serif`;
     onto.fillStyle = css(paint.soft);
@@ -199,19 +213,18 @@ export class View {
   }
 
   /** Names of joints; those at one place share a label. */
-  private jointLabels(poses: number[][], ink: Vector, orange: Vector): Label[] {
-    const out: (Label & { count: number })[] = [];
+  private jointLabels(poses: number[][], ink: Vector, failed: Record<"locked" | "free", Vector>): Label[] {
+    const out: Label[] = [];
     this.scene.joints.forEach((joint, k) => {
-      const locked = this.locked(k);
-      if (!this.names && !locked) return;
+      const condition = this.condition(k);
+      if (!this.names && !condition) return;
       const at = place(poses[k + 1]);
-      const text = locked ? `${joint.name} locked` : joint.name;
-      const near = out.find((l) => !l.strong && !locked && Math.hypot(...sum(l.at, at, -1)) < 0.01 * this.scene.size);
+      const text = condition ? `${joint.name} ${condition}` : joint.name;
+      const near = out.find((l) => !l.strong && !condition && Math.hypot(...sum(l.at, at, -1)) < 0.01 * this.scene.size);
       if (near) {
         near.text = `${near.text}, ${text}`;
-        near.count++;
       } else {
-        out.push({ text, at, color: locked ? orange : ink, strong: locked, count: 1 });
+        out.push({ text, at, color: condition ? failed[condition] : ink, strong: condition !== null });
       }
     });
     return out;
@@ -231,7 +244,7 @@ export class View {
       const letter = label.text.length < 2;
       onto.font = `${label.strong ? "bold " : ""}${tall}px Arial, Helvetica, "Liberation Sans", sans-serif`;
       const long = onto.measureText(label.text).width;
-      const gap = 11 * ratio;
+      const gap = 14 * ratio;
       const tries = letter
         ? [[p[0] - long / 2, p[1]]]
         : [

@@ -12,7 +12,7 @@ from holdfast.arm.model import Arm
 Array = NDArray[np.float64]
 
 _TRIED = 96
-_ENOUGH = 0.3  # of the best score among those tried: an earlier one that has it is taken
+_ENOUGH = 0.25  # of the best score among those tried: an earlier one that has it is taken
 _NEVER = 1e-9  # a joint without which less than this is left everywhere is a matter of structure
 
 
@@ -34,7 +34,7 @@ def generic_configuration(arm: Arm) -> Array:
     # Additive recurrence (Roberts 2018): points that fill a cube evenly, the same ones everywhere; first near, then far.
     root = float(np.max(np.real(np.roots([1.0, *[0.0] * (arm.n - 1), -1.0, -1.0]))))
     steps = 2 * ((0.5 + np.arange(1, _TRIED)[:, None] * root ** -np.arange(1.0, arm.n + 1)) % 1.0) - 1
-    far = np.linspace(0.1, 0.4, _TRIED - 1)[:, None]
+    far = np.linspace(0.04, 0.4, _TRIED - 1)[:, None]
     tried = np.clip(np.vstack([start, start + far * wide * steps]), *inside)
     score = _soundness(arm, tried)
     return np.asarray(tried[np.argmax(score >= _ENOUGH * score.max())])

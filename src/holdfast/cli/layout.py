@@ -45,6 +45,17 @@ class LaidOutGroup(TyperGroup):
         super().format_help(ctx, formatter)
 
 
+def panel(option: Any, command: Any) -> str | None:
+    """The panel of an option: by what it is about, where a command has many."""
+    many = sum(each.param_type_name == "option" for each in command.params) >= _FEW  # and --help
+    return _PANEL.get(option.opts[0]) if many else None
+
+
+def kind(option: Any) -> str:
+    """What an option takes, in capitals; nothing where it takes nothing."""
+    return str(option.metavar or _TYPES.get(option.bare_type(), "TEXT"))
+
+
 def _lay_out(command: Any, ctx: Any) -> None:
     parameters = command.get_params(ctx)
     options = [each for each in parameters if each.param_type_name == "option"]
@@ -52,8 +63,8 @@ def _lay_out(command: Any, ctx: Any) -> None:
         each.help = _literal(each.help or "")
         each.display_type_rich = lambda ctx: ""
     for each in options:
-        each.display_type_rich = lambda ctx, shown=each.metavar or _TYPES.get(each.bare_type(), "TEXT"): shown
-        each.rich_help_panel = _PANEL.get(each.opts[0]) if len(options) > _FEW else None
+        each.display_type_rich = lambda ctx, shown=kind(each): shown
+        each.rich_help_panel = panel(each, command)
     command.help = _literal(_flowing(command.help or ""))
 
 

@@ -248,7 +248,7 @@ class Law(Shown, Labelled, Steps):
             name: Of the function and the files. Default: the law's, ``failure_tolerant`` for example.
 
         Returns:
-            The paths, which may be unpacked: source, header, example and test.
+            The paths of source, header, example and test; they may be unpacked.
 
         Raises:
             InputError: A name that C does not take, or an arm that is close to singular everywhere.

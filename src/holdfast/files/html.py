@@ -19,7 +19,7 @@ class Html:
     """
 
     text: str
-    height: int = 600
+    height: int = 700
 
     def to_html(self) -> str:
         """The page as text."""

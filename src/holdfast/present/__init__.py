@@ -30,7 +30,7 @@ PRESENTERS = {
     "Path": ("paths.path", ""),
     "PhysicalRun": ("physics.console", "physics.run"),
     "Recovery": ("recovery.console", "recovery.motion"),
-    "Region": ("regions.region", ""),
+    "Region": ("regions.region", "regions.region"),
     "Runs": ("simulation.console", "simulation.run"),
     "SelfMotion": ("solvers.self_motions", "solvers.self_motions"),
     "StationaryPoints": ("equilibria.points", ""),

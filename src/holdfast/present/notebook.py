@@ -13,13 +13,12 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
-from holdfast.result import Result, Shown
-from holdfast.words import capitalised
+from holdfast.result import Shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_SENTENCES, _ROWS = 4, 12  # at most
+_SENTENCES, _ROWS, _LETTERS = 3, 12, 80  # at most; of a line of code
 _SHARPER = 1.5  # dots for each of the screen's
 _INCH = 96  # px
 
@@ -28,13 +27,13 @@ def card(thing: Shown) -> str:
     """It as HTML without scripts and styles of its own, for the end of a cell."""
     name = _called(thing)
     first, *others = thing._presented("sentences")
-    parts = [f"<p><strong>{escape(capitalised(first))}</strong></p>"]
-    parts += [f"<p>{escape(capitalised(line))}</p>" for line in others[: _SENTENCES - 1]]
+    parts = [f"<p><strong>{escape(first)}</strong></p>"]
+    parts += [f"<p>{escape(line)}</p>" for line in others[: _SENTENCES - 1]]
     parts.append(_table(thing._presented("key_table")))
-    if isinstance(thing, Result):
-        parts += [_picture(figure, f"{about}: {first}") for about, figure in thing._presented("main_figure").items()]
+    parts.append(thing._presented("picture", first))
     if steps := thing._presented("next_steps", name):
-        parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre>{escape(chr(10).join(steps))}</pre>')
+        code = escape("\n".join(map(_lines, steps)), quote=False)
+        parts.append(f'<p style="margin-bottom:0">What to ask next:</p><pre><code>{code}</code></pre>')
     return f'<div class="holdfast" style="max-width:60em">{"".join(parts)}</div>'
 
 
@@ -46,6 +45,12 @@ def _called(thing: Shown) -> str:
 def variables() -> list[tuple[str, Any]]:
     """Those of the notebook, with what they hold."""
     return [(name, value) for name, value in list(vars(sys.modules["__main__"]).items()) if not name.startswith("_")]
+
+
+def _lines(step: str) -> str:
+    """Code with what it is for, which comes before it where a line would be too long."""
+    code, _, about = step.partition("  # ")
+    return step if len(step) <= _LETTERS or not about else f"# {about}\n{code}"
 
 
 def _table(table: Rows) -> str:
@@ -66,9 +71,10 @@ def _cell(text: str) -> str:
     return escape(text).replace("\n", "<br>")
 
 
-def _picture(figure: Figure, about: str) -> str:
+def image(figure: Figure, about: str) -> str:
+    """The figure as an ``<img>`` as wide as its cell at most; ``about`` is for people who cannot see it."""
     data, size = png(figure)
-    look = f"width:{size['width']:.0f}px;max-width:100%;background:white"
+    look = f"width:{size['width']:.0f}px;max-width:100%;background:white;padding:.4em;box-sizing:border-box"
     return f'<img style="{look}" alt="{escape(about)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from holdfast.errors import InputError
 from holdfast.files.output import made
 from holdfast.notice import says
+from holdfast.present import presenter
 from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
 from holdfast.present.story import Story, how
 from holdfast.result import Result, Shown
@@ -156,10 +157,11 @@ def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi:
     """The figures as pictures, and the page."""
     from holdfast.report.figures import save_png
 
-    folder = made(folder)
-    drawn = result.figures()
+    folder, drawn = made(folder), result.figures()
     pictures = [save_png(figure, folder / f"{prefix}{name}.png", dpi) for name, figure in drawn.items()]
-    return [*pictures, write(result, folder / "report.html", command, drawn)]
+    page = folder / "report.html"
+    common = presenter([each.__name__ for each in type(result).__mro__], "write") is write
+    return [*pictures, write(result, page, command, drawn) if common else result.report(page, command=command)]
 
 
 def plot(result: Result, name: str = "", **options: Any) -> Figure:
@@ -187,14 +189,27 @@ def sentences(thing: Any) -> list[str]:
 
 
 def key_table(result: Result) -> Rows:
-    """The first of its tables."""
-    return next(iter(result._presented("tables")), Rows([], []))
+    """The first of its tables; of what has none the single numbers of its ``to_dict``."""
+    for table in result._presented("tables"):
+        return table  # type: ignore[no-any-return]
+    rows = [
+        [key.replace("_", " "), str(value)] for key, value in result.to_dict().items() if isinstance(value, (str, int, float))
+    ]
+    return Rows(["", ""], rows)
 
 
 def next_steps(result: Result, name: str) -> list[str]:
     """All that it says."""
     del result
     return [f"{name}.describe()"]
+
+
+def picture(thing: Shown, about: str) -> str:
+    """The main figure of a result as HTML, if it has one."""
+    from holdfast.present.notebook import image
+
+    drawn = thing._presented("main_figure") if isinstance(thing, Result) else {}
+    return "".join(image(figure, f"{name}: {about}") for name, figure in drawn.items())
 
 
 def in_notebook(thing: Shown) -> str:

@@ -150,10 +150,11 @@ def save_png(figure: Figure, path: str | Path, dpi: float = 100) -> Path:
         StoreError: The file cannot be written.
     """
     file = Path(path)
-    data = io.BytesIO()
+    data, before = io.BytesIO(), figure.dpi
     with style():
         figure.dpi = dpi  # and not savefig, which would draw it once more, for its layout
         FigureCanvasAgg(figure).print_png(data)  # type: ignore[no-untyped-call]
+        figure.dpi = before  # of what is rasterised if it is drawn as SVG next
     replaced(file, data.getvalue(), "picture")
     another("figure")
     return file

@@ -1,4 +1,4 @@
-"""Figures of motions over time: lines with levels to compare them to and moments picked out."""
+"""Figures of motions: a chain of links at its start and end; over time, lines with levels to compare them to."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ class Motion:
     Attributes:
         chain: (F, K, 3) corners of the chain, base first and tool last, m.
         square: (K,) corners drawn as squares.
-        marked: (K,) corners that are drawn filled at the end.
         path: (P, 3) where the tool was to be, m.
-        goal: (3,) a place marked by a ring, m.
+        marked: (K,) corners that are drawn filled at the end, or None.
+        goal: (3,) a place marked by a ring, m, or None.
     """
 
     chain: Array
     square: NDArray[np.bool_]
-    marked: NDArray[np.bool_]
     path: Array
-    goal: Array
+    marked: NDArray[np.bool_] | None = None
+    goal: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -84,13 +84,18 @@ def draw_panel(axes: Axes, panel: Panel, xlabel: str) -> None:
     axes.margins(y=0.12)
 
 
-def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str) -> Figure:
-    """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time."""
+def drawn_motion(
+    motion: Motion, views: Sequence[View], panel: Panel, caption: str, xlabel: str, *, wanted: str = "straight way"
+) -> Figure:
+    """A stick figure in projection, at its start (grey) and its end (black), beside one quantity over time.
+
+    The path of the motion, dashed, is what the tool was ``wanted`` to do.
+    """
     with style():
         figure = Figure(figsize=(WIDTH * (1.0 if len(views) == 1 else 1.4), 4.4))
         *left, right = figure.subplots(1, len(views) + 1)
         for axes, view in zip(left, views, strict=True):
-            _draw_view(axes, motion, view)
+            _draw_view(axes, motion, view, wanted)
         draw_panel(right, panel, xlabel)
         handles, labels = left[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=len(handles), columnspacing=2.0)
@@ -98,12 +103,12 @@ def drawn_motion(motion: Motion, views: Sequence[View], panel: Panel, caption: s
         return finished(figure)
 
 
-def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
+def _draw_view(axes: Axes, motion: Motion, view: View, wanted: str) -> None:
     def flat(points: Array) -> Array:
         return view.of(points).T
 
     last = len(motion.chain) - 1
-    marked = motion.marked
+    marked = np.zeros(len(motion.square), dtype=bool) if motion.marked is None else motion.marked
     for k, color, width, label in ((0, "#b9c0c7", 2.4, "at the start"), (last, INK, 2.6, "at the end")):
         chain = flat(motion.chain[k])
         axes.plot(*chain, color=color, linewidth=width, solid_joinstyle="round", label=label, zorder=2 if k else 1.5)
@@ -114,9 +119,10 @@ def _draw_view(axes: Axes, motion: Motion, view: View) -> None:
                 axes.plot(*chain[:, chosen], shape, color=filled, markeredgecolor=color, markersize=6, zorder=3 if k else 1.6)
         axes.plot(*chain[:, :1], "s", color=color, markersize=8, zorder=3)
     axes.plot(*flat(motion.chain[:, -1]), color=BLUE, linewidth=1.8, label="way of the tool", zorder=2.5)
-    axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label="straight way", zorder=2.4)
+    axes.plot(*flat(motion.path), color=ORANGE, linewidth=1.1, linestyle=(0, (4, 2)), label=wanted, zorder=2.4)
     axes.plot(*flat(motion.chain[last, -1:]), "D", color=ORANGE, markeredgecolor="white", markersize=7, zorder=3.2)
-    axes.plot(*flat(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3)
+    if motion.goal is not None:
+        axes.plot(*flat(motion.goal[None]), "o", fillstyle="none", color=ORANGE, markersize=12, label="target", zorder=3.3)
     if marked.any():
         axes.plot([], [], "o", color=ORANGE, markeredgecolor=INK, markersize=6, label="locked")
     axes.set_aspect("equal", adjustable="datalim")

@@ -90,10 +90,12 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure with what it shows."""
+    """A figure with what it shows; one for the screen alone is not printed."""
 
     image: Markup
     caption: Cell
+    _: KW_ONLY
+    screen: bool = False
     kind: ClassVar[str] = "picture"
 
 

@@ -7,10 +7,12 @@ and lies once in a page however many views there are. Without JavaScript, withou
 from __future__ import annotations
 
 import json
+import re
 from base64 import b64encode
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
+from hashlib import sha256
 from html import escape
 from importlib import resources
 from typing import Any
@@ -24,7 +26,8 @@ from holdfast.report.palette import BLUE, FAINT, ORANGE, SOFT
 Array = NDArray[np.float64]
 
 _HALF = np.tan(np.radians(14))  # of the angle of view, as in camera.ts
-_WIDE, _TALL = 640, 400  # pixels of the drawing
+_WIDE, _TALL = 560, 400  # pixels of the drawing
+_BODY = '<div class="view3d-body" data-key="{}" hidden><script type="application/json">{}</script></div>'
 
 
 @dataclass(frozen=True)
@@ -51,11 +54,14 @@ class Scene:
         what = escape(about, quote=True)
         labels = [arm["label"] for arm in self.data["arms"]]
         swatch = '<i style="background:{}"></i>{}'
-        colors = ["currentColor", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
+        colors = ["#8b96a1", "var(--view3d-green)", "var(--view3d-blue)", "var(--view3d-purple)", "var(--view3d-orange)"]
         legend = [swatch.format(colors[k % 5], escape(x)) for k, x in enumerate(labels)] if len(labels) > 1 else []
         marked = [j["name"] for j, t in zip(self.data["joints"], self.data["locked"], strict=True) if t is not None]
-        lines = [*self.notes, *([f"Locked: {', '.join(marked)}."] if marked else [])]
-        text = json.dumps(self.data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+        free = [self.data["joints"][k]["name"] for k in self.data["free"]]
+        lines = [*self.notes, *(f"{w}: {', '.join(x)}." for w, x in (("Locked", marked), ("Swinging freely", free)) if x)]
+        parts = _json(self.data["parts"])
+        key = sha256(parts.encode()).hexdigest()[:12]
+        text = _json({**self.data, "parts": key})
         return Markup(
             f'<div class="view3d" id="{escape(name, quote=True)}" role="group" aria-label="{what}">\n'
             f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas>'
@@ -63,8 +69,12 @@ class Scene:
             + (f'<p class="view3d-legend">{" ".join(f"<span>{x}</span>" for x in legend)}</p>\n' if legend else "")
             + "".join(f'<p class="view3d-note">{escape(line)}</p>\n' for line in lines)
             + '<p class="view3d-hint">Where JavaScript is on, this picture can be turned.</p>\n'
-            f'<script type="application/json">{text}</script>\n</div>'
+            f'<script type="application/json">{text}</script>\n{_BODY.format(key, parts)}\n</div>'
         )
+
+
+def _json(data: Any) -> str:
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
 
 
 @cache
@@ -73,10 +83,19 @@ def _part(name: str) -> str:
 
 
 def with_library(html: str) -> str:
-    """A page with the style and the script of the views in it, once; a page without views as it is."""
+    """A page with the style and the script of the views in it, and each body that they show, once; without views as it is."""
     if '<div class="view3d"' not in html:
         return html
-    styled = html.replace("</head>", f"<style>\n{_part('viewer.css')}</style>\n</head>", 1)
+    seen: set[str] = set()
+
+    def once(found: re.Match[str]) -> str:
+        if found[1] in seen:
+            return ""
+        seen.add(found[1])
+        return found[0]
+
+    bodies = re.sub(re.escape(_BODY).replace(r"\{\}", "(.*?)"), once, html)
+    styled = bodies.replace("</head>", f"<style>\n{_part('viewer.css')}</style>\n</head>", 1)
     before, _, after = styled.rpartition("</body>")
     return f"{before}<script>{_part('viewer.js').strip()}</script>\n</body>{after}"
 
@@ -177,6 +196,12 @@ def drawing(scene: Scene, about: str) -> str:
         text = " ".join(f"{x:.1f},{y:.1f}" for x, y in flat(points).reshape(-1, 2))
         return f'<polyline points="{text}" fill="none" stroke="{color}" stroke-width="{width}"{more}/>'
 
+    def word(text: str, point: ArrayLike) -> str:
+        x, y = flat(point)
+        x = np.clip(x, 3.6 * len(text), _WIDE - 3.6 * len(text))
+        look = 'font-size="13" text-anchor="middle" fill="var(--view3d-orange)"'
+        return f'<text x="{x:.1f}" y="{y - 12:.1f}" {look}>{escape(text)}</text>'
+
     out = [
         f'<svg viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(about, quote=True)}" '
         'stroke-linejoin="round" stroke-linecap="round">'
@@ -205,4 +230,11 @@ def drawing(scene: Scene, about: str) -> str:
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="{fill}" stroke="#fff" stroke-width="1.5"/>')
         x, y = flat(motion[-1][-1])
         out.append(f'<path d="M{x:.1f} {y - 7:.1f}l7 7l-7 7l-7 -7z" fill="{ORANGE}" stroke="#fff" stroke-width="1.5"/>')
+    tool = scene.frames[0, -1, -1, :3, 3]
+    for each in data["lost"]:
+        way = 0.26 * size * np.array(each["twist"][:3])
+        out += [line([tool - way, tool + way], ORANGE, 3), word(each["words"], tool + way)]
+    for k, joint in enumerate(data["joints"]):
+        if locked[k]:
+            out.append(word(f"{joint['name']} locked", scene.frames[0, -1, k + 1, :3, 3]))
     return "".join([*out, "</svg>"])

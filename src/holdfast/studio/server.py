@@ -13,11 +13,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.arm.model import Arm
+from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task
+from holdfast.arms.spec import default_task
 from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.present.arm.visuals import body_of
 from holdfast.studio.aside import Aside
+from holdfast.studio.page import upload
+from holdfast.studio.page.entrance import Entrance
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
 
@@ -41,27 +45,50 @@ class Studio:
     def __init__(self, server: Any, machine: Machine, state: State, *, parts: list[Part], note: str) -> None:
         from holdfast.studio.window import Window
 
-        self._server = server
+        self._server, self._window = server, Window
         self.host, self.port = server.get_host(), server.get_port()
         self.url = address(server)
         self.windows: dict[int, Window] = {}
         self.machine = machine
         self._aside = Aside(machine.arm, machine.task)
+        self._own: dict[int, Aside] = {}  # of windows with an arm of their own
         self._stopped = threading.Event()
 
         def come(client: Any) -> None:
-            window = self.windows[client.client_id] = Window(client, machine, self._aside, state, parts, note)
-            if client.client_id not in server.get_clients():  # gone before it was there
-                window.close()
-                self.windows.pop(client.client_id, None)
+            if _is_tall(client):
+                client.camera.position, client.camera.look_at = _camera(machine, np.array(state.q), tall=True)
+            upload.limit(client.gui, lambda text: self.windows[client.client_id].refuse(text))
+            self._open(client, machine, self._aside, state, parts, note)
 
         def go(client: Any) -> None:
-            window = self.windows.pop(client.client_id, None)
-            if window is not None:
-                window.close()
+            self._close(client.client_id)
 
         server.on_client_connect(come)
         server.on_client_disconnect(go)
+
+    def _open(self, client: Any, machine: Machine, aside: Aside, state: State, parts: list[Part], note: str) -> None:
+        self.windows[client.client_id] = self._window(client, machine, aside, state, parts=parts, note=note, load=self._load)
+        if client.client_id not in self._server.get_clients():  # gone before it was there
+            self._close(client.client_id)
+
+    def _close(self, number: int) -> None:
+        window, aside = self.windows.pop(number, None), self._own.pop(number, None)
+        if window is not None:
+            window.close()
+        if aside is not None:
+            aside.stop()
+
+    def _load(self, client: Any, name: str, content: bytes) -> None:
+        """Open the arm of a file that was sent, in place of a client's window; what is wrong with it is raised before that."""
+        machine, state, parts, note = upload.read_machine(name, content)
+        q = np.array(state.q)
+        machine.read(q, (), state.index, state.susceptibility)  # nothing is given up for an arm that cannot be shown
+        self._close(client.client_id)
+        client.gui.reset()
+        client.scene.reset()
+        client.camera.position, client.camera.look_at = _camera(machine, q, _is_tall(client))
+        aside = self._own[client.client_id] = Aside(machine.arm, machine.task)
+        self._open(client, machine, aside, state, parts, note)
 
     def wait(self) -> None:
         """Until :meth:`stop` is called, or the program is interrupted."""
@@ -69,9 +96,8 @@ class Studio:
 
     def stop(self) -> None:
         """Close all windows and the server."""
-        for window in list(self.windows.values()):
-            window.close()
-        self.windows.clear()
+        for number in list(self.windows):
+            self._close(number)
         self._aside.stop()
         with redirect_stdout(io.StringIO()):
             self._server.stop()
@@ -99,7 +125,7 @@ def serve(
 
     Args:
         arm: The arm.
-        state: What is shown at first; all joints healthy in the middle of their range if not given.
+        state: What is shown at first; all joints healthy, in a generic configuration, if not given.
         host: The address to listen on. Who can reach it can read the motions and results that the page opens: other than
             the loopback address only in a network where all are trusted.
         port: The port; 0: any that is free.
@@ -114,7 +140,8 @@ def serve(
     if find_spec("viser") is None:
         raise HoldfastError("the studio needs viser; install it with: pip install 'holdfast[view]'")
     if state is None:
-        state = State(arm.name, arm.joint_names, tuple(middle(arm)), task="pose")
+        q = tuple(float(x) for x in generic_configuration(arm))
+        state = State(arm.name, arm.joint_names, q, task=default_task(arm.name, arm))
     machine = Machine(arm, task or as_task(arm, state.task))
     free = free_port(host, port)
     # Before anybody can come: a page that is open already keeps the view that it began with.
@@ -145,7 +172,7 @@ def _private_server(viser: Any, host: str, port: int) -> Any:
         def request_share_url(self, verbose: bool = True) -> None:
             del verbose
 
-    with redirect_stdout(io.StringIO()):  # it prints a box with the address, whatever it is told
+    with Entrance(host).before(), redirect_stdout(io.StringIO()):  # it prints a box with the address, whatever it is told
         return Private(host=host, port=port, label="holdfast", verbose=False)
 
 
@@ -170,24 +197,27 @@ def free_port(host: str, port: int) -> int:
         return int(probe.getsockname()[1])
 
 
-def middle(arm: Arm) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """A configuration (n,) between the limits, joints a little apart from special places."""
-    low, high = (np.where(np.isfinite(x), x, s * 1.0) for x, s in ((arm.lower, -1), (arm.upper, 1)))
-    share = 0.5 + 0.13 * np.sin(1.0 + 2.0 * np.arange(arm.n))
-    return np.asarray(low + share * (high - low))
+def _is_tall(client: Any) -> bool:
+    """Whether a client's picture is higher than it is wide, as on a phone: there the controls cover its lower half."""
+    return bool(client.camera.image_height > client.camera.image_width)
 
 
-def _camera(machine: Machine, q: Any) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _camera(machine: Machine, q: Any, tall: bool = False) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """The first view of a window: from where, and at what."""
     places = machine.arm.frames(q)[:, :3, 3]
     centre = 0.5 * (places.min(axis=0) + places.max(axis=0))
     flat = machine.task.rows[:, :3]
     up = len(machine.task.rows) <= 3 and float(np.abs(flat[:, 2]).max()) < 1e-9 and not machine.task.rows[:, 3:5].any()
     way = np.array([0.0, -0.5, 1.4]) if up else np.array([0.95, -0.8, 0.45])
-    # The controls cover the right side.
+    out = places[-1, :2] - places[0, :2]
+    if not up and np.linalg.norm(out) > 0.1 * machine.size:  # more from the side than from the front
+        ahead = out / np.linalg.norm(out)
+        way[:2] = 0.6 * ahead + 1.1 * np.array([ahead[1], -ahead[0]])
+    # The controls cover the right side, or the lower half.
     beside = np.cross(-way, [0.0, 0.0, 1.0])
-    centre = centre + 0.22 * machine.size * beside / np.linalg.norm(beside)
-    eye = centre + 0.85 * machine.size * way
+    away = np.cross(beside, way) if tall else beside
+    centre = centre + (0.45 if tall else 0.22) * machine.size * away / np.linalg.norm(away)
+    eye = centre + (1.5 if tall else 0.85) * machine.size * way
     return tuple(eye.tolist()), tuple(centre.tolist())
 
 

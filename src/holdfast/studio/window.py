@@ -12,55 +12,52 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.poses import pose_numbers, pose_of
-from holdfast.errors import HoldfastError
+from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.studio.aside import Aside
 from holdfast.studio.compute import Extremes
 from holdfast.studio.motions import Motion, read_motion
-from holdfast.studio.panel import Panel
+from holdfast.studio.page import upload
 from holdfast.studio.saving import Saver
 from holdfast.studio.scene.cloud import Cloud
-from holdfast.studio.scene.machine import SLIDE, TOLERANCE, Machine, sentence
-from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE, Stage
+from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.stage import GREEN, ORANGE, PURPLE
+from holdfast.studio.sliding import Sliding
 from holdfast.studio.state import State
-from holdfast.studio.work import Clock, Latest, Worker
+from holdfast.studio.view import View
+from holdfast.studio.work import Worker
 
 Array = NDArray[np.float64]
 Check = Callable[[], None]
+Load = Callable[[Any, str, bytes], None]
 
-TICK = 1 / 30  # s between two pictures of what moves by itself
 OF_HERE = ("best-worst", "laws", "swing")  # what is of where the arm is, and of what has failed
 ROUNDING = 1e-9  # of an index: below it a number says nothing
-SPEED = 0.8  # rad/s along a self-motion at the end of its slider
 
 
-class Window:
+class Window(View):
     """One client of the studio, with an arm of its own.
 
     All changes of the state happen on one thread (``live``), in the order in which people ask, the newest of a kind only; what
     takes long is done beside it (``work``), where a newer request cancels the older one, and comes back as a change.
+
+    Args:
+        client: Of viser.
+        machine: The arm.
+        aside: The process for what takes long.
+        state: What is shown at first.
+        parts: What the arm is made of.
+        note: A sentence for people about these parts.
+        load: ``load(client, name, content)`` opens a file of another arm in place of this window, or raises and leaves it.
     """
 
-    def __init__(self, client: Any, machine: Machine, aside: Aside, state: State, parts: list[Part], note: str = "") -> None:
-        self.client, self.machine, self.state = client, machine, state
-        self._aside = aside
-        self._start = state
-        self.updates = 0  # pictures sent
-        self._held: str | int | None = None  # what a person holds: the end effector, or a slider
-        self._motions: list[Motion] = []
-        self._ghosts: list[Array] = []
-        self._cloud: Cloud | None = None
-        self._along = np.zeros(machine.arm.n)
-        self._way, self._rate = 0, 0.0
-        self._playing = False
-        self._closed = False
-        self.live = Latest(self._complain)
-        self._clock = Clock(self.live, TICK)
+    def __init__(
+        self, client: Any, machine: Machine, aside: Aside, state: State, *, parts: list[Part], note: str, load: Load
+    ) -> None:
+        super().__init__(client, machine, state, parts, self.ask)
+        self._aside, self._load = aside, load
         self.work = Worker(self._complain)
-        with client.atomic():
-            self.stage = Stage(client.scene, machine, parts)
-            self.stage.move(machine.arm.frames(self.q), gizmo=True)
-            self.panel = Panel(client.gui, machine, state, self.ask)
+        self._sliding = Sliding(machine, self.panel, self._clock, where=lambda: (self.q, self.state.failed), place=self._place)
         self._saver = Saver(client, machine, self.stage, self._saved, self._complain)
         for k, handles in self.stage.figure.joints.items():
             for handle in handles:
@@ -70,11 +67,6 @@ class Window:
         if note:
             self.panel.say(note)
         self.live.put("begin", self._begin)
-
-    @property
-    def q(self) -> Array:
-        """(n,) where the arm is, rad and m."""
-        return np.array(self.state.q)
 
     def close(self) -> None:
         """Stop all work for this window."""
@@ -127,8 +119,7 @@ class Window:
 
     def _begin(self) -> None:
         for k, condition in enumerate(self.state.conditions):
-            self.stage.figure.paint(k, condition)
-        self.panel.disable(self.state.conditions)
+            self.stage.paint(k, condition)
         if self.state.target is not None:
             self._show_target()
         self._refresh()
@@ -148,14 +139,14 @@ class Window:
             return
         q, joint = self.q, self.machine.arm.joints[k]
         q[k] = min(max(x, joint.lower), joint.upper)  # the ends of a slider are rounded
-        self._held = k
+        self.held = k
         self._leave(q)
         self._place(q)
-        self._held = None
+        self.held = None
 
     def _on_hand(self, value: tuple[str, Array, Array]) -> None:
         phase, position, quaternion = value
-        self._held = None if phase == "end" else "hand"
+        self.held = None if phase == "end" else "hand"
         q, on = self.machine.reach(self.q, pose_of(position, quaternion), self.state.failed)
         locked = f" with {self._failed_names()} locked" if self.state.failed else ""
         self._leave(q)
@@ -166,44 +157,14 @@ class Window:
             self.panel.say(f"Out of reach{locked}: the arm is as near as it gets from here.", bad=True)
 
     def _on_slide(self, value: float) -> None:
-        self._rate = float(value)
-        if self._rate == 0.0:
-            return
-        if self._playing:
-            self._on_play(None)
-        if self.state.show != "best-worst":  # of the pose, which stays
-            self._leave()
-        self._clock.start(self._slide_on)
+        if value:
+            self.player.pause()
+            if self.state.show != "best-worst":  # of the pose, which stays
+                self._leave()
+        self._sliding.start(float(value))
 
     def _on_way(self, value: int) -> None:
-        self._way, self._along = value, np.zeros(self.machine.arm.n)
-
-    def _slide_on(self) -> None:
-        if self._rate == 0.0:
-            self._clock.stop()
-            return
-        ways = self.machine.self_motions(self.q, self.state.failed)
-        if not len(ways):
-            self._clock.stop()
-            self.panel.slide.value = self._rate = 0.0
-            self.panel.say("There is no self-motion here: every joint that is left is needed to hold the tool.", bad=True)
-            return
-        if not np.any(self._along):
-            self._along = ways[min(self._way, len(ways) - 1)]
-            # Always the same way at the same place: the largest part counts up.
-            self._along = self._along * np.sign(self._along[int(np.abs(self._along).argmax())])
-        length = min(abs(self._rate) * SPEED * TICK, SLIDE)
-        sign = np.sign(self._rate)
-        q, direction = self.machine.slide(self.q, sign * length * self._along, self.state.failed)
-        if not np.any(direction):
-            self._clock.stop()
-            self.panel.slide.value = self._rate = 0.0
-            self._along = np.zeros(self.machine.arm.n)
-            self.panel.say("The self-motion ends here, at a joint limit.", bad=True)
-            return
-        self._along = sign * direction
-        self.panel.say("Sliding along the self-motion: the end effector is still.")
-        self._place(q)
+        self._sliding.turn(value)
 
     def _on_home(self, _: Any) -> None:
         self._leave(np.array(self._start.q))
@@ -213,17 +174,17 @@ class Window:
         """Give up what was found for where the arm is, before it goes to q or changes: ghosts of elsewhere only mislead."""
         if self.state.show not in OF_HERE or (q is not None and np.array_equal(q, self.q)):
             return
-        self.work.cancel()
-        if self._ghosts:
+        self._cancel()
+        if self.player.ghosts:
             self.panel.say("The ghosts were for the previous configuration; ask again for this one.")
-        self._drop_ghosts()
+        self.player.clear()
         self.state = replace(self.state, show="arm", time=0.0)
 
     def _take(self, k: int) -> None:
-        if k >= len(self._ghosts):
+        if k >= len(self.player.ghosts):
             self.panel.say("There is no such ghost arm; find best and worst, or move under two laws, first.", bad=True)
             return
-        self._place(self._ghosts[k])
+        self._place(self.player.ghosts[k])
 
     # ---- failing ---------------------------------------------------------------------------------------------------
 
@@ -240,10 +201,10 @@ class Window:
         if conditions != self.state.conditions:
             self._leave()
         self.state = replace(self.state, conditions=conditions)
-        self._along = np.zeros(self.machine.arm.n)
+        self._sliding.turn()
         for k, condition in enumerate(conditions):
-            self.stage.figure.paint(k, condition)
-        self.panel.disable(conditions)
+            self.stage.paint(k, condition)
+        self.panel.fail(conditions)
         named = self._failed_names()
         self.panel.say(f"{named} failed." if named else "All joints are healthy.")
         self._refresh()
@@ -255,9 +216,11 @@ class Window:
 
     def _start_work(self, text: str, job: str, show: Callable[[Any], None]) -> None:
         """Do a job beside the page; what it finds is shown by the live thread, unless something newer was asked for."""
-        self._drop_ghosts()
+        self.player.clear()
         self.panel.say(f"{text} ...")
+        self._busy = True
         self.state = state = replace(self.state, show=job)  # type: ignore[arg-type]
+        self._refresh()
 
         def run(check: Check) -> None:
             def progress(done: int, total: int) -> None:
@@ -266,9 +229,17 @@ class Window:
 
             found = self._aside.run(job, state, check, progress)
             check()
-            self.live.put("result", lambda: show(found))
+            self.live.put("result", lambda: finish(found))
+
+        def finish(found: Any) -> None:
+            self._busy = False
+            show(found)
 
         self.work.ask(run)
+
+    def _cancel(self) -> None:
+        self.work.cancel()
+        self._busy = False
 
     def _on_best_worst(self, _: Any) -> None:
         name = self.state.objective
@@ -276,19 +247,11 @@ class Window:
         def show(found: Extremes) -> None:
             best, worst, here = ("0" if abs(x) < ROUNDING else f"{x:.4g}" for x in found.values)
             words = [f"best: {best}", f"worst: {worst}"]
-            self._haunt(
-                list(found.q), words, f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here."
-            )
+            self.player.place(list(found.q), words)
+            self.panel.say(f"{name} of this pose: {best} at best (green), {worst} at worst (orange), {here} here.")
+            self._refresh()
 
         self._start_work("Looking for the best and the worst configuration of this pose", "best-worst", show)
-
-    def _haunt(self, configurations: list[Array], labels: list[str], text: str) -> None:
-        self._drop_motions()
-        self._ghosts = configurations
-        self.stage.haunt(labels)
-        self.stage.move_ghosts([self.machine.arm.frames(q) for q in configurations])
-        self.panel.say(text)
-        self._refresh()
 
     def _on_laws(self, value: tuple[str, str] | None) -> None:
         if value is not None:  # another law was chosen
@@ -309,22 +272,34 @@ class Window:
 
         self._start_work("Simulating the motion under both laws", "laws", show)
 
-    def _arrived(self) -> bool:
-        """The end effector is where the target says, as far as the task looks."""
-        target = self.state.target
-        return target is not None and self.machine.apart(self.q, pose_of(target[:3], target[3:])) < TOLERANCE
-
     def _on_swing(self, _: Any) -> None:
         self._start_work(
             "Simulating the free swing", "swing", lambda found: self._show_motions(found, (PURPLE,), found[0].label)
         )
 
     def _on_file(self, _: Any) -> None:
-        path = self.panel.file.value.strip().strip("'\"")
-        motion = read_motion(self.machine.arm, path)
-        self._drop_ghosts()
-        self.state = replace(self.state, file=path, show="file")
-        self.work.cancel()
+        if self._start.file is not None:  # as the command line has named it: no path comes from the page
+            self._open_motion(read_motion(self.machine.arm, self._start.file), self._start.file)
+
+    def _on_open(self, value: tuple[str, bytes]) -> None:
+        name, content = value
+        if upload.kind(name) == "motion":
+            self._open_motion(upload.read_sent_motion(self.machine.arm, name, content), upload.tidy(name))
+            return
+        self.panel.say(f"Opening {upload.tidy(name)} ...")
+
+        def load(_: Check) -> None:
+            try:
+                self._load(self.client, name, content)
+            except HoldfastError as error:
+                raise InputError(f"nothing was opened, and nothing has changed: {error}") from error
+
+        self.work.ask(load)
+
+    def _open_motion(self, motion: Motion, file: str) -> None:
+        self._cancel()
+        self.player.clear()
+        self.state = replace(self.state, file=file, show="file", time=self.state.time if file == self._start.file else 0.0)
         self._show_motions([motion], (), f"{motion.label}: {len(motion.time)} rows")
 
     def _on_region(self, _: Any) -> None:
@@ -332,32 +307,33 @@ class Window:
         self._start_work("Assessing a region around the end effector", "region", self._show_cloud)
 
     def _on_results(self, _: Any) -> None:
-        self.state = replace(self.state, region=self.panel.folder.value.strip().strip("'\""))
-        self._start_work("Reading the results", "region", self._show_cloud)
+        if self._start.region is not None:  # as the command line has named it: no path comes from the page
+            self.state = replace(self.state, region=self._start.region)
+            self._start_work("Reading the results", "region", self._show_cloud)
 
     def _show_cloud(self, cloud: Cloud) -> None:
-        self._cloud = cloud
+        self.cloud = cloud
         self.stage.draw_cloud(cloud, lambda k: self.ask("point", k))
         self.panel.say(f"{cloud.label}. Click a point.")
         self._refresh()
 
     def _on_point(self, k: int) -> None:
-        if self._cloud is None or not 0 <= k < len(self._cloud.q):
+        if self.cloud is None or not 0 <= k < len(self.cloud.q):
             return
-        self.stage.mark_point(self._cloud.points[k])
-        if not np.isfinite(self._cloud.q[k]).all():
+        self.stage.mark_point(self.cloud.points[k])
+        if not np.isfinite(self.cloud.q[k]).all():
             self.panel.say("No configuration of this pose was found.", bad=True)
             return
-        self._leave(self._cloud.q[k])
-        self.panel.say(f"Configuration of point {k + 1}: index {self._cloud.values[k]:.4g}.")
-        self._place(self._cloud.q[k])
+        self._leave(self.cloud.q[k])
+        self.panel.say(f"Configuration of point {k + 1}: index {self.cloud.values[k]:.4g}.")
+        self._place(self.cloud.q[k])
 
     def _on_clear(self, _: Any) -> None:
-        self.work.cancel()
-        self._drop_ghosts()
+        self._cancel()
+        self.player.clear()
         self.stage.draw_cloud(None, lambda _: None)
         self.stage.target.visible = False
-        self._cloud = None
+        self.cloud = None
         self.state = replace(self.state, show="arm", target=None, file=None, region=None, time=0.0)
         self.panel.say("Cleared.")
         self._refresh()
@@ -366,16 +342,10 @@ class Window:
 
     def _on_target(self, _: Any) -> None:
         if self.state.target is None:
-            hand = self.machine.hand(self.q)
-            self.state = replace(self.state, target=pose_numbers(hand))
+            self.state = replace(self.state, target=pose_numbers(self.machine.hand(self.machine.beside(self.q))))
         self._show_target()
+        self.panel.say("Drag the second handle to where the end effector should go, or take it as it is.")
         self._refresh()
-
-    def _show_target(self) -> None:
-        numbers = self.state.target or ()
-        self.stage.target.position = numbers[:3]
-        self.stage.target.wxyz = (numbers[6], *numbers[3:6])
-        self.stage.target.visible = True
 
     def _on_goal(self, value: tuple[str, Array, Array]) -> None:
         phase, position, quaternion = value
@@ -385,71 +355,33 @@ class Window:
             self._on_laws(None)
 
     def _show_motions(self, motions: list[Motion], colors: tuple[Any, ...], text: str) -> None:
-        self._drop_motions()
-        self._motions = motions
-        self.stage.haunt([m.label.partition(":")[0] for m in motions] if colors else [], colors)
-        end = max(float(m.time[-1]) for m in motions)
-        begin = min(self.state.time, end) if self.state.time > 0 else 0.0
-        self.panel.time_range(end, begin, f"time, {motions[0].unit}" if motions[0].unit != "rad" else "travel, rad")
         self.panel.say(text)
-        self._seek(begin)
-        # What was asked for moves at once; a view that a command line brought back stays where it was.
-        if colors and end > 0 and not begin:
-            self._on_play(None)
-
-    def _drop_ghosts(self) -> None:
-        """Take ghosts and motions away."""
-        self._drop_motions()
-        self.stage.lay()
-        self._ghosts = []
-
-    def _drop_motions(self) -> None:
-        self._clock.stop()
-        self._playing = False
-        self.panel.play.label = "Play"
-        self._motions = []
-        self.panel.time_range(0.0, 0.0, "")
+        self.player.show(motions, colors, self.state.time)
 
     def _on_time(self, value: float) -> None:
-        if self._playing:
-            self._on_play(None)  # who takes the slider stops what plays
-        self._seek(value)
-
-    def _seek(self, value: float) -> None:
-        if not self._motions:
-            return
-        self.state = replace(self.state, time=float(value))
-        if abs(self.panel.time.value - value) > self.panel.time.step:
-            self.panel.time.value = self.state.time
-        shown = [m.at(value) for m in self._motions]
-        if self.stage.ghosts:
-            self._ghosts = shown
-            with self.client.atomic():
-                self.stage.move_ghosts([self.machine.arm.frames(q) for q in shown])
-            self._refresh()
-        else:
-            self._place(shown[0])
+        self.player.pause()  # who takes the slider stops what plays
+        self.player.seek(value)
 
     def _on_play(self, _: Any) -> None:
-        if self._playing or not self._motions:
-            self._playing = False
-            self._clock.stop()
-            self.panel.play.label = "Play"
-            return
-        self._playing, self.panel.play.label = True, "Stop"
-        end = max(float(m.time[-1]) for m in self._motions)
-        if self.state.time >= end * (1 - 1e-9):
-            self.state = replace(self.state, time=0.0)
-        # What takes longer than ten seconds is played in ten; a swing in real time shows best.
-        pace = max(end / 10.0, 1.0) if self._motions[0].unit == "s" else end / 10.0
+        self.player.play()
 
-        def on() -> None:
-            now = self.state.time + TICK * pace
-            self._seek(min(now, end))
-            if now >= end:
-                self._on_play(None)
+    # ---- the tour --------------------------------------------------------------------------------------------------
 
-        self._clock.start(on)
+    def _on_tour(self, _: Any) -> None:
+        self._on_clear(None)
+        self._on_heal(None)
+        self.panel.index.value = "relative-manipulability"
+        self._do("index", "relative-manipulability")
+        if self._reading is not None:
+            self._guide.begin(self._reading)
+        self._refresh()
+
+    def _on_next(self, _: Any) -> None:
+        self._guide.next()
+        self._refresh()
+
+    def _on_skip(self, _: Any) -> None:
+        self._guide.end()
 
     # ---- showing ---------------------------------------------------------------------------------------------------
 
@@ -457,36 +389,11 @@ class Window:
         self._saver.png()
 
     def _on_svg(self, _: Any) -> None:
-        self._saver.svg(self.state, list(self._ghosts))
+        self._saver.svg(self.state, list(self.player.ghosts))
+
+    def _on_labels(self, value: bool) -> None:
+        self.stage.show_labels(value)
 
     def _on_losses(self, value: bool) -> None:
         self.stage.show_losses(value)
         self._refresh()
-
-    def _place(self, q: Array) -> None:
-        self.state = replace(self.state, q=tuple(float(x) for x in q))
-        self._refresh()
-
-    def _refresh(self) -> None:
-        """Show the state: the arm at once, and what a failure takes."""
-        q, state = self.q, self.state
-        frames = self.machine.arm.frames(q)
-        with self.client.atomic():
-            self.stage.move(frames, gizmo=self._held != "hand")
-            self.panel.follow(q, self._held if isinstance(self._held, int) else None)
-        reading = self.machine.read(q, state.failed, state.index, state.susceptibility)
-        with self.client.atomic():
-            self.stage.read(reading, frames[-1])
-            self.panel.read(reading, state)
-        self.updates += 1
-
-    def _saved(self, text: str) -> None:
-        self.live.put("saved", lambda: self.panel.say(text))
-
-    def _complain(self, error: BaseException) -> None:
-        if not self._closed:
-            if not isinstance(error, HoldfastError):
-                import traceback
-
-                traceback.print_exception(error)
-            self.panel.say(sentence(error), bad=True)

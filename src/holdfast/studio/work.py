@@ -8,6 +8,7 @@ from typing import Any
 
 Task = Callable[[], None]
 Complain = Callable[[BaseException], None]
+TICK = 1 / 30  # s between two pictures of what moves by itself
 
 
 class Cancelled(Exception):

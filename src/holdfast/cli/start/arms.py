@@ -2,8 +2,24 @@
 
 from __future__ import annotations
 
-from holdfast.cli.options import ArmArgument, BaseOption, HoldOption, JsonOption, TipOption, read_arm
-from holdfast.present.printing import console, plain, print_json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from holdfast.cli.options import (
+    ArmArgument,
+    BaseOption,
+    DegreesOption,
+    HoldOption,
+    JsonOption,
+    TipOption,
+    read_arm,
+    read_configuration,
+    read_joint,
+)
+from holdfast.errors import InputError
+from holdfast.present.printing import console, plain, print_json, print_written
 
 
 def command(json_: JsonOption = False) -> None:
@@ -20,16 +36,39 @@ def command(json_: JsonOption = False) -> None:
 
 
 def describe(
-    arm: ArmArgument, base: BaseOption = None, tip: TipOption = None, hold: HoldOption = None, json_: JsonOption = False
+    arm: ArmArgument,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    hold: HoldOption = None,
+    view: Annotated[
+        Path | None, typer.Option("--view", help="Write a page with the arm in 3-D, its joints on sliders.", show_default=False)
+    ] = None,
+    q: Annotated[
+        str | None,
+        typer.Option("--q", help="With --view: joint values, rad and m. Default: nothing special.", show_default=False),
+    ] = None,
+    degrees: DegreesOption = False,
+    lock: Annotated[
+        list[str] | None,
+        typer.Option("--lock", help="With --view: a joint that is locked. May be given again.", show_default=False),
+    ] = None,
+    json_: JsonOption = False,
 ) -> None:
     """Show an arm, problems in its data, and which joints are single points of failure by structure.
 
-    Example: holdfast describe pa10-7dof
+    Example: holdfast describe panda --view panda.html --lock 4
     """
     from holdfast.present.arm.console import show, to_dict
 
     model = read_arm(arm, base, tip, hold)
+    written = None
+    if view is not None:
+        start = None if q is None else read_configuration(model, q, degrees)
+        written = model.show(start, locked=[read_joint(model, name) for name in lock or []]).save(view)
+    elif q is not None or lock:
+        raise InputError("--q and --lock are of the arm in the page that --view writes; give it too")
     if json_:
-        print_json(plain(to_dict(model)))
+        print_json(plain(to_dict(model) | ({} if written is None else {"files": [str(written)]})))
     else:
         show(model, console())
+        print_written(console(), [written])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 import typer
 
 from holdfast.cli.options import (
@@ -38,7 +37,8 @@ def command(
         str, typer.Option("--host", help="Address to listen on. Let other machines in only among people you trust.")
     ] = "127.0.0.1",
     q: Annotated[
-        str | None, typer.Option("--q", help="Joint values, rad and m. Default: the arm's home.", show_default=False)
+        str | None,
+        typer.Option("--q", help="Joint values, rad and m. Default: near home, in no special place.", show_default=False),
     ] = None,
     degrees: Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")] = False,
     task: TaskOption = None,
@@ -92,11 +92,11 @@ def command(
     """
     from pathlib import Path
 
-    from holdfast import arms
     from holdfast.arm.poses import pose_numbers
+    from holdfast.arm.postures import generic_configuration
     from holdfast.arm.task import as_task, target_pose
     from holdfast.cli.laws import read_law
-    from holdfast.studio.server import middle, serve
+    from holdfast.studio.server import serve
     from holdfast.studio.state import SHOWS, State
 
     model = read_arm(arm, base, tip, hold)
@@ -110,10 +110,7 @@ def command(
     (INDICES if name in INDICES else SUSCEPTIBILITIES).read(objective, "--objective")
     if show is not None and show not in SHOWS:
         raise InputError(f"--show '{show}' is not known; use one of {', '.join(SHOWS)}")
-    if q is not None:
-        start = read_configuration(model, q, degrees)
-    else:
-        start = np.array(arms.about(arm).home) if arm in arms.names() else middle(model)
+    start = generic_configuration(model) if q is None else read_configuration(model, q, degrees)
     laws = law or ["pseudoinverse", "failure-tolerant"]
     if len(laws) != 2:
         raise InputError(f"--law is given {len(laws)} times; the studio shows two laws side by side, so give it twice")

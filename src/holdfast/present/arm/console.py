@@ -66,12 +66,14 @@ def key_table(arm: Arm) -> Rows:
 
 
 def next_steps(arm: Arm, name: str) -> list[str]:
-    """How it tolerates failures of the largest task for which it is redundant."""
+    """What it looks like, and how it tolerates failures of the largest task for which it is redundant."""
     task = redundant_task(arm)
+    seen = f"{name}.show()  # a view to turn, with a slider for each joint"
     if task is None:
-        return [f"{name}.forward_kinematics({[0.0] * arm.n})  # not redundant for any task of its kind"]
+        return [seen]
     return [
-        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves, configuration by configuration",
+        seen,
+        f"hf.indices.relative_manipulability({name}, {task!r})  # what a lock leaves",
         f"hf.assess({name}, task={task!r}, poses=200)  # and over a region about its home",
     ]
 

@@ -37,6 +37,7 @@ def scene(
     *,
     labels: Sequence[str] = (),
     locked: Sequence[str | int] | Mapping[Any, float] = (),
+    free: Sequence[str | int] = (),
     task: str | Task | None = None,
     lost: bool = True,
     targets: Sequence[ArrayLike] = (),
@@ -57,6 +58,7 @@ def scene(
             (A, F, n) several. :func:`holdfast.arm.generic_configuration` if not given.
         labels: (A,) what each of several is.
         locked: Joints, by name or index from 0, that are marked as locked; in a motion also ``{joint: s from which}``.
+        free: Joints that are marked as swinging freely.
         task: Rows of the pose in which directions are lost; the arm's own if not given.
         lost: Mark the directions in which the locked joints take speed from the first arm, where nothing moves.
         targets: Poses (4, 4) or points (3,) that are marked, m.
@@ -93,10 +95,14 @@ def scene(
     if len(paints) != len(places):
         raise InputError(f"colors are {len(paints)} and points {len(places)}; give as many")
     size = stretched(arm)
-    parts, notes = _parts(arm, size, meshes)
-    seen = [frames[..., :3, 3].reshape(-1, 3), path_, places, *(pose[None, :3, 3] for pose in poses), *boxes]
+    body, note = body_of(arm, size) if meshes else (stick_parts(arm, size), "")
+    parts, notes = _parts(arm, size, body)
+    notes += [note[:1].upper() + note[1:] + "."] if note else []
     up = _up(arm)
     taken = [] if moving or not lost else _lost(arm, rows[0, 0], [k for k, t in enumerate(since) if t is not None], task)
+    seen = [frames[..., :3, 3].reshape(-1, 3), path_, places, *(pose[None, :3, 3] for pose in poses), *boxes]
+    seen += [frames[0, 0, -1, :3, 3] + 0.26 * size * s * np.array(loss["twist"][:3]) for loss in taken for s in (-1, 1)]
+    seen += [_swept(p, frames[:, :: max(len(few) // 8, 1), p.frame]) for p in body if p.frame]
     data = {
         "up": numbers(up),
         "size": numbers([size])[0],
@@ -116,6 +122,7 @@ def scene(
         "parts": parts,
         "arms": [{"label": labels[k] if labels else "", "q": numbers(motion)} for k, motion in enumerate(rows)],
         "locked": since,
+        "free": list(arm.joint_indices(free)),
         "time": numbers(seconds[few]) if moving else [],
         "seconds": float(np.clip(seconds[-1] - seconds[0], 3.0, 20.0)) if moving else 0.0,
         "readings": [readings[k] for k in few] if readings else [],
@@ -126,9 +133,15 @@ def scene(
         "colors": [[round(x) for x in row] for row in paints.tolist()],
         "lost": taken,
         "sliders": joints and not moving,
-        "camera": _camera(arm, up, np.concatenate(seen), frames, 0.45 * size),
+        "camera": _camera(arm, up, np.vstack(seen), frames, 0.45 * size),
     }
     return Scene(data, frames, tuple(notes))
+
+
+def picture(arm: Arm, about: str, region: Region | None = None) -> str:
+    """A still drawing of the arm, with a region, as SVG; seen on light and dark ground."""
+    drawn = viewer.drawing(scene(arm, region=region, meshes=False), about)
+    return f'<div style="max-width:30em">{drawn}</div>'
 
 
 def page(arm: Arm, q: ArrayLike | None = None, **options: Any) -> Html:
@@ -194,11 +207,16 @@ def _up(arm: Arm) -> Array:
     return np.array([0.0, 0.0, 1.0]) if size == 0 else -arm.gravity / size + 0.0
 
 
-def _parts(arm: Arm, size: float, meshes: bool) -> tuple[list[dict[str, Any]], list[str]]:
+def _swept(part: Part, poses: Array) -> Array:
+    """Corners (N, 3) of the boxes about a part where poses (..., 4, 4) of its frame put it."""
+    ends = np.array([part.vertices.min(axis=0), part.vertices.max(axis=0)])
+    corners = np.array([[ends[i, 0], ends[j, 1], ends[k, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    return np.asarray(corners @ poses[..., :3, :3].swapaxes(-1, -2) + poses[..., None, :3, 3]).reshape(-1, 3)
+
+
+def _parts(arm: Arm, size: float, body: Sequence[Part]) -> tuple[list[dict[str, Any]], list[str]]:
     """What is drawn of the arm, and what is to be said of it."""
-    sticks = stick_parts(arm, size)
-    parts, note = body_of(arm, size) if meshes else (sticks, "")
-    notes = [note[:1].upper() + note[1:] + "."] if note else []
+    notes, sticks, parts = [], stick_parts(arm, size), body
     whole = sum(len(p.faces) for p in parts if p.tube is None)
     if whole > TRIANGLES:
         notes.append(f"The meshes have {whole:,} triangles; about {TRIANGLES:,} are drawn, so that the page stays small.")

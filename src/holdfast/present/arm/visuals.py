@@ -14,24 +14,27 @@ from holdfast.arm.tree import Held, Tree
 from holdfast.arm.urdf import read_origin, read_tree, robot_element
 from holdfast.errors import ArmError
 from holdfast.present.arm.body import LINK, Color, Part, ball, box, stick_parts, tube
+from holdfast.report.viewer import thinned
 
 Array = NDArray[np.float64]
 MOST_TRIANGLES = 60_000  # of one mesh: more are not smoother, only slower
+MOST_BYTES = 100 << 20  # of one file
 
 
-def body_of(arm: Arm, size: float) -> tuple[list[Part], str]:
+def body_of(arm: Arm, size: float, meshes: bool = True) -> tuple[list[Part], str]:
     """What an arm is made of: the shapes of its URDF file where it has some, else sticks; and a note where meshes are missing.
 
     Args:
         arm: The arm.
         size: What sticks are drawn in proportion to, m.
+        meshes: As in :func:`urdf_parts`.
     """
     sticks = stick_parts(arm, size)
     if arm.chain is None or not Path(arm.chain.file).is_file():
         return sticks, ""
-    shapes, missing = urdf_parts(arm.chain.file, arm, arm.chain.base)
+    shapes, missing = urdf_parts(arm.chain.file, arm, arm.chain.base, meshes)
     if not shapes:
-        return sticks, f"no mesh was found ({missing[0]}), so the arm is drawn as sticks" if missing else ""
+        return sticks, f"no mesh was found or read ({missing[0]}), so the arm is drawn as sticks" if missing else ""
     if missing:
         clad = {p.frame for p in shapes}
         shapes += [p for p in sticks if p.frame not in clad]
@@ -39,7 +42,7 @@ def body_of(arm: Arm, size: float) -> tuple[list[Part], str]:
     return shapes, ""
 
 
-def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[list[Part], list[str]]:
+def urdf_parts(path: str | Path, arm: Arm, base: str | None = None, meshes: bool = True) -> tuple[list[Part], list[str]]:
     """The visual shapes of the links of an arm, in the frames of its bodies, and names of mesh files that were not found.
 
     Links that hang beside the chain on a moving joint are where the arm's mass has them.
@@ -48,6 +51,7 @@ def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[lis
         path: The URDF file.
         arm: The arm that was read from it.
         base: The link that it is mounted on; the root if not given.
+        meshes: Open the files of meshes; else all count as not found, and no file but the URDF is opened.
     """
     file = Path(path)
     robot = robot_element(file)
@@ -66,7 +70,7 @@ def urdf_parts(path: str | Path, arm: Arm, base: str | None = None) -> tuple[lis
             if shape is None or not len(shape):
                 continue
             try:
-                vertices, faces = _shape(shape[0], file)
+                vertices, faces = _shape(shape[0], file if meshes else None)
                 at = pose @ read_origin(visual, f"link '{element.get('name')}'")
             except (ArmError, ValueError) as error:
                 missing.append(str(error))
@@ -91,7 +95,7 @@ def _carried(tree: Tree, arm: Arm, still: Held, link: str, base: str) -> tuple[i
     return 0, pose
 
 
-def _shape(element: ElementTree.Element, file: Path) -> tuple[Array, NDArray[np.int64]]:
+def _shape(element: ElementTree.Element, file: Path | None) -> tuple[Array, NDArray[np.int64]]:
     if element.tag == "box":
         return box(np.array(_floats(element, "size")))
     if element.tag in ("cylinder", "capsule"):
@@ -105,20 +109,25 @@ def _shape(element: ElementTree.Element, file: Path) -> tuple[Array, NDArray[np.
     raise ArmError(f"shape '{element.tag}'")
 
 
-def _mesh(element: ElementTree.Element, file: Path) -> tuple[Array, NDArray[np.int64]]:
+def _mesh(element: ElementTree.Element, file: Path | None) -> tuple[Array, NDArray[np.int64]]:
     name = element.get("filename", "")
-    found = find_mesh(name, file)
+    found = None if file is None else find_mesh(name, file)
     if found is None:
         raise ArmError(name)
-    import trimesh
-
+    if found.stat().st_size > MOST_BYTES:
+        raise ArmError(f"{name} ({found.stat().st_size >> 20} MB; at most {MOST_BYTES >> 20} MB are read)")
+    try:
+        import trimesh
+    except ImportError as error:
+        raise ArmError(f"{name} (meshes are read by trimesh, which comes with holdfast[view])") from error
     try:
         loaded: Any = trimesh.load(found, force="mesh")
         vertices, faces = np.asarray(loaded.vertices, dtype=np.float64), np.asarray(loaded.faces, dtype=np.int64)
     except Exception as error:  # readers of meshes raise whatever they like
         raise ArmError(f"{name} (cannot be read: {type(error).__name__})") from error
-    if not len(faces) or len(faces) > MOST_TRIANGLES or not np.isfinite(vertices).all():
-        raise ArmError(f"{name} ({len(faces):,} triangles)")
+    if not len(faces) or not np.isfinite(vertices).all():
+        raise ArmError(f"{name} (no triangles of finite numbers)")
+    vertices, faces = thinned(vertices, faces, MOST_TRIANGLES)
     scale = _floats(element, "scale") if element.get("scale") else [1.0, 1.0, 1.0]
     return vertices * np.array(scale), faces
 

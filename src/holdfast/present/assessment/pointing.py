@@ -8,15 +8,18 @@ import shlex
 import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from holdfast import arms
+from holdfast.arms.spec import default_task
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.commands import task_option
 from holdfast.report.figures import frame
 from holdfast.report.page import Block, Extra
 from holdfast.words import counted
 
-MOST = 2000  # poses in a page: about 80 bytes each for an arm of nine joints, so 160 kB
+MOST = 1000  # poses in a page: about 80 bytes each for an arm of nine joints, and 40 in the view of the arm
+VIEW = "arm"  # id of the view in three dimensions
 
 _HTML = Markup("""\
 <p><label>{noun} from the worst to the best <input type="range" min="0" max="{last}" value="0" step="1"></label></p>
@@ -27,24 +30,31 @@ _HTML = Markup("""\
 <p class="quiet">{about}</p>""")
 
 
+def answering(f: Facts) -> NDArray[np.int64]:
+    """Rows of the reached poses that answer, the worst first; a random part of more than :data:`MOST`."""
+    if f.rows is None:
+        return np.zeros(0, dtype=np.int64)
+    chosen = np.flatnonzero(f.rows.reached)
+    if len(chosen) > MOST:
+        chosen = np.random.default_rng(0).choice(chosen, MOST, replace=False)
+    return chosen[np.argsort(f.rows.value[chosen] if f.larger else -f.rows.value[chosen], kind="stable")]
+
+
 def blocks(f: Facts, figure: Figure) -> list[Block]:
     """Controls for the poses in the figure of the views just before them."""
-    rows = f.rows
-    if rows is None or not rows.reached.any():
+    rows, chosen = f.rows, answering(f)
+    if rows is None or not len(chosen):
         return []
-    chosen = np.flatnonzero(rows.reached)
-    most = len(chosen)
-    if most > MOST:
-        chosen = np.random.default_rng(0).choice(chosen, MOST, replace=False)
-    chosen = chosen[np.argsort(rows.value[chosen] if f.larger else -rows.value[chosen], kind="stable")]
+    most = int(rows.reached.sum())
     columns = (rows.number + 1, rows.value, rows.worst, *rows.position.T, *rows.q.T)
     table = np.stack([column[chosen] for column in columns], axis=1).astype("<f4")
     arm = f.a.arm
     spec, words, remark = arms.command_words(arm)
     task = task_option(arm, f.index.task)
-    if task is not None:
+    if task is not None and task != default_task(arm.name, arm):
         words = [*words, f"--task {shlex.quote(task)}"]
     data = {
+        "view": VIEW,
         "noun": f.noun.capitalize(),
         "rows": base64.b64encode(table.tobytes()).decode(),
         "joints": [dict(zip(("scale", "unit"), joint.shown, strict=True)) for joint in arm.joints],

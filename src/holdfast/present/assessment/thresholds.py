@@ -21,6 +21,8 @@ _HTML = Markup("""\
 <p><label>Move the threshold: index {sign} <strong class="asked">{asked}</strong>{unit}
 <input type="range" min="0" max="{last}" value="{start}" step="1"></label></p>
 <dl class="answers">{answers}</dl>
+<p class="quiet">An interval is that of one threshold, chosen beforehand; for all at once
+the band of the curve holds, ±{band:.3f}.</p>
 {bars}""")
 
 _BAR = Markup("""\
@@ -48,7 +50,7 @@ def blocks(f: Facts, figure: Figure) -> list[Block]:
         return []
     asked = steps(f)
     option = "at_least" if f.larger else "at_most"
-    samples = [(f"as inverse kinematics found the {f.noun}s" if f.a.region.kind != "joints" else f"of all {f.noun}s", False)]
+    samples = [("at the configurations found" if f.a.region.kind != "joints" else f"of all {f.noun}s", False)]
     samples += [("at the best configuration of each pose", True)] * (f.a.optimised is not None)
     answers = [[interval(f.a.interval(**{option: x}, optimised=o)) for x in asked.tolist()] for _, o in samples]
     names, missed = _missed(f, asked)
@@ -75,6 +77,7 @@ def blocks(f: Facts, figure: Figure) -> list[Block]:
         last=len(asked) - 1,
         start=start,
         answers=rows,
+        band=f.a.distribution.band(),
         bars=Markup('<p class="quiet">{}</p>\n<ul class="bars">{}</ul>').format(told, _BAR * many) if many else "",
     )
     return [Extra("threshold", data, html, label="Probability of a threshold of one's own")]

@@ -61,7 +61,11 @@ def key_table(t: Trajectory) -> Rows:
 def next_steps(t: Trajectory, name: str) -> list[str]:
     """The file for a controller, and the page with the arm moving."""
     del t
-    return [f'{name}.to_csv("motion.csv")', f'{name}.report("motion.html")  # with the arm moving']
+    return [
+        f"{name}.arm.show({name}.q, time={name}.time)  # the arm moving",
+        f'{name}.to_csv("motion.csv")',
+        f'{name}.report("motion.html")',
+    ]
 
 
 def show(t: Trajectory, out: Console) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from markupsafe import Markup
@@ -20,10 +21,26 @@ from holdfast.report.page import Block, Callout, Page, Picture, Section, Table, 
 from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
 from holdfast.words import as_given, capitalised, percent
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _FRAMES = 201
 _SAME, _FOLD = 5e-3, 10.0  # changes that are none, and those that a fraction would not tell
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
 _SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
+
+
+def figures(t: Trajectory) -> dict[str, Figure]:
+    """The arm at start and end, the way of its tool, and the objective over time."""
+    from holdfast.present.stick_figure import views_of
+    from holdfast.report.motions import Motion, Panel, drawn_motion
+
+    chain = t.arm.frames(t.q)[..., :3, 3]
+    moving = Motion(chain, np.r_[False, t.arm.prismatic, False], t.poses[:, :3, 3])
+    unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
+    panel = Panel(t.time, t.value, f"{t.objective.name}{unit}", f"{capitalised(t.objective.better)} is better")
+    caption = f"{t.arm.name}, {t.method}, {len(t.time):,} samples"
+    return {"motion": drawn_motion(moving, views_of(t.arm, chain), panel, caption, "time, s", wanted="path asked for")}
 
 
 @says("drawing the report")

@@ -34,6 +34,14 @@ def key_table(region: Region) -> Rows:
     return Rows(["" if region.kind == "box" else "rad or m", "from", "to"], rows)
 
 
+def picture(region: Region, about: str) -> str:
+    """It with the notebook's own arm, where there is one and the region is a box."""
+    from holdfast.present.arm import view
+
+    known = [arm for _, arm in variables() if isinstance(arm, Arm)] if region.kind == "box" else []
+    return view.picture(known[0], about, region) if known else ""
+
+
 def next_steps(region: Region, name: str) -> list[str]:
     """An arm over it: the notebook's own where there is one, else one that comes with holdfast."""
     joints = len(region.center) if region.kind == "joints" else None

@@ -43,6 +43,15 @@ def to_dict(runs: Runs) -> dict[str, Any]:
     }
 
 
+def sentences(runs: Runs) -> list[str]:
+    """How one run ended; of many how often which."""
+    if runs.code.ndim:
+        return runs.describe()
+    why = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
+    ended = f"The end effector {Outcome(int(runs.code)).sentence}{why}."
+    return [x for x in (ended, runs.limits_sentence(), f"Arm {runs.law.arm.title}, {runs.law.describe()}.") if x]
+
+
 def key_table(runs: Runs) -> Rows:
     """How the runs ended: one in numbers, many by their outcomes."""
     if runs.code.ndim:

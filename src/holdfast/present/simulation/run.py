@@ -174,8 +174,8 @@ class _RunReport:
         """The arm at start and end, the way of its tool, and the error over time."""
         seen = self.seen
         chain = self.arm.frames(seen.q[self.few])[..., :3, 3]
-        sides = np.r_[False, self.arm.prismatic, False], np.r_[False, seen.locked[-1], False]
-        motion = Motion(chain, *sides, np.array([seen.x[0], self.goal]), self.goal)
+        square, locked = (np.r_[False, x, False] for x in (self.arm.prismatic, seen.locked[-1]))
+        motion = Motion(chain, square, np.array([seen.x[0], self.goal]), locked, self.goal)
         return drawn_motion(motion, views_of(self.arm, chain), self.panel(), self.caption, self._xlabel)
 
     @property

@@ -178,9 +178,12 @@ def _beside(found: Optima, first: str) -> list[tuple[str, list[Any]]]:
 
 def next_steps(optima: Optima, name: str) -> list[str]:
     """The objective at the best configurations, joint by joint where it has joints."""
+    steps = [f"{name}.objective({name}.q)"]
     if isinstance(optima.objective, (Index, Susceptibility)):
-        return [f"{name}.objective.by_joint({name}.q)  # whichever joint fails"]
-    return [f"{name}.objective({name}.q)"]
+        steps = [f"{name}.objective.by_joint({name}.q)  # whichever joint fails"]
+    if optima.q.ndim == 1 and optima.success:
+        steps.append(f'{name}.arm.show([{name}.before, {name}.q], labels=["before", "best"])')
+    return steps
 
 
 def show(optima: Optima, out: Console, asked: str = "") -> None:

@@ -19,9 +19,13 @@ def headline(stand: Sequence[Standing]) -> str:
     driven = [s for s in stand if s.law]
     if driven:
         top = max(driven, key=lambda s: s.ranked[0][1].value)
+        reached = interval(top.ranked[0][1])
         parts.append(
-            f"With a locked joint that nobody has noticed, {first(top)} reaches its target most often, under {top.law}: "
-            f"{interval(top.ranked[0][1])} of the motions."
+            f"With a locked joint that nobody has noticed hardly any motion reaches its target under any law: of {top.about} "
+            f"{reached} for {first(top)} under {top.law}."
+            if top.empty
+            else f"With a locked joint that nobody has noticed, {first(top)} reaches its target most often, under {top.law}: "
+            f"{reached} of the motions."
         )
     return " ".join(parts)
 

@@ -39,9 +39,15 @@ function compareKeys(a, b) {
   return String(a).localeCompare(String(b), "en", { numeric: true });
 }
 
+// The first line of a cell.
+function firstLine(cell) {
+  const nodes = Array.from(cell.childNodes), end = nodes.findIndex(function (node) { return node.nodeName === "BR"; });
+  return nodes.slice(0, end < 0 ? nodes.length : end).map(function (node) { return node.textContent; }).join("");
+}
+
 // Rows in the order of a column; what holds nothing comes last, either way.
 function sortedRows(rows, column, direction) {
-  const keyed = rows.map(function (row) { return { row: row, key: sortKey(row.cells[column].textContent) }; });
+  const keyed = rows.map(function (row) { return { row: row, key: sortKey(firstLine(row.cells[column])) }; });
   return keyed.sort(function (a, b) {
     if (a.key === null || b.key === null) { return (a.key === null) - (b.key === null); }
     return direction * compareKeys(a.key, b.key);
@@ -99,7 +105,7 @@ function makeSortable(table) {
         region.tabIndex = region.scrollWidth > region.clientWidth + 1 ? 0 : -1;
       });
     });
-    document.querySelectorAll(".scroll").forEach(function (region) { seen.observe(region); });
+    document.querySelectorAll(".scroll, .plate").forEach(function (region) { seen.observe(region); });
   }
 
   function contents() {

@@ -4,7 +4,7 @@ extras.poses = function (box, data) {
   const figure = box.previousElementSibling.querySelector("svg"), slider = box.querySelector("input");
   const bytes = Uint8Array.from(atob(data.rows), function (c) { return c.charCodeAt(0); });
   const wide = 6 + data.joints.length, numbers = new Float32Array(bytes.buffer), count = numbers.length / wide;
-  const copied = box.querySelector("pre");
+  const turned = document.getElementById(data.view), copied = box.querySelector("pre");
   let pinned = true;
   function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   const places = data.views.map(function (view) {
@@ -44,7 +44,7 @@ extras.poses = function (box, data) {
       ring.setAttribute("cx", places[n][k][0]);
       ring.setAttribute("cy", places[n][k][1]);
     });
-    box.dispatchEvent(new CustomEvent("pose", { detail: { q: q, joints: failure ? failure.joints : [] } }));
+    if (turned && turned.view3d) { turned.view3d.pose(q); turned.view3d.label(told); }
   }
   function nearest(event) {
     const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(figure.getScreenCTM().inverse());
@@ -74,6 +74,7 @@ extras.poses = function (box, data) {
   });
   slider.addEventListener("input", function () { show(Number(slider.value)); pin(true); });
   copied.replaceChildren(copier(function () { return copied.lastChild.textContent; }, copied), document.createElement("span"));
+  if (turned) { turned.addEventListener("view3d:point", function (event) { show(event.detail); pin(true); }); }
   figure.classList.add("pointed");
   show(Number(slider.value));
   pin(false);

@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
 from holdfast.indices.lost_directions import Loss, manipulability_kept
-from holdfast.report.palette import BLUE, FAINT, INK, ORANGE, SOFT
 from holdfast.studio.scene.machine import Bars, Reading
 
 Array = NDArray[np.float64]
-_STYLE = f"font:12px/1.35 system-ui,sans-serif;color:{INK};padding:2px 12px 6px"
 
 
 def shown(value: float, digits: int = 3) -> str:
@@ -28,7 +26,7 @@ def shown(value: float, digits: int = 3) -> str:
 def bars_html(bars: Bars | str, what: str, names: Sequence[str], conditions: Sequence[str]) -> str:
     """One bar per joint, the worst one named; or the sentence that says why there are none."""
     if isinstance(bars, str):
-        return f'<div style="{_STYLE};color:{SOFT}">{escape(bars[:1].upper() + bars[1:])}.</div>'
+        return f'<div class="hf-bars hf-soft">{escape(bars[:1].upper() + bars[1:])}.</div>'
     finite = np.where(np.isfinite(bars.values), bars.values, 0.0)
     whole = max(float(finite.max()), 1.0 if bars.title == "relative manipulability" else 0.0) or 1.0
     units = set(bars.unit)
@@ -36,22 +34,17 @@ def bars_html(bars: Bars | str, what: str, names: Sequence[str], conditions: Seq
     rows = []
     for k, (name, value) in enumerate(zip(names, bars.values, strict=True)):
         share = 1.0 if np.isinf(value) else min(max(float(finite[k]) / whole, 0.0), 1.0)
-        color, weight = (ORANGE, "600") if k == bars.worst else (BLUE, "400")
-        mark = "" if conditions[k] == "healthy" else f' <b style="color:{ORANGE}">{conditions[k]}</b>'
+        mark = "" if conditions[k] == "healthy" else f" <b>{conditions[k]}</b>"
         unit = f" {escape(bars.unit[k])}" if len(units) > 1 else ""
         rows.append(
-            f'<tr style="font-weight:{weight};white-space:nowrap">'
-            f'<td style="padding:0 6px 0 0;max-width:13em;overflow:hidden;text-overflow:ellipsis">{escape(name)}{mark}</td>'
-            f'<td style="width:40%"><div style="background:{FAINT};height:9px">'
-            f'<div style="background:{color};height:9px;width:{100 * share:.1f}%"></div></div></td>'
-            f'<td style="text-align:right;padding-left:6px">{shown(value)}{unit}</td></tr>'
+            f"<tr{' class=hf-worst' if k == bars.worst else ''}><td>{escape(name)}{mark}</td>"
+            f'<td><div><div style="width:{100 * share:.1f}%"></div></div></td><td>{shown(value)}{unit}</td></tr>'
         )
     name, value = names[bars.worst], shown(float(bars.values[bars.worst]))
     note = f" ({escape(bars.status)})" if bars.status else ""
     return (
-        f'<div style="{_STYLE}" data-worst="{escape(name, quote=True)}"><b>{escape(bars.title)}</b>{common} {what}: '
-        f'worst: <b style="color:{ORANGE}">{escape(name)}</b>, {value}{note}'
-        f'<table style="width:100%;border-spacing:0 1px">{"".join(rows)}</table></div>'
+        f'<div class="hf-bars" data-worst="{escape(name, quote=True)}"><strong>{escape(bars.title)}</strong>{common} {what}: '
+        f"worst: <b>{escape(name)}</b>, {value}{note}<table>{''.join(rows)}</table></div>"
     )
 
 
@@ -61,16 +54,17 @@ def losses_html(arm: Arm, task: Task, reading: Reading, failed: Sequence[int]) -
         return ""
     names = " and ".join(escape(arm.joint_names[k]) for k in reading.hit)
     kept = manipulability_kept(reading.losses)
-    head = f"<b>{names}</b> {'has' if len(reading.hit) == 1 else 'have'} failed" if failed else f"If <b>{names}</b> locks"
+    who = f"<strong>{names}</strong>"
+    head = f"{who} {'has' if len(reading.hit) == 1 else 'have'} failed" if failed else f"If {who} locks"
     lines = [f"{head}: {percent(kept)} of the manipulability is left."]
     for loss in reading.losses[:2]:
         word = "lost" if loss.lost else f"{percent(loss.kept)} of the speed is left"
-        lines.append(f"{direction_words(task, loss)}: <b>{word}</b>")
+        lines.append(f"{direction_words(task, loss)}: <strong>{word}</strong>")
     before, after = (" × ".join(shown(r, 2) for r in e.radii) for e in (reading.before, reading.after))
     lines.append(
-        f'<span style="color:{SOFT}">ellipsoid of the tool point, m/s at joint rates of norm 1: {before}, then {after}</span>'
+        f'<span class="hf-soft">ellipsoid of the tool point, m/s at joint rates of norm 1: {before}, then {after}</span>'
     )
-    return f'<div style="{_STYLE}">{"<br>".join(lines)}</div>'
+    return f'<div class="hf-bars">{"<br>".join(lines)}</div>'
 
 
 def percent(share: float) -> str:

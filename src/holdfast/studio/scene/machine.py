@@ -7,6 +7,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 import casadi as ca
 import numpy as np
@@ -188,6 +189,17 @@ class Machine:
         turn = hand[:3, :3].T if self.task.frame == "tool" else np.eye(3)
         angular = Rotation.from_matrix(pose[:3, :3] @ hand[:3, :3].T).as_rotvec()
         return float(np.linalg.norm(self.task.rows @ np.r_[turn @ (pose[:3, 3] - hand[:3, 3]), turn @ angular]))
+
+    def beside(self, q: Array) -> Array:
+        """A configuration a little away from q (n,), within the limits: its pose is a target that can be reached."""
+        away = np.where(self.arm.prismatic, 0.1 * self.size, 0.3) * np.where(np.arange(self.arm.n) % 2, -1.0, 1.0)
+        inside = (q + away >= self.arm.lower) & (q + away <= self.arm.upper)
+        return np.asarray(np.clip(np.where(inside, q + away, q - away), self.arm.lower, self.arm.upper))
+
+    @cached_property
+    def swings(self) -> bool:
+        """Whether a free joint can be let swing: the physics is installed, and it is known what the bodies weigh."""
+        return find_spec("mujoco") is not None and all(link is not None for link in self.arm.links)
 
     def slide(self, q: Array, along: Array, failed: Sequence[int]) -> tuple[Array, Array]:
         """One step along the self-motion of q (n,) in the direction nearest to ``along`` (n,), whose norm is its length.

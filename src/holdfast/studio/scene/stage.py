@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.indices.lost_directions import Ellipsoid, Loss
-from holdfast.present.arm.body import Color, Part, ball, stick_parts
+from holdfast.present.arm.body import THIN, Color, Part, ball, stick_parts
 from holdfast.studio.scene.body import Figure, quaternions
 from holdfast.studio.scene.cloud import Cloud
 from holdfast.studio.scene.machine import Machine, Reading
@@ -17,8 +17,9 @@ from holdfast.studio.scene.machine import Machine, Reading
 Array = NDArray[np.float64]
 
 BLUE, ORANGE, GREEN, PURPLE = (10, 92, 158), (200, 80, 10), (0, 122, 94), (168, 73, 127)
+GRID = (150, 157, 164)  # to be seen on white and on black
 GHOSTS: tuple[Color, ...] = (GREEN, ORANGE, BLUE, PURPLE)
-ANCHORS: tuple[Any, ...] = ("bottom-left", "top-left")  # names of two ghosts that meet stay apart
+ANCHORS: tuple[Any, ...] = ("bottom-right", "top-left")  # names of two ghosts that meet stay apart
 SECONDS = 0.22  # an ellipsoid is drawn as how far the tool gets in this time at joint rates of norm 1
 SHOWN = 0.99  # a direction in which at least this share is left is not marked
 _MARKS = 2  # directions that are marked
@@ -43,8 +44,9 @@ class Stage:
             2.4 * size,
             cell_size=0.1 * size,
             section_size=0.4 * size,
-            cell_color=(228, 231, 234),
-            section_color=(205, 210, 215),
+            cell_color=GRID,
+            section_color=GRID,
+            cell_thickness=0.5,
             position=arm.base[:3, 3] - [0.0, 0.0, 0.004 * size],
             shadow_opacity=0,
         )
@@ -52,6 +54,16 @@ class Stage:
         if len(self.figure.joints) < arm.n:
             # Meshes hide the joints; knobs show which have failed and can be clicked.
             self._knobs()
+        self._names = [
+            scene.add_label(
+                f"/arm/{k + 1}/name",
+                name,
+                position=2.2 * THIN * size * arm.joints[k].axis,  # joints may share an origin, but not an axis
+                anchor="center-left",
+                font_screen_scale=0.85,
+            )
+            for k, name in enumerate(short_names(arm.joint_names))
+        ]
         vertices, faces = ball()
         self.before = scene.add_mesh_simple("/before", vertices, faces, color=BLUE, wireframe=True, opacity=0.25)
         self.after = scene.add_mesh_simple("/after", vertices, faces, color=ORANGE, opacity=0.5, cast_shadow=False)
@@ -80,6 +92,17 @@ class Stage:
         figure = Figure(self.scene, "/knobs", joints, arm.n + 2, opacity=0.5)
         self.figure.companions.append(figure)
         self.figure.joints |= figure.joints
+
+    def paint(self, joint: int, condition: str) -> None:
+        """Show a joint as healthy, locked or free, by its colour and beside its name."""
+        self.figure.paint(joint, condition)
+        name = short_names(self.machine.arm.joint_names)[joint]
+        self._names[joint].text = name if condition == "healthy" else f"{name} {condition}"
+
+    def show_labels(self, visible: bool) -> None:
+        """Show or hide the names of the joints."""
+        for label in self._names:
+            label.visible = visible
 
     # ---- live ------------------------------------------------------------------------------------------------------
 
@@ -195,3 +218,9 @@ class Stage:
         vertices, faces = ball(6)
         size = 0.02 * self.machine.size
         self.chosen = self.scene.add_mesh_simple("/chosen", vertices * size, faces, color=ORANGE, position=point)
+
+
+def short_names(names: Sequence[str]) -> list[str]:
+    """Names of joints without what they all begin with: 4 for panda_joint4."""
+    start = next((k for k, same in enumerate(zip(*names, strict=False)) if len(set(same)) > 1), min(map(len, names)))
+    return [name[start:] for name in names] if len(names) > 1 and all(len(name) > start for name in names) else list(names)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from holdfast.present.arm.view import scene
 from holdfast.present.assessment import pointing
 from holdfast.present.assessment.facts import Facts
 from holdfast.report import figures, scenes
@@ -38,4 +41,17 @@ def blocks(f: Facts) -> list[Block]:
         text += "; colour is the index." if len(scene.points) else "."
     if drawn and d.infinite:
         text += " Infinite values have the darkest colour."
-    return [Picture(image, text), *pointing.blocks(f, figure)]
+    return [Picture(image, text), *pointing.blocks(f, figure), _turned(f)]
+
+
+def _turned(f: Facts) -> Picture:
+    """The same in three dimensions."""
+    rows, chosen = f.rows, pointing.answering(f)
+    poses: dict[str, Any] = {}
+    if rows is not None and len(chosen):
+        poses = {"points": rows.position[chosen].round(4), "colors": 255 * f.scale.colors(rows.value[chosen])[:, :3]}
+    view = scene(f.a.arm, f.representative[0], region=f.a.region, **poses)
+    text = f"The arm {f.representative[1]}; drag to turn it."
+    if poses:
+        text += f" A dot is a {f.noun} that can be chosen; what is chosen above moves the arm."
+    return Picture(view.html(pointing.VIEW, f"{f.a.arm.name} and its region in three dimensions"), text, screen=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from html import escape
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,13 +13,16 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.registry import INDICES, LAWS, SUSCEPTIBILITIES, Registry
+from holdfast.studio.page.upload import ARMS, MOTIONS
 from holdfast.studio.scene.bars import bars_html, losses_html
 from holdfast.studio.scene.machine import Machine, Reading
-from holdfast.studio.state import State
+from holdfast.studio.state import CONDITIONS, State
 
 Array = NDArray[np.float64]
 Handler = Callable[[Any], None]
-BUTTONS = ("healthy", "lock", "free")
+MARK = "✓ "  # before the state that a joint is in: the page shows that button as pressed
+WELCOME = "Drag the handle at the end effector, lock a joint, or drop a file of your own arm here."
+ALWAYS = ("skip", "png", "svg", "file", "results")  # what can be done before anything is known
 MORE_LAWS = ("failure-tolerant:0.1", "failure-tolerant:0.9")
 
 
@@ -35,7 +39,12 @@ class Panel:
     def __init__(self, gui: Any, machine: Machine, state: State, ask: Callable[[str, Any], None]) -> None:
         self.gui, self.machine, self._ask = gui, machine, ask
         arm = machine.arm
-        self.message = gui.add_html(_line(f"{arm.name}: drag the handle at the end effector"))
+        self.buttons: dict[str, list[Any]] = {}
+        self.message = gui.add_html(_line(f"{arm.name}. {WELCOME}"))
+        self.tour = gui.add_html("", visible=False)
+        self._button("Take the 60-second tour", "tour")
+        self._button("Next", "next", visible=False)
+        self._button("End the tour", "skip", visible=False, color="gray")
         self.bars = gui.add_html("")
         self.losses = gui.add_html("")
         tabs = gui.add_tab_group()
@@ -49,8 +58,8 @@ class Panel:
             self._motion_tab(state)
         with tabs.add_tab("Region"):
             self._region_tab(state)
-        with tabs.add_tab("Save"):
-            self._save_tab(state)
+        with tabs.add_tab("File"):
+            self._file_tab(state)
 
     # ---- tabs ------------------------------------------------------------------------------------------------------
 
@@ -67,40 +76,40 @@ class Panel:
         self.slide = self.gui.add_slider(
             "self-motion", -1.0, 1.0, 0.01, 0.0, hint="How fast the arm slides along the self-motion of this pose while held."
         )
+        self.buttons["slide"] = [self.slide]
         self._on(self.slide.on_update, "slide", lambda h: h.value)
         ways = max(arm.n - self.machine.task.m, 1)
         self.way = self.gui.add_dropdown(
             "direction", tuple(str(k + 1) for k in range(ways)), visible=ways > 1, hint="Which of several self-motions."
         )
-        self._on(self.way.on_update, "way", lambda h: int(h.value) - 1)
-        self._button("Back to the start", "home", "The configuration with which this window opened.")
+        self._on(self.way.on_update, "way", lambda h: int(_chosen(h)) - 1)
+        self._button("Back to the start", "home")
 
     def _fail_tab(self, arm: Arm, state: State) -> None:
+        self.gui.add_html(_line("Locked: cannot move. Free: swings under gravity. Or click a joint in the scene."))
+        self.conditions = []
         for k, joint in enumerate(arm.joints):
-            group = self.gui.add_button_group(joint.name, BUTTONS, hint="Locked: cannot move. Free: swings under gravity.")
+            group = self.gui.add_button_group(joint.name, _marked(state.conditions[k]))
             self._on(group.on_click, "fail", partial(_pressed, k))
-        self._button("All healthy", "heal", "No joint has failed.")
-        self._button(
-            "Let the free joint swing",
-            "swing",
-            "From the physics, all other joints held (needs holdfast[physics]). Scrub it in the tab Motion.",
-        )
+            self.conditions.append(group)
+        self._button("All healthy", "heal")
+        self._button("Let the free joint swing", "swing")
         self.susceptibility = self.gui.add_dropdown(
             "susceptibility", self._menu(state.susceptibility, SUSCEPTIBILITIES), initial_value=state.susceptibility
         )
-        self._on(self.susceptibility.on_update, "susceptibility", lambda h: h.value)
+        self._on(self.susceptibility.on_update, "susceptibility", _chosen)
         self.weights = self.gui.add_html("")
 
     def _choose_tab(self, state: State) -> None:
         self.index = self.gui.add_dropdown("bars show", self._menu(state.index, INDICES), initial_value=state.index)
-        self._on(self.index.on_update, "index", lambda h: h.value)
+        self._on(self.index.on_update, "index", _chosen)
         objectives = self._menu(state.objective, INDICES, SUSCEPTIBILITIES)
         self.objective = self.gui.add_dropdown("choose by", objectives, initial_value=state.objective)
-        self._on(self.objective.on_update, "objective", lambda h: h.value)
-        self._button("Best and worst of this pose", "best-worst", "Ghost arms: green the best, orange the worst.")
-        self._button("Take the green one", "take0", "The arm goes where the green ghost is.")
-        self._button("Take the orange one", "take1", "The arm goes where the orange ghost is.")
-        self._button("Clear", "clear", "Remove the ghosts.")
+        self._on(self.objective.on_update, "objective", _chosen)
+        self._button("Best and worst of this pose", "best-worst")
+        self._button("Take the green one", "take0")
+        self._button("Take the orange one", "take1")
+        self._button("Clear", "clear")
 
     def _motion_tab(self, state: State) -> None:
         self.laws = [
@@ -108,32 +117,44 @@ class Panel:
             for c, law in zip(("green", "orange"), state.laws, strict=True)
         ]
         for handle in self.laws:
-            self._on(handle.on_update, "laws", lambda h: (self.laws[0].value, self.laws[1].value))
-        self._button("Choose a target", "target", "Shows a second handle: drag it to where the end effector should go.")
-        self._button("Move under both laws", "laws", "Failed joints are locked; the controller does not know.")
-        self.file = self.gui.add_text("file", state.file or "", hint="CSV or folder that follow, simulate or recover wrote.")
-        self._button("Open the motion", "file", "Scrub or play it with the slider below.")
-        self._player()
-        self._button("Clear", "clear", "Remove the motion.")
-
-    def _player(self) -> None:
+            self._on(handle.on_update, "laws", lambda h: (_chosen(self.laws[0]), _chosen(self.laws[1])))
+        self._button("Choose a target", "target")
+        self._button("Move under both laws", "laws")
+        if state.file is not None:
+            self._button(f"Open {Path(state.file).name}", "file")
+        self.gui.add_html(_line("A motion that follow, simulate or recover wrote (CSV) is opened in the tab File."))
         self.time = self.gui.add_slider("time", 0.0, 1.0, 0.001, 0.0, disabled=True)
         self._on(self.time.on_update, "time", lambda h: h.value)
-        self.play = self.gui.add_button("Play", disabled=True)
-        self._on(self.play.on_click, "play", lambda h: None)
+        self._button("Play", "play")
+        self.play = self.buttons["play"][0]
+        self._button("Clear", "clear")
 
     def _region_tab(self, state: State) -> None:
-        self._button("Assess around the tool", "region", "Poses around the tool, coloured by the index: click one.")
-        self.folder = self.gui.add_text("results folder", state.region or "", hint="A folder that holdfast assess wrote.")
-        self._button("Open the results", "results", "Poses of the region, coloured by the index: click one.")
-        self.gui.add_html(_line("Click a point to see the configuration behind it."))
-        self._button("Clear", "clear", "Remove the points.")
+        self._button("Assess around the tool", "region")
+        if state.region is not None:
+            self._button(f"Open {Path(state.region).name}", "results")
+        self.gui.add_html(
+            _line(
+                "Poses around the tool, coloured by the index: click one to see the configuration behind it. "
+                "Results of holdfast assess: start the studio with --region FOLDER."
+            )
+        )
+        self._button("Clear", "clear")
 
-    def _save_tab(self, state: State) -> None:
-        self._button("PNG of the scene", "png", "As this window shows it.")
-        self._button("SVG drawing", "svg", "Side and top view of arm and ghosts, with failed joints marked.")
-        shown = self.gui.add_checkbox("ellipsoids and lost directions", True)
-        self._on(shown.on_update, "losses", lambda h: h.value)
+    def _file_tab(self, state: State) -> None:
+        endings = ",".join((*ARMS, *MOTIONS))
+        self.upload = self.gui.add_upload_button("Open an arm or a motion", mime_type=endings)
+        self._on(self.upload.on_upload, "open", lambda h: (h.value.name, h.value.content))
+        self.gui.add_html(
+            _line(
+                "An arm as URDF or DH table, or a motion as CSV, of at most 4 MiB; or drop it anywhere on the page. "
+                "With meshes: holdfast studio FILE."
+            )
+        )
+        self._button("PNG of the scene", "png")
+        self._button("SVG drawing, side and top view", "svg")
+        for label, what in (("ellipsoids and lost directions", "losses"), ("names of the joints", "labels")):
+            self._on(self.gui.add_checkbox(label, True).on_update, what, lambda h: h.value)
         self.gui.add_html(_line("This command line brings the view back:"))
         self.command = self.gui.add_html(command_html(state))
 
@@ -165,18 +186,37 @@ class Panel:
             if k != held and abs(slider.value - value) > 0.5 * slider.step:
                 slider.value = value
 
-    def disable(self, conditions: Sequence[str]) -> None:
-        """A joint that failed cannot be moved."""
-        for slider, condition in zip(self.sliders, conditions, strict=True):
+    def fail(self, conditions: Sequence[str]) -> None:
+        """A joint shows what has become of it, and cannot be moved once it has failed."""
+        for slider, group, condition in zip(self.sliders, self.conditions, conditions, strict=True):
             wanted = condition != "healthy"
             if slider.disabled != wanted:
                 slider.disabled = wanted
+            if group.options != _marked(condition):
+                group.options = _marked(condition)
+
+    def enable(self, possible: Mapping[str, bool]) -> None:
+        """Buttons and sliders that can do something now, by what they ask for; all others are as they were."""
+        for what, can in possible.items():
+            for handle in self.buttons.get(what, ()):
+                if handle.disabled is can:
+                    handle.disabled = not can
+
+    def guide(self, text: str, after: str = "") -> None:
+        """A step of the tour, HTML, and what comes after it; an empty text: no tour is under way."""
+        if self.tour.content != text:
+            self.tour.content = text
+        begin, on, end = (self.buttons[what][0] for what in ("tour", "next", "skip"))
+        for handle, visible in ((self.tour, text != ""), (begin, text == ""), (on, text != ""), (end, text != "")):
+            if handle.visible is not visible:
+                handle.visible = visible
+        if after and on.label != after:
+            on.label = after
 
     def time_range(self, end: float, now: float, label: str) -> None:
         """The scrubber of a motion; an end of 0 switches it off."""
-        off = end <= 0
-        self.time.disabled = self.play.disabled = off
-        if not off:
+        self.time.disabled = self.play.disabled = end <= 0
+        if end > 0:
             self.time.min, self.time.max, self.time.step = 0.0, end, end / 1000
             self.time.value = min(now, end)
             self.time.label = label
@@ -188,8 +228,10 @@ class Panel:
 
     # ---- what a person does ----------------------------------------------------------------------------------------
 
-    def _button(self, label: str, what: str, hint: str) -> None:
-        self._on(self.gui.add_button(label, hint=hint).on_click, what, lambda h: None)
+    def _button(self, label: str, what: str, visible: bool = True, color: str | None = None) -> None:
+        button = self.gui.add_button(label, visible=visible, color=color, disabled=what not in ALWAYS)
+        self.buttons.setdefault(what, []).append(button)
+        self._on(button.on_click, what, lambda h: None)
 
     def _on(self, attach: Callable[..., Any], what: str, value: Callable[[Any], Any]) -> None:
         # A coroutine runs in order on the event loop; it only leaves a note. What the program itself sets has no client.
@@ -210,20 +252,23 @@ def _slid(k: int, factor: float, handle: Any) -> tuple[int, float]:
     return k, handle.value / factor
 
 
+def _chosen(menu: Any) -> str:
+    """What is chosen of a menu. A client may send anything, and a label may name a file."""
+    return str(menu.value if menu.value in menu.options else menu.options[0])
+
+
 def _pressed(k: int, handle: Any) -> tuple[int, str]:
-    return k, "locked" if handle.value == "lock" else handle.value
+    return k, _chosen(handle).removeprefix(MARK)
+
+
+def _marked(condition: str) -> tuple[str, ...]:
+    return tuple(f"{MARK}{x}" if x == condition else x for x in CONDITIONS)
 
 
 def command_html(state: State) -> str:
     """The command line, to be copied."""
-    return (
-        '<div style="font:11px/1.4 ui-monospace,monospace;padding:2px 12px 8px;overflow-wrap:anywhere;user-select:all" '
-        f"data-command>{escape(state.to_command())}</div>"
-    )
+    return f'<div class="hf-command" data-command>{escape(state.to_command())}</div>'
 
 
 def _line(text: str, bad: bool = False) -> str:
-    color = "#c8500a" if bad else "#59636e"
-    return (
-        f'<div data-message style="font:12px/1.35 system-ui,sans-serif;color:{color};padding:4px 12px 2px">{escape(text)}</div>'
-    )
+    return f'<div data-message class="hf-line"{" data-bad" if bad else ""}>{escape(text)}</div>'

@@ -1,0 +1,22 @@
+"""
+Which arm for this cell?
+========================
+
+Two arms at the same 300 random poses of one region, in the configurations that inverse kinematics
+finds. Which keeps more, whichever joint locks?
+"""
+
+import holdfast as hf
+
+panda, xarm = hf.arms.load("panda"), hf.arms.load("xarm7")
+region = hf.Region.around(panda, hf.arms.about("panda").home)
+runs = [hf.assess(arm, region, poses=300, seed=1) for arm in (panda, xarm)]
+compared = hf.compare_assessments(runs, threshold=0.05)
+for row in compared.table:
+    name, value, worst = row["name"], row["probability"], row["worst_joint"]
+    print(f"{name:6} keeps at least 0.05 at {value:.1%} of the poses, worst joint {worst}")
+
+# %%
+# The region is around the home of one of them, which favours it. Give the region of your work.
+
+compared.plot()

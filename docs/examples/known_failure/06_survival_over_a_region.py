@@ -1,0 +1,32 @@
+"""
+How much of the job survives each lock?
+=======================================
+
+300 random poses around the home of a Panda. For each joint: how many of them can still be reached
+once it has locked where inverse kinematics happened to have it?
+"""
+
+import matplotlib.pyplot as plt
+
+import holdfast as hf
+
+arm = hf.arms.load("panda")
+region = hf.Region.around(arm, hf.arms.about("panda").home)
+run = hf.assess(arm, region, poses=300, seed=1, after_lock=True, task="pointing")
+survival = run.survival()
+
+# %%
+# Pointing: the turn about the tool's own axis is free. The bars are 95 % intervals.
+
+figure, axes = plt.subplots(figsize=(7, 3.6))
+for k, share in enumerate(survival.values()):
+    axes.bar(k + 1, share.value, color="C0", width=0.6)
+    axes.vlines(k + 1, share.low, share.high, color="0.2", lw=2)
+axes.set(xlabel="joint that locks", ylabel="fraction of poses still in reach", ylim=(0, 1))
+axes.set_title(f"Panda, pointing task: {run.poses} random poses, seed {run.seed}")
+
+# %%
+# Weighted by how often each joint fails (only ratios matter):
+
+rates = dict.fromkeys(arm.joint_names, 1.0) | {"panda_joint4": 4.0}
+print(f"expected, the elbow failing four times as often: {run.expected_survival(rates):.3f}")

@@ -1,0 +1,31 @@
+"""
+Does it reach the target?
+=========================
+
+Joint 2 of three is locked, the controller does not know and goes on commanding all of them. 2000
+random starts are simulated: at the target, stuck beside it, or moving for ever?
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import holdfast as hf
+
+arm = hf.arms.load("planar-3r")
+law = hf.control.pseudoinverse(arm, task="planar")
+q0 = np.random.default_rng(0).uniform(-np.pi, np.pi, (2000, 3))
+runs = hf.simulate(law, q0, [1.5, 1.5], locked=["joint2"])
+print(runs.counts())
+
+# %%
+# Where the end effector stops. What decides is the angle at which the joint locked: an arm folded
+# too far cannot reach.
+
+figure, axes = plt.subplots(figsize=(6.6, 4.6))
+for name, style in (("stuck", "C1v"), ("converged", "C0o")):
+    some = runs.outcome == name
+    label = f"{name}: {some.sum()}"
+    axes.plot(np.rad2deg(q0[some, 1]), runs.error[some], style, ms=4, label=label)
+axes.set(xlabel="angle at which joint 2 is locked, deg", ylabel="error at the end, m")
+axes.set(xticks=range(-180, 181, 60), title=f"Three links of 1 m: {len(q0)} random starts")
+axes.legend()
