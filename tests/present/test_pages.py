@@ -1,4 +1,4 @@
-"""The page of every result: the answer first in a sentence that says something, and how it was computed and is run again last."""
+"""The page of every result: the answer first, in a sentence that says something; how it was computed and is run again, last."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def test_where_nothing_is_found_the_answer_says_so():
         "gains anything": replace(curve, gain=np.ones_like(curve.gain)),
         "reaches none of the points": replace(whole, healthy_size=0.0),
         "no point even before": replace(whole, within=nowhere, survives=nowhere[:, None] & whole.survives, inside=nowhere),
-        "no point is kept through every lock": replace(whole, within=~nowhere, inside=nowhere, survives=~nowhere[:, None] & [1, 0, 1] > 0),
+        "no point is kept through every lock": replace(whole, within=~nowhere, inside=nowhere, survives=np.eye(4, 3) > 0),
         "No motion reaches its target": replace(mapped, code=np.full_like(mapped.code, Outcome.MOVING)),
         "No configuration was found at any": replace(mapped, code=np.full_like(mapped.code, 255)),
     }  # fmt: skip

@@ -14,7 +14,7 @@ from holdfast.words import percent
 if TYPE_CHECKING:
     from rich.console import Console
 
-_NOTHING = 0.005  # less than this gain is none
+_NOTHING, _LEVEL = 0.005, 1e-3  # less than this gain is none; differences that nobody would pay for
 
 
 def to_dict(curve: TradeOff) -> dict[str, Any]:
@@ -45,7 +45,7 @@ def story(curve: TradeOff) -> Story:
     """What an error of the healthy arm gains after an unnoticed lock, where half of it is gained."""
     middle, paid = np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0)
     low, high = curve.median_interval()
-    best = int(middle.argmin())
+    best = int((middle <= middle.min() + _LEVEL).argmax())  # of a plateau the first
     gained = 1 - middle[best]
     if gained < _NOTHING:
         answer = (

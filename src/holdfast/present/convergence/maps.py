@@ -72,7 +72,9 @@ def key_table(m: ConvergenceMap) -> Rows:
 def story(m: ConvergenceMap) -> Story:
     """How often the target is still reached, after which lock least often, and how the others end."""
     law, over = m.law, m.over
-    title = f"From where {law.arm.name} reaches its target" if over == "starts" else f"Which targets {law.arm.name} reaches"
+    title = (
+        f"Starts from which {law.arm.name} reaches its target" if over == "starts" else f"Targets that {law.arm.name} reaches"
+    )
     title += " after a lock that its controller does not know of"
     asked = f"{law.arm.name}, {law.describe()}"
     if not m.known.any():
@@ -92,11 +94,11 @@ def story(m: ConvergenceMap) -> Story:
     else:
         answer = f"Once a joint has locked and nobody knows, {percent(mean)} of the motions reach their target"
         answer += (
-            f"; a lock of {worst} leaves the least, {percent(float(values.min()))}"
+            f"; a lock of {worst} leaves the least, {_often(float(values.min()))}"
             if np.ptp(values)
             else " whichever joint it is"
         )
-    answer += f". With none locked {percent(converged[none].value)} do."
+    answer += f". With no joint locked {_often(converged[none].value)} do."
     facts = [(percent(mean), "of the motions reach their target, mean over the joint that locks")] if mean else []
     if np.ptp(values) and values.min():
         w = converged[worst]
@@ -125,6 +127,10 @@ def story(m: ConvergenceMap) -> Story:
         method=_method(m),
         arm=law.arm,
     )
+
+
+def _often(fraction: float) -> str:
+    return {0.0: "none", 1.0: "all"}.get(fraction, percent(fraction))
 
 
 def _method(m: ConvergenceMap) -> list[tuple[str, str]]:

@@ -83,7 +83,7 @@ def story(w: Workspace) -> Story:
         "sampled": "random configurations, all failures simulated",
     }
     return Story(
-        f"From where {w.law.arm.name} still reaches a target when a joint locks on the way",
+        f"Starts from which {w.law.arm.name} still reaches a target when a joint locks on the way",
         text,
         about=f"{w.law.arm.name}, {w.law.describe()}",
         facts=facts,

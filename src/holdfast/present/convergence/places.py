@@ -143,11 +143,9 @@ def answer(found: Workspace | TargetMeasures, nothing: str) -> tuple[str, list[t
     if np.isfinite(finish[:-1]).any():
         least = int(np.nanargmin(finish[:-1]))
         mean = float(np.nanmean(finish[:-1])) / 100
-        text += (
-            f". Where it is within reach, the arm gets there after {percent(mean)} of the failures"
-            if mean
-            else ". Where it is within reach, the arm never gets there after a failure"
-        )
+        after = {0.0: "never gets there after a failure", 1.0: "gets there after every failure that was tried"}
+        often = after.get(mean, f"gets there after {percent(mean)} of the failures")
+        text += f". Where it is within reach, the failed arm {often}"
         if mean and finish[least] < np.nanmax(finish[:-1]):
             text += f", least often once {names[least]} has locked ({percent(finish[least] / 100)})"
         facts += (
@@ -164,7 +162,7 @@ def figure_words(where: str) -> dict[str, tuple[str, str]]:
             f"R of each of the {where}, for each joint that locks on the way and for any of them.",
         ),
         "finish": (
-            "From where the failed arm gets there",
+            "Where the failed arm reaches the target",
             f"F of each of the {where}: of the way on which the target stays within reach.",
         ),
     }

@@ -58,7 +58,7 @@ def story(found: Basins) -> Story:
     ]
     many = f"{found.shape[0]} by {found.shape[1]} cells" if found.shape else "starts drawn uniformly within the limits"
     return Story(
-        f"From where {points.law.arm.name} still reaches its target",
+        f"Starts from which {points.law.arm.name} still reaches its target",
         answer,
         about=told.about,
         facts=facts if p.value else facts[:4],

@@ -122,7 +122,7 @@ def story(swing: FreeSwing) -> Story:
         way = "dropped" if last.drop >= 0 else "risen"
         answer += f"; if brakes engage after {last.after_ms:g} ms the tool has {way} by {number(1000 * abs(last.drop))} mm"
         facts += [
-            (f"{number(1000 * d.distance)} mm", f"from where it was is the tool when brakes engage after {d.after_ms:g} ms")
+            (f"{number(1000 * d.distance)} mm", f"is how far the tool has moved when brakes engage after {d.after_ms:g} ms")
             for d in swing.drops[:3]
         ]
     facts.append((f"{number(swing.initial_acceleration)} {failed.unit}/s²", "acceleration of the joint as it fails"))

@@ -113,8 +113,9 @@ class _RunReport:
         """How it ended, and whether joints passed their limits on the way: two facts."""
         code, error, least = Outcome(int(self._of("code"))), float(self._of("error")), self.least
         far, took = f"{number(error)} {self.size}", f"{number(float(self._of('time')))} {self.unit}"
+        names = " and ".join(x.replace(f" at 0 {self.unit}", " at the start") for x in self.standing)
         locked = (
-            f"With {' and '.join(self.standing)} locked unnoticed, the end effector" if self.standing else "The end effector"
+            f"With a lock of {names} that its controller does not know of, the arm" if names else "With no joint locked the arm"
         )
         out = least > _REACHED
         told = {
@@ -122,7 +123,7 @@ class _RunReport:
             Outcome.STUCK: f"{locked} stops {far} off its target",
             Outcome.MOVING: f"{locked} never stops: after {took} it is {far} off its target",
             Outcome.UNDECIDED: (
-                f"{locked} is {far} off its target when the run ends undecided, as {Reason(int(self._of('reason'))).sentence}"
+                f"{locked} is {far} off its target when the run ends, undecided: {Reason(int(self._of('reason'))).sentence}"
             ),
         }[code]
         if code != Outcome.CONVERGED:

@@ -109,7 +109,7 @@ def story(motion: SelfMotion) -> Story:
         figures={
             "self-motion": (
                 "Where each joint may lock",
-                "Green bars: values at which a joint may lock and the target stays within reach; the curves are the "
+                "Shaded: values at which a joint may lock and the target stays within reach; the curves are the "
                 "self-motions, and the arm is drawn in a few of their configurations.",
             )
         },
