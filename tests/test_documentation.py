@@ -75,11 +75,11 @@ def test_equations_are_read_as_people_cite_them(text, found):
 
 def test_an_equation_is_found_by_its_number_in_any_spelling():
     table = equations.table()
-    assert "holdfast.indices.susceptibility.torque" in table["English1998"][12]
-    assert "holdfast.indices.relative_manipulability" in table["Abdi2012"][4]
-    assert "holdfast.joint_bounds" in table["Goel2005"][8]
-    assert (
-        "holdfast.control.Deviations.peak_velocity_error" in table["Goel2003"][8]
-    )  # "eq. (8)", of a module that names one paper
+    assert ":py:obj:`holdfast.indices.susceptibility.torque`" in table["English1998"][12]
+    assert ":py:obj:`holdfast.indices.relative_manipulability`" in table["Abdi2012"][4]
+    assert ":py:obj:`holdfast.joint_bounds`" in table["Goel2005"][8]
+    assert "``holdfast.arm.statics.moment_derivative``, inside" in table["English1998"][15]
+    of_a_module = table["Goel2003"][8]  # whose docstring names one paper; the function says "eq. (8)" alone
+    assert ":py:obj:`holdfast.control.Deviations.peak_velocity_error`" in of_a_module
     spelled = {text.lower() for text in equations.spellings("English1998", 12)}
     assert spelled >= {"english 1998 eq. 12", "english 1998 eq. (12)", "english and maciejewski 1998 equation 12", "eq. (12)"}

@@ -6,6 +6,7 @@ its class or module names one paper. Each equation is in the search index as som
 
 from __future__ import annotations
 
+import ast
 import inspect
 import json
 import re
@@ -71,6 +72,18 @@ def public() -> Iterator[str]:
                 yield from (f"{package}.{name}.{key}" for key in vars(found) if not key.startswith("_"))
 
 
+def inner() -> Iterator[tuple[str, str, str]]:
+    """Functions of modules whatever they are called: the name, its docstring, and that of its module."""
+    root = Path(holdfast.__file__).parent
+    for path in sorted(root.rglob("*.py")):
+        text = path.read_text(encoding="utf-8")
+        tree = ast.parse(text) if "eq. (" in text else ast.Module([], [])
+        for each in tree.body:
+            if isinstance(each, ast.FunctionDef):
+                name = ".".join(["holdfast", *path.relative_to(root).with_suffix("").parts, each.name])
+                yield name, ast.get_docstring(each) or "", ast.get_docstring(tree) or ""
+
+
 @cache
 def table() -> dict[str, dict[int, dict[str, str]]]:
     """For each paper and equation the names of what computes it, with the first sentence of each."""
@@ -82,13 +95,18 @@ def table() -> dict[str, dict[int, dict[str, str]]]:
         text = inspect.getdoc(found)
         if id(found) in seen or not text or not callable(found):
             continue
-        seen.add(id(found))
+        seen |= {id(found), f"{found.__module__}.{found.__qualname__}"}
         owner = inspect.getdoc(thing(name.rpartition(".")[0])) or ""
         module = sys.modules[found.__module__].__doc__ or ""
         for paper, number in cited(text):
             paper = paper or only(text) or only(owner) or only(module)
             if paper is not None:
-                out[paper][number][name] = " ".join(text.split("\n\n")[0].split())
+                out[paper][number][f":py:obj:`{name}`"] = " ".join(text.split("\n\n")[0].split())
+    for name, text, module in inner():
+        for paper, number in cited(text) if name not in seen else ():
+            paper = paper or only(text) or only(module)
+            if paper is not None:
+                out[paper][number][f"``{name}``, inside"] = " ".join(text.split("\n\n")[0].split())
     return out
 
 
@@ -113,7 +131,7 @@ class Equations(SphinxDirective):
                     "",
                     f"       \\({number})",
                 ]
-                about = [f":py:obj:`{name}`: {text}" for name, text in sorted(names.items())]
+                about = [f"{name}: {text}" for name, text in sorted(names.items())]
                 lines += [f"     - {about[0]}", *(line for text in about[1:] for line in ("", f"       {text}"))]
             lines.append("")
         return self.parse_text_to_nodes("\n".join(lines), allow_section_headings=True)

@@ -47,3 +47,9 @@ def test_any_arm_has_one():
     assert np.isfinite(generic_configuration(free)).all()
     slide = hf.Joint("slide", "prismatic", np.eye(4), axis=np.array([0, 0, 1.0]), lower=2.0)
     assert generic_configuration(hf.Arm(name="slide", joints=(slide,)))[0] > 2.0
+
+
+def test_it_does_not_depend_on_how_the_arm_is_mounted(rng):
+    arm = arms.load("iiwa14")
+    hanging = arm.with_base(oracles.random_pose(rng))
+    np.testing.assert_allclose(generic_configuration(hanging), generic_configuration(arm), atol=1e-12)

@@ -209,7 +209,7 @@ def test_a_person_reads_joints_in_rad_and_degrees(cli):
         "maximise relative-manipulability",
         "larger wanted",
         "(the configuration given)",
-        "0.3 rad (17.19 deg)",
+        "0.3000 rad (17.19 deg)",
         "agree",
     ):
         assert part in words, part

@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 from studio_pages import send, wait_for
 
+import axe
+
 PLANAR = {"task": "planar"}
 Q = (0.3, 0.8, 0.9)
 ONE = {  # a button by which a tab is known
@@ -57,6 +59,7 @@ def test_every_button_of_the_first_state_does_something_or_is_asleep(studio, vis
     for tab in ONE:
         found = buttons(page, tab)
         wait_for(page, lambda tab=tab, found=found: [name for name, x in found if not x.is_enabled()] == ASLEEP[tab])
+        assert axe.serious(page) == []
         for name, button in [(name, x) for name, x in found if x.is_enabled()]:
             before = window.updates
             if name in FILES:
@@ -92,7 +95,7 @@ def test_buttons_wake_when_they_can_work_and_toggles_show_the_state(studio, visi
     wait_for(page, lambda: page.get_by_role("button", name="✓ free", pressed=True).count() == 1)
     wait_for(page, lambda: page.get_by_role("button", name="healthy", exact=True, pressed=False).count() == 1)
     assert window.stage._names[1].text == "2 free"
-    assert not page.get_by_role("button", name="Let the free joint swing").is_enabled()  # nobody knows what its links weigh
+    wait_for(page, page.get_by_role("button", name="Let the free joint swing").is_enabled)
     page.get_by_role("button", name="All healthy").click()
     wait_for(page, lambda: page.get_by_role("button", name="✓ healthy").count() == 3)
     window.ask("best-worst")
@@ -134,8 +137,8 @@ def test_the_tour_on_a_phone_in_the_dark(studio, visit):
     assert "of the manipulability is left, where it was" in step(4)
     wait_for(page, lambda: window.state.show == "laws" and len(window.player.ghosts) == 2)
     step(5)
-    wait_for(page, lambda: window.state.show == "arm" and not window.state.failed)
-    np.testing.assert_array_equal(window.q, first)
+    wait_for(page, lambda: np.array_equal(window.q, first))
+    assert (window.state.show, window.state.failed) == ("arm", ())
     step(6)
     wait_for(page, lambda: page.locator("[data-tour]").count() == 0)
     # The controls have the whole width, at most the lower half or so, and fold.

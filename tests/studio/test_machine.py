@@ -7,7 +7,7 @@ import pytest
 
 import holdfast as hf
 from holdfast.arm.task import as_task
-from holdfast.studio.scene.machine import Machine
+from holdfast.studio.scene.machine import TOLERANCE, Machine
 
 
 @pytest.fixture(scope="module")
@@ -95,3 +95,20 @@ def test_laws_are_made_once_and_misspelt_ones_refused(machine):
         machine.law("damped:")
     with pytest.raises(hf.InputError, match="not known"):
         machine.law("best")
+
+
+def test_a_target_beside_the_arm_is_within_its_limits_and_away(rng):
+    for name in ("panda", "ur5-rail", "planar-3r"):
+        arm = hf.arms.load(name)
+        machine = Machine(arm, as_task(arm, hf.arms.about(name).task))
+        low, high = (np.where(np.isfinite(x), x, s) for x, s in ((arm.lower, -3.0), (arm.upper, 3.0)))
+        for q in (*rng.uniform(low, high, (20, arm.n)), low, high):
+            near = machine.beside(q)
+            assert ((near >= arm.lower) & (near <= arm.upper)).all()
+            assert machine.apart(q, machine.hand(near)) > TOLERANCE
+
+
+def test_only_what_has_a_weight_swings():
+    arm = hf.Arm.from_dh([hf.DH(a=1.0, alpha=0.0)] * 3)
+    assert not Machine(arm, as_task(arm, "planar")).swings
+    assert Machine(hf.arms.load("panda"), as_task(hf.arms.load("panda"), "pose")).swings

@@ -23,7 +23,8 @@ def generic_configuration(arm: Arm) -> Array:
     The arm's ``home`` where it has one and nothing is special there, else the first sound one of a fixed list around home, or
     around the middle between the limits. Sound means: the Jacobian is well conditioned, and whichever joint locks, as much is
     left as can be expected (relative manipulability, Abdi et al. 2012, eq. (3)); joints that are single points of failure by
-    structure do not count. Where it can be had, no joint is lower than the base. The same arm gets the same answer.
+    structure do not count. Where it can be had, no joint is behind the plane that the arm is mounted on, across the z axis of
+    its base. The same arm gets the same answer.
     """
     low, high = finite_limits(arm)
     wide = np.minimum(high - low, np.where(arm.prismatic, np.inf, 2 * np.pi))
@@ -53,8 +54,7 @@ def _soundness(arm: Arm, q: Array) -> Array:
     counts = left.max(axis=0) > np.sqrt(_NEVER)
     if counts.any():
         score = score * left[:, counts].min(axis=1)
-    size = float(np.linalg.norm(arm.gravity))
-    if size > 0:
-        heights = -(arm.frames(q)[:, :, :3, 3] - arm.base[:3, 3]) @ arm.gravity / size
-        score = score * np.where(heights.min(axis=1) < -0.02 * arm.length_unit, 0.5, 1.0)
+    # What an arm is mounted on is taken to lie across the z axis of its base.
+    heights = (arm.frames(q)[:, :, :3, 3] - arm.base[:3, 3]) @ arm.base[:3, 2]
+    score = score * np.where(heights.min(axis=1) < -0.02 * arm.length_unit, 0.5, 1.0)
     return np.asarray(score)

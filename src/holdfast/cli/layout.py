@@ -15,14 +15,19 @@ _PANELS = {
     "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
     "climbs fresh designs chunk rotation spacing metric",
-    "Output": "out json csv parquet plot check show at-least",
+    "Output": "out json csv parquet plot at-least",
 }
 _PANEL = {f"--{name}": panel for panel, names in _PANELS.items() for name in names.split()}
 _TYPES = {"bool": "", "int": "INTEGER", "float": "NUMBER", "list[float]": "NUMBER", "path": "PATH", "Path": "PATH"}
 
 
 class LaidOut(TyperCommand):
-    """A command that lays out its help when it is asked for, and not before; and tells a shell what its parameters take."""
+    """A command with its options in panels, that lays out its help when it is asked for; and tells a shell what it takes."""
+
+    def __init__(self, name: str | None, **settings: Any) -> None:
+        super().__init__(name, **settings)
+        panels = {id(each): panel(each, self) for each in self.params}
+        self.params.sort(key=lambda each: [None, *_PANELS].index(panels[id(each)]))
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write it."""

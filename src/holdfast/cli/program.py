@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import sys
 from importlib import import_module
+from shutil import get_terminal_size
+from textwrap import fill
 from typing import Annotated, Any
 
 import typer
@@ -133,5 +135,8 @@ def _stopped() -> None:
 
 
 def _fail(message: str) -> None:
-    typer.echo(f"holdfast: {message}", err=True)
+    text = f"holdfast: {message}"
+    if sys.stderr.isatty():  # a terminal would cut the last word of a line in two
+        text = fill(text, get_terminal_size().columns, break_long_words=False, break_on_hyphens=False)
+    typer.echo(text, err=True)
     sys.exit(2)

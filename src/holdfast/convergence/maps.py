@@ -126,13 +126,13 @@ class ConvergenceMap(Result):
             f"{self.law.describe()} on {self.law.arm.title}: {int(self.known.any(axis=1).sum())} of {len(self.places)} "
             f"{self.over} with {runs} motions, {runs * len(self.columns)} runs, seed {self.seed}"
         ]
-        every = {outcome: self.shares(outcome) for outcome in (*_OUTCOMES, "trapped")} if runs else {}
-        for name in self.columns if runs else ():
-            told = ", ".join(f"{outcome} {100 * every[outcome][name].value:.1f} %" for outcome in _OUTCOMES)
-            converged, trapped = every["converged"][name], every["trapped"][name]
+        if runs:
+            converged, trapped = self.shares("converged"), self.shares("trapped")
+            name = min(self.columns[:-1], key=lambda name: converged[name].value)
+            worst = converged[name]
             lines.append(
-                f"{name} locked: {told}; converged with 95 % confidence {100 * converged.low:.1f} to "
-                f"{100 * converged.high:.1f} %, not there though the target was in reach {100 * trapped.value:.1f} %"
+                f"with {name} locked fewest converge: {100 * worst.value:.1f} % (95 % interval {100 * worst.low:.1f} to "
+                f"{100 * worst.high:.1f} %); {100 * trapped[name].value:.1f} % do not, though the target is in reach"
             )
         counts = self.undecided()
         if sum(counts.values()):

@@ -53,6 +53,22 @@ def number(value: float | np.floating[Any], digits: int = 4) -> str:
     return "0" if abs(value) < 1e-12 else f"{value:.{digits}g}"
 
 
+def alike(values: Iterable[float], units: str | Sequence[str] = "", digits: int = 4) -> list[str]:
+    """A column of values: those of one unit with one precision, unless they are of sizes that have none."""
+    x = np.array([float(v) for v in values])
+    unit = np.array([units] * x.size if isinstance(units, str) else units)
+    found = [number(v, digits) for v in x]
+    for one in dict.fromkeys(unit.tolist()):
+        sizes = np.abs(x[mine := (unit == one)])
+        sizes = sizes[np.isfinite(sizes) & (sizes > 1e-12)]
+        if not sizes.size or sizes.max() > 1e5 * sizes.min() or sizes.min() < 1e-6:
+            continue
+        decimals = max(digits - 1 - math.floor(math.log10(sizes.max())), 1 - math.floor(math.log10(sizes.min())), 0)
+        for k in np.flatnonzero(mine & np.isfinite(x)):
+            found[k] = f"{x[k] + 0.0:.{decimals}f}" if abs(x[k]) > 1e-12 else f"{0:.{decimals}f}"
+    return [f"{text} {u}" if u and u != "1" else text for text, u in zip(found, unit, strict=True)]
+
+
 def print_rows(out: Console, table: Rows) -> None:
     """The rows below their title."""
     from rich.markup import escape

@@ -30,7 +30,7 @@ class Screen(Console):
 
 
 class Grid(Table):
-    """A table without lines: numbers to the right, and where it is too narrow, a block for each row in place of a line.
+    """A table without lines: numbers to the right; where it is too wide, its columns one below the other, in bands.
 
     Without a head it holds facts: a name and a value in each row.
     """
@@ -41,35 +41,60 @@ class Grid(Table):
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         """Lines of the width that there is."""
         columns = [[_text(console, x) for x in (column.header, *column.cells)] for column in self.columns]
-        for column, texts in zip(self.columns, columns, strict=True):
-            cells = [text.plain for text in texts[1:]]
-            if (
-                self.show_header
-                and any(map(_is_number, cells))
-                and all(not x or _is_number(x) or _BESIDE.fullmatch(x) for x in cells)
-            ):
-                column.justify = "right"
-        whole = [max(cell_len(line) for text in texts for line in text.plain.split("\n")) for texts in columns]
-        least = [max((cell_len(word) for text in texts for word in text.plain.split()), default=0) for texts in columns]
+        numbers = [self.show_header and _are_numbers([text.plain for text in texts[1:]]) for texts in columns]
+        for column, of_numbers in zip(self.columns, numbers, strict=True):
+            column.justify = "right" if of_numbers else "left"
+        whole = [max(map(_width, texts)) for texts in columns]
+        words = [max(map(_longest_word, texts)) for texts in columns]
+        cells = [max(map(_width, texts[1:]), default=0) if n else 0 for n, texts in zip(numbers, columns, strict=True)]
+        least = [max(pair) for pair in zip(words, cells, strict=True)]  # numbers stay on one line if they can
         room = options.max_width - _GAP * (len(columns) - 1)
-        if sum(whole) > room >= sum(least):
+        if sum(whole) <= room:
+            yield from super().__rich_console__(console, options)
+        elif sum(least) > room and (bands := self._bands(columns, numbers, least, options.max_width)):
+            yield from bands
+        elif sum(least := least if sum(least) <= room else words) <= room:
             spare, wanted = room - sum(least), sum(whole) - sum(least)
             for column, low, high in zip(self.columns, least, whole, strict=True):
                 column.width = low + spare * (high - low) // wanted
-        elif sum(whole) > room:
-            yield from self._blocks(columns)
-            return
-        yield from super().__rich_console__(console, options)
+            yield from super().__rich_console__(console, options)
+        else:
+            for row in zip(*(texts[1:] for texts in columns), strict=True):
+                for texts, cell in zip(columns, row, strict=True):
+                    yield Text.assemble(texts[0], " ", cell)
 
-    def _blocks(self, columns: list[list[Text]]) -> RenderResult:
-        """Each row as lines of a head and its value."""
-        heads = [texts[0].plain for texts in columns]
-        for k in range(1, len(columns[0])):
-            for head, texts in zip(heads, columns, strict=True):
-                if texts[k].plain:
-                    first = texts is columns[0]
-                    line = texts[k] if not head else Text.assemble((f"{head} ", "bold" if first else ""), texts[k])
-                    yield Text.assemble("" if first else "  ", line)
+    def _bands(self, columns: list[list[Text]], numbers: list[bool], least: list[int], most: int) -> list[Grid]:
+        """Tables of some columns each, after those that name the row; none where even one column does not fit beside them."""
+        names = max(next((k for k, of_numbers in enumerate(numbers) if of_numbers), 1), 1)
+        beside = sum(least[:names]) + _GAP * names
+        if names == len(columns) or beside + max(least[names:]) > most:
+            return []
+        groups: list[list[int]] = [[]]
+        for k in range(names, len(columns)):
+            if groups[-1] and beside + sum(least[j] + _GAP for j in (*groups[-1], k)) - _GAP > most:
+                groups.append([])
+            groups[-1].append(k)
+        bands = []
+        for group in groups:
+            chosen = [*columns[:names], *(columns[k] for k in group)]
+            band = Grid(*(texts[0].markup for texts in chosen))
+            for row in zip(*(texts[1:] for texts in chosen), strict=True):
+                band.add_row(*row)
+            bands.append(band)
+        return bands
+
+
+def _width(text: Text) -> int:
+    return max(map(cell_len, text.plain.split("\n")))
+
+
+def _longest_word(text: Text) -> int:
+    return max(map(cell_len, text.plain.split()), default=0)
+
+
+def _are_numbers(cells: list[str]) -> bool:
+    """Numbers, or nothing, with or without units."""
+    return any(map(_is_number, cells)) and all(not x or _is_number(x) or _BESIDE.fullmatch(x) for x in cells)
 
 
 def _text(console: Console, cell: Any) -> Text:

@@ -126,8 +126,8 @@ def serve(
     Args:
         arm: The arm.
         state: What is shown at first; all joints healthy, in a generic configuration, if not given.
-        host: The address to listen on. Who can reach it can read the motions and results that the page opens: other than
-            the loopback address only in a network where all are trusted.
+        host: The address to listen on. Only pages that it has served itself are let in, but whoever reaches it can open such a
+            page: other than the loopback address only in a network where all are trusted.
         port: The port; 0: any that is free.
         task: The task, where its name in ``state`` does not say it all.
         ready: Told the address as soon as a browser may open it; the arm comes while the browser loads the page.

@@ -73,12 +73,8 @@ class View:
             self.stage.read(reading, frames[-1])
             self.panel.read(reading, state)
             self.panel.enable(self._possible(reading))
-            self._guide.tell(reading, self.machine.arm.name, state.names, redundant=self._redundant, busy=self._busy)
+            self._guide.tell(reading, state.names, self._busy)
         self.updates += 1
-
-    @property
-    def _redundant(self) -> bool:
-        return self.machine.arm.n > self.machine.task.m
 
     def _possible(self, reading: Reading) -> dict[str, bool]:
         """Which buttons can do something now."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from holdfast.arm.soundness import check
 from holdfast.arm.task import plane_normal
 from holdfast.assessment.single_points import explain, structures
 from holdfast.grammar import TASKS
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -143,6 +144,13 @@ def show_library(out: Console) -> None:
 def shown_position(value: float, unit: str) -> str:
     """A joint's position, or an angle, for a table."""
     return f"{number(value)} m" if unit == "m" else f"{number(value)} rad ({number(np.degrees(value))} deg)"
+
+
+def shown_positions(values: NDArray[np.float64], units: Sequence[str], digits: int = 5) -> list[str]:
+    """A column of positions, or of measures of joints; angles are in degrees too."""
+    degrees = iter(alike(np.degrees([x for x, unit in zip(values, units, strict=True) if unit == "rad"]), "deg"))
+    pairs = zip(alike(values, units, digits), units, strict=True)
+    return [f"{text} ({next(degrees)})" if unit == "rad" else text for text, unit in pairs]
 
 
 def print_outside(arm: Arm, q: NDArray[np.float64], out: Console, when: str = "") -> None:

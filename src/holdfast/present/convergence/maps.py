@@ -123,7 +123,6 @@ def story(m: ConvergenceMap) -> Story:
                 for view in ("", "-top", "-side")
             },
         },
-        tables=[key_table(m)],
         method=_method(m),
         arm=law.arm,
     )
@@ -151,6 +150,20 @@ def _method(m: ConvergenceMap) -> list[tuple[str, str]]:
         ("Intervals", "95 %; the unit is the place, whose motions resemble each other"),
         ("Seed", str(m.seed)),
     ]
+
+
+def tables(m: ConvergenceMap) -> list[Rows]:
+    """How the motions end with each joint locked."""
+    if not m.known.any():
+        return []
+    ends = {word: m.shares(word) for word in _WORDS if word != "in_reach"}
+    rows = []
+    for name in m.columns:
+        whole, *parts = (f"{100 * end[name].value:.1f} %" for end in ends.values())
+        rows.append(
+            [name, whole, f"{100 * ends['converged'][name].low:.1f} to {100 * ends['converged'][name].high:.1f}", *parts]
+        )
+    return [Rows(["locked", "converged", "95 % interval", "stuck", "moving", "undecided", "not there, in reach"], rows)]
 
 
 def next_steps(m: ConvergenceMap, name: str) -> list[str]:

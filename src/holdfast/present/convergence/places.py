@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from holdfast.convergence.measures import FINISH, REACH
 from holdfast.convergence.places import Places, in_a_plane
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 from holdfast.words import percent
 
 if TYPE_CHECKING:
@@ -68,9 +68,11 @@ def panels(
 def mean_rows(found: Workspace | TargetMeasures, over: str, intervals: bool = True) -> Rows:
     """A row for each joint and ``any``, a column for the mean of each measure."""
     means, sure = found.means(), found.intervals()
-    rows = []
-    for k, name in enumerate((*found.law.arm.joint_names, "any")):
-        rows.append([name, *(with_interval(v[k], *sure[m][k]) if intervals else number(v[k]) for m, v in means.items())])
+    names = (*found.law.arm.joint_names, "any")
+    columns = [
+        [with_interval(v[k], *sure[m][k]) for k in range(len(names))] if intervals else alike(v) for m, v in means.items()
+    ]
+    rows = [list(row) for row in zip(names, *columns, strict=True)]
     return Rows(["joint", *means], rows, f"mean over {over}, percent" + " (and 95 % interval)" * intervals)
 
 

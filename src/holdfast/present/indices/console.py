@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective
 from holdfast.indices.susceptibility.measure import Susceptibility
-from holdfast.present.arm.console import print_outside
-from holdfast.present.printing import number
+from holdfast.present.arm.console import print_outside, shown_positions
+from holdfast.present.printing import alike, number
 from holdfast.status import Status
 
 if TYPE_CHECKING:
@@ -74,19 +74,18 @@ def show_index(index: Index, q: Array, out: Console) -> None:
         note = f" ({index.bound_note})" if index.bound_note else ""
         bound = f"; at most {number(index.bound)} for any configuration{note}" if index.bound is not None else ""
         verdict = f"[bold]{number(r['value'], 6)}{unit}[/], worst when [bold]{escape(r['worst'])}[/] locks{bound}"
-    rows = [(name, f"{number(x, 6)}{' <- worst' if name == r['worst'] else ''}") for name, x in r["by_failure"].items()]
-    _show(index, q, verdict, ("failure", f"{index.name}{unit}"), rows, out)
+    values = zip(r["by_failure"], alike(r["by_failure"].values(), digits=6), strict=True)
+    rows = [(name, text, "[bold]worst[/]" if name == r["worst"] else "") for name, text in values]
+    _show(index, q, verdict, ("failure", f"{index.name}{unit}", ""), rows, out)
     _show_gradient("worst case", r, out)
 
 
 def show_susceptibility(measure: Susceptibility, q: Array, out: Console) -> None:
     """The value, then a table of the joints, and what their states mean."""
     r = susceptibility_values(measure, q)
-    rows = []
-    for name, value in r["by_joint"].items():
-        kind, state = r["joint_unit"][name], r["joint_status"][name]
-        degrees = f" ({number(np.rad2deg(value), 4)} deg)" if kind == "rad" else ""
-        rows.append((name, f"{number(value, 6)} {kind}{degrees}", "" if state == "ok" else state.replace("_", " ")))
+    kinds, values = list(r["joint_unit"].values()), list(r["by_joint"].values())
+    states = ["" if state == "ok" else state.replace("_", " ") for state in r["joint_status"].values()]
+    rows = list(zip(r["by_joint"], shown_positions(np.array(values), kinds, 6), states, strict=True))
     verdict = f"[bold]{number(r['value'], 6)}{_unit(measure)}[/], smaller is better"
     _show(measure, q, verdict, ("joint", measure.formula.name, ""), rows, out)
     for state in dict.fromkeys(r["joint_status"].values()):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.motion.trajectory import Array, Trajectory
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 from holdfast.words import capitalised
 
 if TYPE_CHECKING:
@@ -80,9 +80,10 @@ def show(t: Trajectory, out: Console) -> None:
     facts = _facts(t.value)
     table = Grid(escape(t.objective.name), *facts)
     unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
-    table.add_row(escape(f"{t.method}{unit}"), *map(number, facts.values()))
-    if t.best_value is not None:
-        table.add_row("best of each pose", *map(number, _facts(t.best_value).values()))
+    rows = {f"{t.method}{unit}": t.value} | ({} if t.best_value is None else {"best of each pose": t.best_value})
+    shown = alike([x for values in rows.values() for x in _facts(values).values()])
+    for k, name in enumerate(rows):
+        table.add_row(escape(name), *shown[k * len(facts) : (k + 1) * len(facts)])
     out.print(table)
     for line in rest:
         out.print(escape(capitalised(line)), soft_wrap=True)
@@ -118,6 +119,6 @@ def _show_slowness(t: Trajectory, bound: float, out: Console) -> None:
         soft_wrap=True,
     )
     table = Grid("joint", "time scale", "decided at")
-    for name, s in zip(t.arm.joint_names, slowness, strict=True):
-        table.add_row(escape(name), number(s.time_scale), f"{t.time[s.worst_time_index]:.4g} s" if s.time_scale > 0 else "")
+    for name, scale, s in zip(t.arm.joint_names, alike(s.time_scale for s in slowness), slowness, strict=True):
+        table.add_row(escape(name), scale, f"{t.time[s.worst_time_index]:.4g} s" if s.time_scale > 0 else "")
     out.print(table)

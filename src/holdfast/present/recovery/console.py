@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.present.clearance.shape import shape_summary, shape_text
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 from holdfast.present.story import Story
 from holdfast.recovery.recovery import Ending
 from holdfast.words import capitalised, counted
@@ -221,10 +221,9 @@ def show(recovery: Recovery, out: Console) -> None:
     for line in checks(recovery):
         out.print(escape(f"check: {line}"), soft_wrap=True)
     table = Grid("joint", "start", "end", "")
-    for k, joint in enumerate(recovery.arm.joints):
-        factor, unit = joint.shown
-        cells = [f"{number(factor * x)} {unit}" for x in (recovery.q[0, k], recovery.q[-1, k])]
-        table.add_row(escape(joint.name), *cells, "locked" if joint.name in recovery.locked else "")
+    factors, units = zip(*(joint.shown for joint in recovery.arm.joints), strict=True)
+    for name, *cells in zip(recovery.arm.joint_names, *(alike(factors * x, units) for x in recovery.q[[0, -1]]), strict=True):
+        table.add_row(escape(name), *cells, "locked" if name in recovery.locked else "")
     out.print(table)
 
 

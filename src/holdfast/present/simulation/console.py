@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows, number
+from holdfast.present.printing import Rows, alike, number
 from holdfast.simulation.runs import Outcome, Reason, Runs
 
 if TYPE_CHECKING:
@@ -108,9 +108,9 @@ def show(runs: Runs, out: Console) -> None:
     facts.add_row("took", f"{number(float(runs.time))} {unit}")
     out.print(facts)
     table = Grid("joint", "start", "end", "least", "greatest", "")
-    for k, joint in enumerate(arm.joints):
-        factor, shown = joint.shown
-        cells = [f"{number(factor * x[k])} {shown}" for x in (runs.q0, runs.q_final, runs.q_low, runs.q_high)]
+    factors, units = zip(*(joint.shown for joint in arm.joints), strict=True)
+    columns = [alike(factors * x, units) for x in (runs.q0, runs.q_final, runs.q_low, runs.q_high)]
+    for k, (joint, *cells) in enumerate(zip(arm.joints, *columns, strict=True)):
         notes = ["locked"] if np.isfinite(runs.lock_time[k]) else []
         notes += ["passes its limits"] if runs.limits_passed[k] else []
         table.add_row(escape(joint.name), *cells, ", ".join(notes))

@@ -15,7 +15,7 @@ from holdfast.files.spreadsheet import cell
 from holdfast.indices.index import Index
 from holdfast.indices.objective import Objective, Opposite, WeightedSum
 from holdfast.indices.susceptibility.measure import Susceptibility
-from holdfast.present.arm.console import print_outside, shown_position
+from holdfast.present.arm.console import print_outside, shown_position, shown_positions
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, plain
 from holdfast.present.story import Story
@@ -228,12 +228,12 @@ def _show_one(found: Optima, out: Console, first: str, unit: str) -> None:
         soft_wrap=True,
     )
     measures = list(_measures(found))
-    columns = [f"{escape(label)} before" if k == 0 else "after" for label, *_ in measures for k in (0, 1)]
+    columns = [f"{escape(label)} {when}" for label, *_ in measures for when in ("before", "after")]
     table = Grid("joint", "before", "after", *columns)
-    for i, joint in enumerate(found.arm.joints):
-        cells = [shown_position(x[i], joint.unit) for x in (before, found.q[0])]
-        cells += [_measure(x[0, i], units[i]) for _, units, *both in measures for x in both]
-        table.add_row(escape(joint.name), *cells)
+    joints = [joint.unit for joint in found.arm.joints]
+    shown = [(joints, before), (joints, found.q[0]), *((units, x[0]) for _, units, *both in measures for x in both)]
+    for name, *cells in zip(found.arm.joint_names, *(shown_positions(x, units) for units, x in shown), strict=True):
+        table.add_row(escape(name), *cells)
     out.print(table)
     print_outside(found.arm, before, out, " before")
     agreeing = found.agreeing[0]
@@ -308,9 +308,3 @@ def _summands(objective: Objective) -> list[Objective]:
     if isinstance(objective, Opposite):
         return _summands(objective.objective)
     return [o for _, o in objective.terms] if isinstance(objective, WeightedSum) else [objective]
-
-
-def _measure(value: float, unit: str) -> str:
-    if unit == "rad":
-        return shown_position(value, unit)
-    return number(value) + ("" if unit == "1" else f" {unit}")

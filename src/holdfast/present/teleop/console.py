@@ -83,8 +83,9 @@ def show_protocol(p: Protocol, out: Console) -> None:
 def show_allocation(p: Protocol, subjects: int | None, out: Console) -> None:
     """A line for each subject: the row of the square, and the tasks with their scenarios in order."""
     order = p.order()
-    out.print("subject  row  tasks in order, each with its scenarios in order", soft_wrap=True)
+    table = _table("subject", "row", "tasks in order, each with its scenarios in order")
     for k in range(p.subjects if subjects is None else subjects):
         session = p.session(k % len(order), k).reshape(len(p.tasks), -1, 2) + 1
         words = " ".join(f"{of[0, 0]}:{'/'.join(map(str, of[:, 1]))}" for of in session)
-        out.print(f"{k + 1:7d}  {k % len(order) + 1:3d}  {words}", markup=False, soft_wrap=True)
+        table.add_row(str(k + 1), str(k % len(order) + 1), words)
+    out.print(table)

@@ -65,14 +65,16 @@
   function mark() {
     for (const button of document.querySelectorAll("button")) {
       const text = button.textContent, state = text.replace(/^✓ /, "");
+      if (text === "" && !button.getAttribute("aria-label"))
+        button.setAttribute("aria-label", button.closest("[role=alert]") ? "Close" : "Connection and settings");
       if (!STATES.includes(state)) continue;
       button.setAttribute("aria-pressed", String(text !== state));
       button.classList.add(`hf-${state}`);
     }
     for (const label of document.querySelectorAll("label[for]")) {
       const control = document.getElementById(label.htmlFor);
-      for (const part of control?.parentElement?.querySelectorAll("[role=slider], input:not([id])") ?? [])
-        if (!part.hasAttribute("aria-label")) part.setAttribute("aria-label", label.textContent);
+      for (const part of control?.parentElement?.querySelectorAll("[role=slider], input") ?? [])
+        if (part !== control && !part.getAttribute("aria-label")) part.setAttribute("aria-label", label.textContent);
     }
   }
 
