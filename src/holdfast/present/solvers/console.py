@@ -137,7 +137,7 @@ def story(optima: Optima) -> Story:
     tables = [key_table(optima)._replace(title="Configurations, before and best" if not many else "Objective, before and best")]
     for label, units, old, new in _measures(found) if not many else ():
         rows = [
-            [j, _measure(a, u), _measure(b, u)] for j, u, a, b in zip(found.arm.joint_names, units, old[0], new[0], strict=True)
+            list(row) for row in zip(found.arm.joint_names, *(shown_positions(x[0], units) for x in (old, new)), strict=True)
         ]
         tables.append(Rows(["joint that fails", "before", "best"], rows, capitalised(label.replace("-", " "))))
     return Story(
