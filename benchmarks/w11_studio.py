@@ -71,7 +71,7 @@ def live(machine, q, seconds: float) -> float:
     names, healthy, count, end = machine.arm.joint_names, ("healthy",) * machine.arm.n, 0, time.perf_counter() + seconds
     while time.perf_counter() < end:
         x = q + 0.2 * np.sin(0.1 * count)
-        machine.frames(x)
+        machine.arm.frames(x)
         reading = machine.read(x, (), "relative-manipulability", "torque")
         bars_html(reading.bars, "", names, healthy), bars_html(reading.weights, "", names, healthy)
         losses_html(machine.arm, machine.task, reading, ())

@@ -144,7 +144,7 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
     "image_scrapers": ("matplotlib", "pictures"),
     "reset_modules": ("matplotlib", "pictures.look"),
-    "first_notebook_cell": "# The first time: %pip install holdfast\n%matplotlib inline",
+    "first_notebook_cell": "# holdfast must be installed: see its page on installation\n%matplotlib inline",
     "abort_on_example_error": True,
     "capture_repr": (),
     "download_all_examples": False,

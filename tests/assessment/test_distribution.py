@@ -12,7 +12,7 @@ from scipy import stats
 
 from holdfast.errors import InputError
 from holdfast.probability import Distribution, Interval
-from holdfast.probability.distribution import Collector
+from holdfast.probability.collector import Collector
 
 BETTER = ["larger", "smaller"]
 

@@ -16,7 +16,7 @@ from holdfast import Region
 from holdfast.errors import InputError, StoreError
 from holdfast.present.commands import region_file
 from holdfast.probability import Distribution, Interval
-from holdfast.probability.distribution import Collector
+from holdfast.probability.collector import Collector
 
 BOX = Region.box([1.2, 0.3, 0.0], [2.4, 2.4, 0.0])
 

@@ -45,7 +45,7 @@ def caption(shown: Image.Image, text: str, size: int = 24, color: str = INK) -> 
     height = int(1.4 * size)
     top = out.height - 12 - height * len(lines)
     wide = max(fonts[min(k, 1)].getlength(line) for k, line in enumerate(lines))
-    pen.rectangle((0, top - 8, 16 + wide + 12, out.height), fill=(255, 255, 255, 225))
+    pen.rectangle((0, top - 8, 16 + wide + 12, out.height), fill=(255, 255, 255, 248))
     for k, line in enumerate(lines):
         pen.text((16, top + k * height), line, fill=color if k == 0 else INK, font=fonts[min(k, 1)])
     return out

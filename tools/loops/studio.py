@@ -60,6 +60,7 @@ def shots(count: int = 32) -> Iterator[Shot]:
         if close.count():
             close.first.click()
         page.get_by_role("tab", name="Fail").click()
+        page.get_by_text("What the colours mean").click()  # the caption is there
         window.stage.gizmo.visible = False
         window.client.camera.position, window.client.camera.look_at = EYE, CENTRE
         window.client.camera.fov = FIELD

@@ -19,7 +19,8 @@ from holdfast.assessment.plan import Plan, Rows
 from holdfast.engine.store import Store
 from holdfast.errors import StoreError
 from holdfast.kernels.threads import pool, thread_count
-from holdfast.probability.distribution import Collector, Distribution
+from holdfast.probability.collector import Collector
+from holdfast.probability.distribution import Distribution
 from holdfast.provenance import versions
 from holdfast.status import Status
 

@@ -12,11 +12,9 @@ from holdfast.caching import cached_property
 from holdfast.errors import InputError
 from holdfast.probability.intervals import Interval, Sums, check_confidence
 
-__all__ = ["BINS", "Collector", "Distribution", "Interval"]
+__all__ = ["Distribution", "Interval"]
 
 Array = NDArray[np.float64]
-
-BINS = 1 << 16
 
 
 @dataclass(kw_only=True)
@@ -332,114 +330,3 @@ class Distribution:
             below[-1] = self._finite_weight
             counts = np.maximum(np.diff(below), 0.0)
         return edges, counts / (size * np.diff(edges))
-
-
-class Collector:
-    """Gathers values chunk by chunk; beyond ``most`` of them keeps fine bins instead, in constant memory."""
-
-    def __init__(
-        self, better: Literal["larger", "smaller"], bound: float | None, most: int = 4_000_000, heaviest: float = 0.0
-    ) -> None:
-        self._better, self._bound, self._most, self._heaviest = better, bound, most, heaviest
-        self._parts: list[Array] = []
-        self._kept = 0
-        self._edges: Array | None = None
-        self._counts: NDArray[Any] | None = None
-        self._weights: list[Array] = []
-        self._sums: tuple[Sums, Sums, Sums] | None = None  # of finite values, of reached poses, of the others
-        self._unreached = self._singular = self._infinite = self._reached = 0
-        self._total, self._low, self._high = 0.0, np.inf, -np.inf
-
-    def add(
-        self,
-        values: Array,
-        unreached: int,
-        singular: int,
-        weights: Array | None = None,
-        unreached_weights: Array | None = None,
-    ) -> None:
-        """Values at reached poses, number of the others, and how many of the values are singular.
-
-        Weights, of the values and of the poses not reached, are given with every chunk or with none.
-        """
-        self._unreached += unreached
-        self._singular += singular
-        self._reached += len(values)
-        some = np.isfinite(values)
-        finite = values[some]
-        self._infinite += len(values) - len(finite)
-        if weights is not None and unreached_weights is not None:
-            if self._sums is None:
-                self._sums = Sums(), Sums(), Sums(largest=self._heaviest)
-            for sums, w in zip(self._sums, (weights[some], weights, unreached_weights), strict=True):
-                sums.add(w)
-            self._total += float(finite @ weights[some])
-            finite = values[some & (weights > 0)]
-        elif finite.size:
-            self._total += float(finite.sum())
-        if finite.size:
-            self._low, self._high = min(self._low, float(finite.min())), max(self._high, float(finite.max()))
-        if self._edges is None:
-            self._parts.append(values)
-            if weights is not None:
-                self._weights.append(weights)
-            self._kept += len(values)
-            if self._kept > self._most:
-                self._start_bins()
-        else:
-            self._count(values, weights)
-
-    def _start_bins(self) -> None:
-        seen = np.concatenate(self._parts)
-        finite = seen[np.isfinite(seen)]
-        if self._bound is not None:
-            edges = np.linspace(0.0, self._bound, BINS)
-        else:
-            # Half the edges evenly spaced, half at quantiles: a heavy tail must not blur the rest.
-            low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-            top = high + max(abs(high), high - low, 1e-300)
-            even = np.linspace(0.0 if low >= 0 else 2 * low, top, BINS // 2)
-            dense = np.quantile(finite, np.linspace(0, 1, BINS // 2)) if finite.size else np.zeros(0)
-            edges = np.unique(np.r_[even, dense, np.finfo(np.float64).max])
-        self._edges = np.r_[edges, np.inf]
-        weights = np.concatenate(self._weights) if self._weights else None
-        bins = len(self._edges) - 1
-        self._counts = np.zeros(bins, dtype=np.int64) if weights is None else np.zeros(bins)
-        self._parts, self._weights = [], []
-        self._count(seen, weights)
-
-    def _count(self, values: Array, weights: Array | None) -> None:
-        assert self._edges is not None
-        assert self._counts is not None
-        last = len(self._counts) - 1
-        if self._bound is not None:  # even bins need no search
-            place = np.minimum(values * ((BINS - 1) / self._bound), last).astype(np.int64)
-            place[values >= self._bound] = last  # where many values sit: the product may round to just below
-        else:
-            place = np.searchsorted(self._edges, values, side="right") - 1
-        self._counts += np.bincount(place.clip(0, last), weights, minlength=last + 1)
-
-    def finish(self) -> Distribution:
-        """The distribution of everything added."""
-        if self._edges is None:
-            values = np.concatenate(self._parts) if self._parts else np.zeros(0)
-            if self._sums is not None:
-                weights = np.concatenate(self._weights)
-                return Distribution._weighted(values, weights, self._better, self._unreached, self._singular, self._sums[2])
-            return Distribution.of(values, self._better, self._unreached, singular=self._singular)
-        finite, found, lost = self._sums or (None, None, None)
-        return Distribution(
-            better=self._better,
-            edges=self._edges,
-            counts=self._counts,
-            unreached=self._unreached,
-            singular=self._singular,
-            infinite=self._infinite,
-            total=self._total,
-            lowest=self._low,
-            highest=self._high,
-            _reached=self._reached,
-            _finite=finite,
-            _found=found,
-            _lost=lost,
-        )

@@ -20,7 +20,6 @@ from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.present.arm.visuals import body_of
 from holdfast.studio.aside import Aside
-from holdfast.studio.page import upload
 from holdfast.studio.page.entrance import Entrance
 from holdfast.studio.scene.machine import Machine
 from holdfast.studio.state import State
@@ -43,6 +42,7 @@ class Studio:
     """
 
     def __init__(self, server: Any, machine: Machine, state: State, *, parts: list[Part], note: str) -> None:
+        from holdfast.studio.page import upload
         from holdfast.studio.window import Window
 
         self._server, self._window = server, Window
@@ -80,7 +80,9 @@ class Studio:
 
     def _load(self, client: Any, name: str, content: bytes) -> None:
         """Open the arm of a file that was sent, in place of a client's window; what is wrong with it is raised before that."""
-        machine, state, parts, note = upload.read_machine(name, content)
+        from holdfast.studio.page.upload import read_machine
+
+        machine, state, parts, note = read_machine(name, content)
         q = np.array(state.q)
         machine.read(q, (), state.index, state.susceptibility)  # nothing is given up for an arm that cannot be shown
         self._close(client.client_id)

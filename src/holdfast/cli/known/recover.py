@@ -26,6 +26,7 @@ from holdfast.cli.options import (
 )
 from holdfast.errors import InputError
 from holdfast.grammar import is_number
+from holdfast.present.printing import console
 from holdfast.present.results import printed, said
 
 if TYPE_CHECKING:
@@ -145,7 +146,7 @@ def command(
         files += result.save(out, command=said())
     printed(result, json_, files)
     if csv is not None and not len(result.q) and not json_:
-        typer.echo(f"holdfast: no motion was found, so '{csv}' is not written", err=True)
+        console(stderr=True).print(f"holdfast: no motion was found, so '{csv}' is not written", markup=False, soft_wrap=True)
     if not result.ok:
         raise typer.Exit(NOT_MET)
 

@@ -28,6 +28,7 @@ from holdfast.cli.progress import progress_bar
 from holdfast.cli.start.candidates import TOOL_HELP, read_candidates
 from holdfast.errors import InputError, StoreError
 from holdfast.files import reading
+from holdfast.present.printing import console
 from holdfast.present.results import printed
 
 if TYPE_CHECKING:
@@ -153,13 +154,15 @@ def command(
     if several and out is not None and reading.exists(out / "run.json"):
         raise StoreError(f"'{out}' holds one run; give another folder for the comparison")
     if several and region is None:
-        typer.echo(f"no --region: every candidate is tried in the default region of '{first.name}'", err=True)
+        console(stderr=True).print(
+            f"no --region: every candidate is tried in the default region of '{first.name}'", markup=False, soft_wrap=True
+        )
     runs = []
     for c, (measure, options) in zip(candidates, asked, strict=True):
         if not json_:
             found = structure(c.arm, measure.task)
             if not found.survives:
-                typer.echo(explain(c.arm, found, structures(c.arm)), err=True)
+                console(stderr=True).print(explain(c.arm, found, structures(c.arm)), markup=False, soft_wrap=True)
         store = out / c.name if out is not None and several else out
         with progress_bar(json_, c.name if several else "poses") as progress:
             runs.append(assess(c.arm, chosen, measure, store=store, progress=progress, **options))
