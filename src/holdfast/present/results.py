@@ -57,9 +57,11 @@ def said() -> str:
 
 def drawn(result: Result, plot: Path | None, out: Path | None = None) -> list[Path]:
     """The result's first figure as PNG, and the folder of its report, each if it is asked for."""
-    from holdfast.report.figures import save_png
+    files = []
+    if plot is not None:
+        from holdfast.report.figures import save_png
 
-    files = [] if plot is None else [save_png(next(iter(result.figures().values())), plot)]
+        files.append(save_png(next(iter(result.figures().values())), plot))
     return files if out is None else [*files, *result.save(out, command=said())]
 
 
