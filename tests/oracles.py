@@ -192,9 +192,9 @@ def forward(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
     return frames(arm, q)[-1]
 
 
-def jacobian(arm: hf.Arm, q: np.ndarray) -> np.ndarray:
-    """Geometric Jacobian (N, 6, n): column k is the twist read off ``dT/dq_k``."""
-    made = frames(arm, q)
+def jacobian(arm: hf.Arm, q: np.ndarray, made: list[np.ndarray] | None = None) -> np.ndarray:
+    """Geometric Jacobian (N, 6, n): column k is the twist read off ``dT/dq_k``. ``made``: its frames, if known."""
+    made = made or frames(arm, q)
     tool = made[-1]
     rotation = tool[:, :3, :3].transpose(0, 2, 1)
     after = np.broadcast_to(arm.tool.astype(q.dtype), tool.shape)

@@ -74,8 +74,9 @@ def run(tmp_path):
 def test_the_walk(walk, run, tmp_path):
     anchor, name, command, said, kind = WALKS[walk]
 
-    def tests(*chosen):
-        return run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "tests/test_registry.py", "-k", " or ".join(chosen))
+    def tests(*chosen, files=()):
+        words = ["pytest", "-q", "-n", "0", "-p", "no:cacheprovider", "tests/test_registry.py", *files]
+        return run(*words, "-k", " or ".join(chosen))
 
     file, oracle, line = steps(anchor)
     write(tmp_path, *file)
@@ -84,18 +85,17 @@ def test_the_walk(walk, run, tmp_path):
     assert code == 1
     assert f"{kind} '{name}' has no oracle: add its value by another route to ORACLES['{kind}'] in tests/oracles.py" in told
     write(tmp_path, *oracle)
-    code, told = tests(name, "oracles_are_of", "what_is_registered")
+    # One start of pytest for what the registry asks, and for the values.
+    values = {"index": ("tests/indices/test_index_values.py", "tests/indices/test_index_gradients.py")}
+    files = values.get(kind, ("tests/control/test_laws.py",))
+    asked = "against_singular_values and (planar or rows)" if kind == "index" else "test_laws and rates"
+    code, told = tests(name, "oracles_are_of", "what_is_registered", asked, files=files)
     assert code == 0, told
     code, told = run("holdfast", *command)
     assert code == 0, told
     assert said in told
     code, told = run("holdfast", command[0], "--help")
     assert name in told
-    values = {"index": ["tests/indices/test_index_values.py", "tests/indices/test_index_gradients.py"]}
-    chosen = values.get(kind, ["tests/control/test_laws.py"])
-    picked = ["-k", f"{name} or against_singular_values and (planar or rows)"] if kind == "index" else ["-k", "rates"]
-    code, told = run("pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *chosen, *picked)
-    assert code == 0, told
 
 
 def test_the_walk_to_a_section_of_the_report(run, tmp_path):

@@ -56,7 +56,7 @@ def test_addresses_of_what_opens_in_a_tab(contexts, parts):
 
 def test_an_experiment_is_watched_and_led(contexts, parts):
     folder, base, key = parts
-    context = contexts()
+    context = contexts("Blocked script execution")  # the report's: what subjects wrote is shown without scripts
     page = context.new_page()
     page.goto(f"{base}/experimenter?key={key}")
     at = page.get_by_test_id

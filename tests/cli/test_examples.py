@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
+import io
 import json
 import re
 import shlex
@@ -14,7 +16,7 @@ import typer
 
 from holdfast.cli.program import COMMANDS
 from holdfast.present.printing import plain
-from holdfast.present.results import printed
+from holdfast.present.results import printed, printed_each
 
 # ---- what an example needs beside the command ----------------------------------------------------------------------------
 
@@ -85,19 +87,38 @@ def carry_out(name, cli, monkeypatch, folder):
     for first in FIRST.get(name, []):
         assert cli(*shlex.split(first))[0] == 0, first
     words = shlex.split(f"{text} {CHEAPER.get(name, '')}")
-    code, out, err = cli(*words)
-    assert code == 0, err
-    assert out
     module = sys.modules[function.__module__]
-    if "json_" not in inspect.signature(function).parameters or not hasattr(module, "printed"):
+    shown = "json_" in inspect.signature(function).parameters and "printed(" in inspect.getsource(function).replace("_each", "")
+    # Computed once and shown both ways; a command that asks itself which way, or has no JSON, is run for people too.
+    if not shown or re.search(r"if (not )?json_", inspect.getsource(function)):
+        code, out, err = cli(*words)
+        assert code == 0, err
+        assert out
+    if not shown:
         return
-    results = []
-    monkeypatch.setattr(
-        module, "printed", lambda result, *rest, **more: (results.append((result, more)), printed(result, *rest, **more))
-    )
+    found = []
+
+    def seen(result, files=(), **more):
+        with contextlib.redirect_stdout(io.StringIO()) as read:
+            printed(result, False, files, **more)
+        assert read.getvalue().strip()
+        found.append((result, more))
+
+    def both(result, as_json, files=(), **more):
+        assert as_json
+        seen(result, files, **more)
+        printed(result, True, files, **more)
+
+    def both_each(results, as_json):
+        for result in results:
+            seen(result)
+        printed_each(results, as_json)
+
+    monkeypatch.setattr(module, "printed", both, raising=False)
+    monkeypatch.setattr(module, "printed_each", both_each, raising=False)
     code, out, err = cli(*words, "--json")
     assert code == 0, err
-    ((result, asked),) = results
+    ((result, asked),) = found
     asked.pop("listed", None)
     expected = json.loads(json.dumps(plain(result.to_dict(**asked))))
     assert {key: value for key, value in json.loads(out).items() if key in expected} == expected

@@ -44,14 +44,14 @@ def planar_rates(q, x, mask):
     return mask * (np.linalg.pinv(j) @ (x - [np.cos(s).sum(), np.sin(s).sum()]))
 
 
-def reference(rates, q0, end=3000.0):
-    """scipy until at rest."""
+def reference(rates, q0, end=3000.0, rtol=1e-10, atol=1e-12, until=()):
+    """scipy until at rest, or another event."""
 
     def rest(t, q):
         return np.linalg.norm(rates(q)) - 1e-8
 
     rest.terminal = True
-    return solve_ivp(lambda t, q: rates(q), (0, end), q0, "DOP853", rtol=1e-10, atol=1e-12, events=rest)
+    return solve_ivp(lambda t, q: rates(q), (0, end), q0, "DOP853", rtol=rtol, atol=atol, events=[rest, *until])
 
 
 # ---- Goel et al. 2005, section on the two-link arm -----------------------------------------------------------------
@@ -312,18 +312,24 @@ def spatial(arm, task, q0, target, joint):
     mask = np.arange(arm.n) != joint
     size = len(task)
 
-    def error(q):
-        pose = oracles.forward(arm, q[None])[0]
+    def error(q, made=None):
+        pose = (made or oracles.frames(arm, q[None]))[-1][0]
         turn = Rotation.from_matrix(target[:3, :3] @ pose[:3, :3].T).as_rotvec()
         return np.r_[target[:3, 3] - pose[:3, 3], turn][:size]
 
     def rates(q):
-        return mask * (np.linalg.pinv(oracles.jacobian(arm, q[None])[0, :size]) @ error(q))
+        made = oracles.frames(arm, q[None])
+        return mask * (np.linalg.pinv(oracles.jacobian(arm, q[None], made)[0, :size]) @ error(q, made))
 
-    found = reference(rates, q0, 40.0)
-    along = np.linalg.svd(oracles.jacobian(arm, found.y.T)[:, :size], compute_uv=False)[:, -1].min()
+    def clear(t, q):
+        return np.linalg.svd(oracles.jacobian(arm, q[None])[0, :size], compute_uv=False)[-1] - 0.02
+
+    clear.terminal = True  # the way past a singular configuration takes scipy longest, and nothing is asked of it
+    if clear(0, q0) <= 0:
+        return None, np.nan, False
+    found = reference(rates, q0, 40.0, 1e-8, 1e-10, [clear])
     turned = max(np.linalg.norm(error(q)[3:]) for q in found.y.T)
-    return found, np.linalg.norm(error(found.y[:, -1])), along > 0.02 and turned < 3.0
+    return found, np.linalg.norm(error(found.y[:, -1])), not found.t_events[1].size and turned < 3.0
 
 
 @pytest.mark.interpreted
@@ -349,6 +355,8 @@ def test_the_outcome_does_not_depend_on_tolerance(rng, joints, task):
             assert np.abs(runs.q_final[k] - found.y[:, -1]).max() < 1e-4
             assert runs.error[k] == pytest.approx(error, abs=1e-5)
         compared += 1
+        if compared == 4:  # of each of the three arms; scipy takes a second for a run
+            break
     assert compared >= 3
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from tools.house.imports import graph, read
+from tools.house.imports import File, graph, read
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "CONTRIBUTING.md"
@@ -29,13 +29,13 @@ def arrows(imports: dict[str, set[str]], layers: list[str]) -> set[tuple[str, st
     return kept
 
 
-def picture() -> str:
-    """The diagram as Markdown."""
+def picture(files: dict[str, File] | None = None) -> str:
+    """The diagram as Markdown, of the files of holdfast."""
     source = ROOT / "src" / "holdfast"
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]["contracts"]
     listed = next(c["layers"] for c in contracts if c["id"] == "layers")
     layers = [name for name in listed if (source / name).is_dir() and name not in BASE]
-    found = arrows(graph(read(source, "holdfast")), layers)
+    found = arrows(graph(files or read(source, "holdfast")), layers)
     lines = [f"  {a} --> {b}" for a, b in sorted(found, key=lambda x: (layers.index(x[0]), layers.index(x[1])))]
     return "\n".join(["```mermaid", "graph TD", *lines, "```"])
 
