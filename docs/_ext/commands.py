@@ -125,7 +125,7 @@ class Examples(SphinxDirective):
                 for each in getattr(command, "commands", {name: command}).values():
                     example = EXAMPLE.split(each.help or "")[1:2]
                     shown = " ".join(example[0].split("\n\n")[0].split()) if example else ""
-                    lines += [f"   # {first(each.help, plain=True)}", f"   {shown}"] if shown else []
+                    lines += [f"   # {first(each.help, plain=True)}", f"   {shown}", ""] if shown else []
             lines.append("")
         return self.parse_text_to_nodes("\n".join(lines))
 

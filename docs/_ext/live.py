@@ -64,6 +64,11 @@ def continued(command: str) -> list[str]:
     return lines
 
 
+def wrapped(text: str, width: int) -> list[str]:
+    """The lines of a text as a window of this width has them."""
+    return [part for line in text.rstrip().splitlines() for part in textwrap.wrap(line, width, **TERMINAL) or [""]]
+
+
 class _Live(SphinxDirective):
     has_content = True
 
@@ -111,7 +116,7 @@ class Run(_Live):
             os.chdir(before)
         shown = [self.block(code, "python", "live-code")]
         if out.getvalue():
-            shown.append(self.block(out.getvalue().rstrip(), "text", "live-output"))
+            shown.append(self.block("\n".join(wrapped(out.getvalue(), WIDTH - 8)), "text", "live-output"))
         return shown if drawn is None else [*shown, drawn]
 
     def drawn(self, figure: Any) -> nodes.Node:
@@ -141,8 +146,7 @@ class Shell(_Live):
             done = subprocess.run(line[2:], shell=True, cwd=self.folder, env=environment, capture_output=True, text=True)
             if done.returncode != expected:
                 raise self.error(f"'{line}' ended with {done.returncode} instead of {expected}:\n{done.stdout}{done.stderr}")
-            told = (done.stderr + done.stdout).rstrip().splitlines()
-            lines = [part for x in told for part in textwrap.wrap(x, WIDTH, **TERMINAL) or [""]]
+            lines = wrapped(done.stderr + done.stdout, WIDTH)
             if head is not None and len(lines) > head:
                 lines = [*lines[:head], "..."]
             shown += [*continued(line), *lines]

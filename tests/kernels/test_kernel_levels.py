@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from holdfast.kernels import Kernel, compiled, llvm_backend, pool, settle
-from holdfast.kernels.llvm_ir import LIBRARY, Machine
+from holdfast.kernels.llvm_arithmetic import Machine
+from holdfast.kernels.llvm_ir import LIBRARY
 from holdfast.kernels.program import Program
 
 # Of two child processes, or of four threads.

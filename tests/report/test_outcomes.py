@@ -42,9 +42,7 @@ def test_quantiles_and_differences_are_where_they_belong(rng):
 
 def test_a_drawn_motion_shows_lock_target_and_error(rng):
     chain = rng.normal(size=(7, 4, 3)).cumsum(axis=1)
-    marked = np.zeros((7, 4), dtype=bool)
-    marked[:, 1] = True
-    motion = Motion(np.linspace(0, 1, 7), chain, np.zeros(4, dtype=bool), chain[[0, -1], -1], ["r"] * 7, marked, chain[-1, -1])
+    motion = Motion(chain, np.zeros(4, dtype=bool), chain[[0, -1], -1], np.arange(4) == 1, chain[-1, -1])
     view = View(np.eye(3)[0], np.eye(3)[2], "Side view")
     panel = Panel(
         np.linspace(0, 1, 7), np.geomspace(1, 1e-3, 7), "error, m", "Ends stuck", None, ((0.5, 0.03, "joint1 locks"),), True

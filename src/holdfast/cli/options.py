@@ -79,6 +79,7 @@ QOption = Annotated[
 ]
 DegreesOption = Annotated[bool, typer.Option("--degrees", help="--q is in degrees (prismatic joints stay in m).")]
 PlotOption = Annotated[Path | None, typer.Option("--plot", help="Draw into this PNG file.", show_default=False)]
+OutOption = Annotated[Path | None, typer.Option("--out", help="Folder for report.html and figures.", show_default=False)]
 SeedOption = Annotated[int, typer.Option("--seed", help="Seed of all random draws.")]
 FailuresOption = Annotated[str, typer.Option("--failures", help=f"{FAILURES_HELP} or '2; 1+4'.")]
 

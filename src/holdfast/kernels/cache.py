@@ -20,7 +20,7 @@ from holdfast.kernels import llvm_backend
 
 _MAGIC = b"holdfast kernel 1\n"
 _LARGEST_FILE, _LARGEST_FOLDER = 1 << 28, 1 << 30  # bytes
-_TRANSLATION = ("llvm_ir.py", "llvm_backend.py", "trigonometry.py")  # a kernel made by other code is another kernel
+_TRANSLATION = ("llvm_ir.py", "llvm_backend.py", "llvm_arithmetic.py")  # a kernel made by other code is another kernel
 
 
 def folder() -> Path | None:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from holdfast import notice
 from holdfast.caching import cached_property
 from holdfast.kernels import cache, llvm_backend
-from holdfast.kernels.llvm_ir import Machine
+from holdfast.kernels.llvm_arithmetic import Machine
 from holdfast.kernels.program import Program
 from holdfast.kernels.threads import in_pool
 

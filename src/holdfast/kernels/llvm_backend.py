@@ -15,7 +15,8 @@ from functools import lru_cache
 from typing import Any
 
 from holdfast.errors import KernelError
-from holdfast.kernels.llvm_ir import LIBRARY, NAME, Machine, emit
+from holdfast.kernels.llvm_arithmetic import Machine
+from holdfast.kernels.llvm_ir import LIBRARY, NAME, emit
 from holdfast.kernels.program import Program
 
 LEVELS = (0, 1)

@@ -9,15 +9,13 @@ Sources: LLVM language reference for the instructions; the contraction is what C
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import casadi as ca
 
 from holdfast.errors import KernelError
+from holdfast.kernels.llvm_arithmetic import Arithmetic, Machine, sincos
 from holdfast.kernels.program import OP_NAMES, Program
-from holdfast.kernels.trigonometry import sincos
 
 NAME = "rows"  # of the function
 
@@ -43,19 +41,6 @@ LIBRARY = sorted(set(_FUNCTIONS.values()))
 _COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "one"}
 
 
-@dataclass(frozen=True)
-class Machine:
-    """What the text depends on.
-
-    Attributes:
-        lanes: Rows handled at once.
-        fused: Whether the machine has fused multiply-add.
-    """
-
-    lanes: int
-    fused: bool
-
-
 def emit(program: Program, machine: Machine) -> str:
     """The function ``void rows(in, out, stride, n)`` as text.
 
@@ -65,70 +50,6 @@ def emit(program: Program, machine: Machine) -> str:
         KernelError: The program uses an operation that has no translation; the message names it.
     """
     return _Emitter(program, machine).text()
-
-
-class Arithmetic:
-    """Values of ``lanes`` doubles by their names in the text; a method adds an instruction and returns its name."""
-
-    def __init__(self, machine: Machine) -> None:
-        self.machine = machine
-        self.lines: list[str] = []
-        self.type = f"<{machine.lanes} x double>"
-        self.mask = f"<{machine.lanes} x i1>"
-        self.declared: set[str] = set()  # functions that are not defined here
-
-    def _new(self, text: str) -> str:
-        name = f"%v{len(self.lines)}"
-        self.lines.append(f"{name} = {text}")
-        return name
-
-    def number(self, value: float) -> str:
-        """A constant, bit for bit."""
-        return f"splat (double 0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X})"
-
-    def binary(self, operation: str, a: str, b: str) -> str:
-        """``fadd``, ``fsub``, ``fmul`` or ``fdiv``."""
-        return self._new(f"{operation} {self.type} {a}, {b}")
-
-    def add(self, a: str, b: str) -> str:
-        """Sum."""
-        return self.binary("fadd", a, b)
-
-    def sub(self, a: str, b: str) -> str:
-        """Difference."""
-        return self.binary("fsub", a, b)
-
-    def mul(self, a: str, b: str) -> str:
-        """Product."""
-        return self.binary("fmul", a, b)
-
-    def negative(self, a: str) -> str:
-        """Negative."""
-        return self._new(f"fneg {self.type} {a}")
-
-    def fma(self, a: str, b: str, c: str) -> str:
-        """Product of a and b plus c, rounded once where the machine can."""
-        if not self.machine.fused:
-            return self.add(self.mul(a, b), c)
-        return self.intrinsic("fma", a, b, c)
-
-    def intrinsic(self, name: str, *arguments: str) -> str:
-        """An LLVM intrinsic that every machine rounds alike: ``fma``, ``sqrt``, ``fabs``."""
-        name = f"@llvm.{name}.v{self.machine.lanes}f64"
-        self.declared.add(f"declare {self.type} {name}({', '.join([self.type] * len(arguments))})")
-        return self._new(f"call {self.type} {name}({', '.join(f'{self.type} {a}' for a in arguments)})")
-
-    def less(self, a: str, b: str) -> str:
-        """The mask of a < b."""
-        return self.compare("olt", a, b)
-
-    def compare(self, how: str, a: str, b: str) -> str:
-        """A mask."""
-        return self._new(f"fcmp {how} {self.type} {a}, {b}")
-
-    def select(self, mask: str, a: str, b: str) -> str:
-        """``mask ? a : b``."""
-        return self._new(f"select {self.mask} {mask}, {self.type} {a}, {self.type} {b}")
 
 
 class _Emitter(Arithmetic):

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from functools import partial
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
@@ -142,6 +143,8 @@ def follow(
     few = slice(None, None, substeps)
     position_error, rotation_error = solver(arm, chosen).errors(joints[few], poses)
     best_value, best_q = _best(arm, objective, chosen, poses, time, rate_cap, spacing, seed) if best else (None, None)
+    alike: dict[str, Any] = {"minimise": minimise, "maximise": maximise, "rate_cap": rate_cap, "task": chosen, "q": start}
+    alike |= {"samples": samples, "limits": limits, "damping": damping, "seed": seed}
     found = Trajectory(
         arm=arm,
         task=chosen,
@@ -169,6 +172,7 @@ def follow(
         best_value=best_value,
         best_path=best_q,
         torque_bound=torque_bound,
+        _plain=None if method == "none" else partial(follow, arm, path, method="none", **alike),
     )
     if torque_bound is not None:
         found.slowness(torque_bound)  # it may be refused

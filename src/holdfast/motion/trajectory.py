@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.caching import cached_property
 from holdfast.errors import InputError, StoreError
 from holdfast.files.output import guarded, writing
 from holdfast.files.spreadsheet import cell
@@ -97,11 +99,22 @@ class Trajectory(Result):
     best_value: Array | None = None
     best_path: Array | None = None
     torque_bound: float | None = field(default=None, kw_only=True)
+    _plain: Callable[[], Trajectory] | None = field(default=None, repr=False)
 
     @property
     def rate_norm(self) -> Array:
         """(T,) norm of the joint rates, rad/s (prismatic joints in m/s)."""
         return np.asarray(np.linalg.norm(self.qd, axis=1))
+
+    @cached_property
+    def without(self) -> Trajectory | None:
+        """The same path from the same start with least-norm rates: without the objective. None if this is such a motion."""
+        return None if self._plain is None else self._plain()
+
+    @property
+    def worst(self) -> float:
+        """The worst value of the objective on the way."""
+        return float(self.value.max() if self.objective.better == "smaller" else self.value.min())
 
     @property
     def on_path(self) -> bool:

@@ -46,7 +46,7 @@ PRESENTERS = {
     "WhatIsLeft": ("recovery.left", "recovery.left"),
     "Workspace": ("convergence.origins", "convergence.origins"),
 }
-_WORDS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps"}
+_WORDS = {"as_json", "to_dict", "show", "tables", "sentences", "key_table", "next_steps", "story"}
 
 
 def presenter(names: Sequence[str], function: str) -> Callable[..., Any]:

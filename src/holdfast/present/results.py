@@ -14,12 +14,15 @@ from holdfast.files.output import made
 from holdfast.notice import says
 from holdfast.present import presenter
 from holdfast.present.printing import Rows, console, plain, print_json, print_rows, print_written
+from holdfast.present.story import Story, how
 from holdfast.result import Result, Shown
+from holdfast.words import capitalised
 
 _NARROW = 5  # columns
 _HARD = "\N{NO-BREAK SPACE}"
 
 if TYPE_CHECKING:
+    from markupsafe import Markup
     from matplotlib.figure import Figure
     from rich.console import Console
 
@@ -52,11 +55,14 @@ def said() -> str:
     return f"holdfast {shlex.join(sys.argv[1:])}"
 
 
-def drawn(result: Result, file: Path) -> Path:
-    """The result's first figure as PNG."""
-    from holdfast.report.figures import save_png
+def drawn(result: Result, plot: Path | None, out: Path | None = None) -> list[Path]:
+    """The result's first figure as PNG, and the folder of its report, each if it is asked for."""
+    files = []
+    if plot is not None:
+        from holdfast.report.figures import save_png
 
-    return save_png(next(iter(result.figures().values())), file)
+        files.append(save_png(next(iter(result.figures().values())), plot))
+    return files if out is None else [*files, *result.save(out, command=said())]
 
 
 def as_json(result: Result, *args: Any, **options: Any) -> dict[str, Any]:
@@ -85,20 +91,56 @@ def figures(result: Result) -> dict[str, Figure]:
     return {}
 
 
+def story(result: Result) -> Story:
+    """What it says of itself."""
+    first, *others = map(capitalised, result.describe())
+    title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
+    return Story(title, first, lines=others)
+
+
 @says("drawing the report")
 def write(result: Result, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Path:
-    """A page of the sentences, the tables and the figures, which may be drawn already."""
+    """The answer, the figures and the tables, how it was computed, and the same run again.
+
+    The figures are drawn anew if they are not given.
+    """
     from holdfast.report import page
 
-    first, *others = result.describe()
-    blocks: list[page.Block] = [page.Text(line) for line in others]
-    for table in result._presented("tables"):
-        rows = [[_beside(cell) for cell in row] for row in table.rows]
-        blocks.append(
-            page.Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=len(rows[0]) > _NARROW)
-        )
-    title = re.sub("(?<=[a-z])(?=[A-Z])", " ", type(result).__name__).capitalize()
-    return page.write(page.Page(title, first, [page.Section("Result", [*blocks, *shown(result, drawn)])], again=command), path)
+    said: Story = result._presented("story")
+    pictures: dict[str, list[page.Block]] = {}
+    for name, figure in (result.figures() if drawn is None else drawn).items():
+        told = said.figures.get(name, ("What was found", ""))
+        if told is None:
+            continue
+        title, caption = told
+        about = f"{said.title}: {title.lower()}"
+        pictures.setdefault(title, []).append(page.Picture(_svg(figure, name, about), caption))
+    tables = result._presented("tables") if said.tables is None else said.tables
+    return page.write(
+        page.Page(
+            said.title,
+            said.answer,
+            [
+                page.Section("", [page.Text(line) for line in said.lines]),
+                *[page.Section(title, blocks) for title, blocks in [*said.views, *pictures.items()]],
+                page.Section("In numbers", [as_table(rows) for rows in tables]),
+            ],
+            subtitle=said.about,
+            facts=said.facts,
+            method=how(said.arm, *said.method),
+            again=command,
+        ),
+        path,
+    )
+
+
+def as_table(table: Rows) -> Any:
+    """Rows as a block of a page."""
+    from holdfast.report.page import Table
+
+    rows = [[_beside(cell) for cell in row] for row in table.rows]
+    wide = bool(rows) and len(rows[0]) > _NARROW
+    return Table(rows, table.head, frozenset(range(1, len(table.head))), caption=table.title, wide=wide)
 
 
 def _beside(cell: str) -> str:
@@ -107,12 +149,10 @@ def _beside(cell: str) -> str:
     return f"{value} ({_HARD.join(below.split())})" if below else value
 
 
-def shown(result: Result, drawn: Mapping[str, Figure] | None = None) -> list[Any]:
-    """The figures as blocks of a page, those drawn already if they are given."""
+def _svg(figure: Figure, name: str, about: str) -> Markup:
     from holdfast.report.figures import svg
-    from holdfast.report.page import Picture
 
-    return [Picture(svg(figure, name, name), "") for name, figure in (drawn or result.figures()).items()]
+    return svg(figure, name, about)
 
 
 def save(result: Result, folder: Path, command: str = "", prefix: str = "", dpi: float = 100) -> list[Path]:

@@ -21,20 +21,16 @@ class Motion:
     """A chain of links over time.
 
     Attributes:
-        time: (F,) s, evenly spaced.
         chain: (F, K, 3) corners of the chain, base first and tool last, m.
         square: (K,) corners drawn as squares.
         path: (P, 3) where the tool was to be, m.
-        readings: (F,) a short text for each frame.
-        marked: (F, K) corners between base and tool that are drawn filled, or None.
+        marked: (K,) corners that are drawn filled at the end, or None.
         goal: (3,) a place marked by a ring, m, or None.
     """
 
-    time: Array
     chain: Array
     square: NDArray[np.bool_]
     path: Array
-    readings: Sequence[str]
     marked: NDArray[np.bool_] | None = None
     goal: Array | None = None
 
@@ -112,7 +108,7 @@ def _draw_view(axes: Axes, motion: Motion, view: View, wanted: str) -> None:
         return view.of(points).T
 
     last = len(motion.chain) - 1
-    marked = np.zeros(len(motion.square), dtype=bool) if motion.marked is None else motion.marked[last]
+    marked = np.zeros(len(motion.square), dtype=bool) if motion.marked is None else motion.marked
     for k, color, width, label in ((0, "#b9c0c7", 2.4, "at the start"), (last, INK, 2.6, "at the end")):
         chain = flat(motion.chain[k])
         axes.plot(*chain, color=color, linewidth=width, solid_joinstyle="round", label=label, zorder=2 if k else 1.5)

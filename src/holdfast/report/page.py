@@ -156,7 +156,7 @@ class Page:
         title, subtitle: At the top.
         headline: The answer in one sentence: never an uninformative zero.
         sections: The evidence, in order.
-        warnings: Before everything else.
+        warnings: Right after the answer.
         facts: The answer in a few numbers, each with what it is.
         method: How it was computed.
         again: The command that does it again, or blocks.

@@ -18,6 +18,7 @@ from holdfast.cli.options import (
     HoldOption,
     JsonOption,
     MountOption,
+    OutOption,
     PayloadOption,
     TaskOption,
     TipOption,
@@ -30,7 +31,7 @@ from holdfast.cli.options import (
     read_task,
 )
 from holdfast.errors import InputError
-from holdfast.present.results import printed
+from holdfast.present.results import drawn, printed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -95,6 +96,7 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
+    out: OutOption = None,
     csv: Annotated[
         Path | None, typer.Option("--csv", help="Write the configurations to this file.", show_default=False)
     ] = None,
@@ -128,7 +130,7 @@ def command(
         margin=margin or 0.0,
         initial=given,
     ).require_any()
-    files = [] if csv is None else [found.to_csv(csv)]
+    files = drawn(found, None, out) + ([] if csv is None else [found.to_csv(csv)])
     printed(found, json_, files, asked=" ".join(wish).removeprefix("--"))
 
 

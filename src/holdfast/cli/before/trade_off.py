@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -13,6 +12,8 @@ from holdfast.cli.options import (
     BaseOption,
     HoldOption,
     JsonOption,
+    OutOption,
+    PlotOption,
     TaskOption,
     TipOption,
     read_arm,
@@ -33,7 +34,8 @@ def command(
     base: BaseOption = None,
     tip: TipOption = None,
     hold: HoldOption = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the curves into this PNG file.", show_default=False)] = None,
+    plot: PlotOption = None,
+    out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """What a velocity error of the healthy arm gains after an unnoticed lock: which pre-failure error to choose.
@@ -43,6 +45,4 @@ def command(
     model = read_arm(arm, base, tip, hold)
     errors = read_numbers("--allowed", allowed, "numbers from 0 to below 1")
     curve = hf.control.trade_off(model, read_task(task, arm, model), samples, allowed=errors, seed=seed)
-    if plot is not None:
-        drawn(curve, plot)
-    printed(curve, json_, [plot])
+    printed(curve, json_, drawn(curve, plot, out))

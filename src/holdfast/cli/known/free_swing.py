@@ -13,6 +13,8 @@ from holdfast.cli.options import (
     BaseOption,
     HoldOption,
     JsonOption,
+    OutOption,
+    PlotOption,
     TipOption,
     read_arm,
     read_configuration,
@@ -50,7 +52,8 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write the motion to this file.", show_default=False)] = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the motion into this PNG file.", show_default=False)] = None,
+    plot: PlotOption = None,
+    out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Simulate one joint swinging free under gravity, all others held (needs the extra 'physics').
@@ -71,7 +74,4 @@ def command(
         brake_after=tuple(brake) if brake else BRAKES,
         limits=limits,
     )
-    files = [] if csv is None else [swing.to_csv(csv)]
-    if plot is not None:
-        files.append(drawn(swing, plot))
-    printed(swing, json_, files)
+    printed(swing, json_, ([] if csv is None else [swing.to_csv(csv)]) + drawn(swing, plot, out))

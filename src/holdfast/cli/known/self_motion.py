@@ -17,6 +17,7 @@ from holdfast.cli.options import (
     BaseOption,
     HoldOption,
     JsonOption,
+    OutOption,
     PlotOption,
     SeedOption,
     TaskOption,
@@ -56,6 +57,7 @@ def command(
     hold: HoldOption = None,
     csv: Annotated[Path | None, typer.Option("--csv", help="Write all points to this file.", show_default=False)] = None,
     plot: PlotOption = None,
+    out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Find all configurations for one target, and the values at which each joint may lock without losing it.
@@ -73,12 +75,9 @@ def command(
         raise InputError("give the target by --target or by --pose, one of them")
     wanted = read_target(model, rows, target) if target is not None else _pose(model, rows, str(pose))
     motion = hf.self_motion(model, wanted, rows, spacing=spacing, seed=seed)
-    if bounds or plot is not None:
+    if bounds or plot is not None or out is not None:
         motion = replace(motion, bounds=hf.joint_bounds(model, wanted, rows, seed=seed))
-    files = [] if csv is None else [motion.to_csv(csv, degrees)]
-    if plot is not None:
-        files.append(drawn(motion, plot))
-    printed(motion, json_, files)
+    printed(motion, json_, ([] if csv is None else [motion.to_csv(csv, degrees)]) + drawn(motion, plot, out))
 
 
 def _pose(arm: Arm, task: Task, text: str) -> NDArray[np.float64]:

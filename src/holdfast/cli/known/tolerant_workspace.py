@@ -13,6 +13,7 @@ from holdfast.cli.options import (
     BaseOption,
     HoldOption,
     JsonOption,
+    OutOption,
     PlotOption,
     SeedOption,
     TipOption,
@@ -56,6 +57,7 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
     plot: PlotOption = None,
+    out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Find every point that the arm reaches before and after any single joint locks, under artificial joint limits.
@@ -77,7 +79,7 @@ def command(
     region = hf.tolerant_workspace(
         model, rows, limits or None, optimise=optimise, rotation=turn, points=points, angles=angles, seed=seed
     )
-    printed(region, json_, [] if plot is None else [drawn(region, plot)])
+    printed(region, json_, drawn(region, plot, out))
 
 
 def _limit(arm: Arm, text: str) -> tuple[float, float]:

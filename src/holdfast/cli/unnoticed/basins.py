@@ -13,6 +13,7 @@ from holdfast.cli.options import (
     BaseOption,
     HoldOption,
     JsonOption,
+    OutOption,
     PlotOption,
     SeedOption,
     TaskOption,
@@ -42,6 +43,7 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
     plot: PlotOption = None,
+    out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Find the starts from which an arm with locked joints still reaches its target, and where it ends from the others.
@@ -51,4 +53,4 @@ def command(
     made = law_of(law, arm, task, base, tip, hold)
     locked = read_by_joint(made.arm, lock, "--lock", degrees)
     result = hf.basins(made, read_target(made.arm, made.task, target), locked, starts=starts, grid=grid, seed=seed)
-    printed(result, json_, [] if plot is None else [drawn(result, plot)])
+    printed(result, json_, drawn(result, plot, out))

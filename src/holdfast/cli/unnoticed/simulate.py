@@ -22,7 +22,7 @@ from holdfast.cli.options import (
     read_target,
 )
 from holdfast.errors import InputError
-from holdfast.present.results import drawn, printed, said
+from holdfast.present.results import drawn, printed
 
 if TYPE_CHECKING:
     from holdfast.arm.model import Arm
@@ -83,11 +83,7 @@ def command(
             raise InputError("--physics has a control rate of its own; leave out --cycles")
         servos = hf.Servos(bandwidth=servo_bandwidth)
         result = hf.simulate_physics(made, q0, goal, locked=joints, servos=servos, time_limit=time_limit, time=times or 0.0)
-    files = [] if out is None else result.save(out, command=said())
-    if csv is not None:
-        files.append(runs.to_csv(csv))
-    if plot is not None:
-        files.append(drawn(result, plot))
+    files = drawn(result, plot, out) + ([] if csv is None else [runs.to_csv(csv)])
     printed(result, json_, files)
 
 

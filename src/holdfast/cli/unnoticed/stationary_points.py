@@ -13,6 +13,7 @@ from holdfast.cli.options import (
     BaseOption,
     HoldOption,
     JsonOption,
+    OutOption,
     PlotOption,
     SeedOption,
     TaskOption,
@@ -46,6 +47,7 @@ def command(
     tip: TipOption = None,
     hold: HoldOption = None,
     plot: PlotOption = None,
+    out: OutOption = None,
     json_: JsonOption = False,
 ) -> None:
     """Find the stationary points at which an arm with locked joints can stop when its controller does not know.
@@ -58,4 +60,4 @@ def command(
     if plot is not None and None not in locked.values():
         raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
     result: Result = hf.stationary_points(made, goal, locked, seed=seed)
-    printed(result, json_, [] if plot is None else [drawn(result, plot)])
+    printed(result, json_, drawn(result, plot, out))

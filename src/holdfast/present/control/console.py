@@ -8,9 +8,13 @@ import numpy as np
 
 from holdfast.control.trade_offs import QUANTILES, TradeOff
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
+from holdfast.words import percent
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+_NOTHING, _LEVEL = 0.005, 1e-3  # less than this gain is none; differences that nobody would pay for
 
 
 def to_dict(curve: TradeOff) -> dict[str, Any]:
@@ -35,6 +39,57 @@ def key_table(curve: TradeOff) -> Rows:
     columns = (curve.allowed, np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0))
     rows = [[f"{e:.2f}", f"{gain:.3f}", f"{paid:.3f}"] for e, gain, paid in zip(*columns, strict=True)]
     return Rows(["allowed error", "peak error after a lock, by the pseudoinverse's", "error of the healthy arm"], rows)
+
+
+def story(curve: TradeOff) -> Story:
+    """What an error of the healthy arm gains after an unnoticed lock, where half of it is gained."""
+    middle, paid = np.median(curve.gain, axis=0), np.median(curve.healthy_error, axis=0)
+    low, high = curve.median_interval()
+    best = int((middle <= middle.min() + _LEVEL).argmax())  # of a plateau the first
+    gained = 1 - middle[best]
+    if gained < _NOTHING:
+        answer = (
+            f"No velocity error of the healthy arm gains anything after an unnoticed lock: the "
+            f"median peak error stays that of the pseudoinverse, up to an allowed error of {curve.allowed[-1]:.2g}."
+        )
+        facts = [(f"{curve.allowed[-1]:.2g}", "largest error that was allowed, of the commanded speed")]
+    else:
+        k = int((1 - middle >= gained / 2).argmax())
+        answer = (
+            f"An error of {curve.allowed[k]:.2g} of the commanded speed, allowed while the arm "
+            f"is healthy, takes {percent(1 - middle[k])} off the median peak error after an unnoticed "
+            f"lock; the most that was found is {percent(gained)}, for {curve.allowed[best]:.2g}."
+        )
+        sure = f"{percent(max(1 - high[k], 0))} to {percent(1 - low[k])}, 95 %"
+        facts = [
+            (percent(1 - middle[k]), f"less peak error for an allowed error of {curve.allowed[k]:.2g}, median; {sure}"),
+            (percent(paid[k]), "of the speed is what the healthy arm then pays, median"),
+            (percent(gained), f"less, the most there is, for {curve.allowed[best]:.2g}"),
+        ]
+    return Story(
+        f"What {curve.arm.name} gains from an error before a failure",
+        answer,
+        about=f"Task {curve.task.describe()}, {len(curve.gain):,} random configurations and directions",
+        facts=facts,
+        figures={
+            "trade-off": (
+                "Gain and price",
+                (
+                    "Left: the peak velocity error after an unnoticed lock of any joint, by that of the "
+                    "pseudoinverse; below 1 the failed arm gains. Right: the velocity error of the "
+                    "healthy arm. Bands hold half, and nine tenths, of the samples."
+                ),
+            )
+        },
+        tables=[key_table(curve)._replace(title="Medians over the samples")],
+        method=[
+            ("Task", f"{curve.task.describe()}, characteristic length {curve.task.length:g} m"),
+            ("Samples", f"{len(curve.gain):,} configurations within the limits and directions, seed {curve.seed}"),
+            ("Intervals", "95 %, of medians, from order statistics"),
+            ("Source", "Goel, Maciejewski, Balakrishnan, Proctor 2003, eq. (8), (9)"),
+        ],
+        arm=curve.arm,
+    )
 
 
 def next_steps(curve: TradeOff, name: str) -> list[str]:

@@ -9,6 +9,8 @@ from holdfast.convergence.law_choice import LawChoice
 from holdfast.present import results
 from holdfast.present.convergence import maps
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
+from holdfast.words import capitalised, counted, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,6 +28,58 @@ def key_table(choice: LawChoice) -> Rows:
     found = {name: choice.share(name) for name in choice.ranking}
     rows = [[name, f"{100 * s.value:.1f} % ({100 * s.low:.1f} to {100 * s.high:.1f})"] for name, s in found.items()]
     return Rows(["law", "converges after a lock, 95 %"], rows)
+
+
+def story(choice: LawChoice) -> Story:
+    """Which law reaches the target most often, and how sure that is."""
+    first = choice.maps[0]
+    arm, best, shares = first.law.arm, choice.best, {name: choice.share(name) for name in choice.ranking}
+    title, p = f"The law with which {arm.name} reaches its targets most often", shares[best]
+    failures = int(first.known.sum()) * arm.n
+    if not p.value:
+        answer = (
+            f"Under none of the {len(shares)} laws a target is reached after a lock; at most {percent(p.high)} would be, 95 %."
+        )
+    else:
+        answer = (
+            f"After an unnoticed lock {best} reaches the target most often, in "
+            f"{percent(p.value)} of {counted(failures, 'failure')}"
+        )
+    facts = [(percent(p.value), f"with {best}; {percent(p.low)} to {percent(p.high)}, 95 %")] if p.value else []
+    if p.value and len(shares) > 1:
+        second = choice.ranking[1]
+        d = choice.difference(best, second)
+        points = f"{100 * d.value:.1f} percentage points"
+        if d.low > 0:
+            answer += f"; {points} more than {second} ({100 * d.low:.1f} to {100 * d.high:.1f}, 95 %)."
+        else:
+            answer += (
+                f"; that it is more than with {second} ({percent(shares[second].value)}) cannot be told from these failures."
+            )
+        facts += [(percent(shares[second].value), f"with {second}, the next")] if shares[second].value else []
+        last = choice.ranking[-1]
+        facts += [(percent(shares[last].value), f"with {last}, the last")] if len(shares) > 2 and shares[last].value else []
+    elif p.value:
+        answer += "."
+    return Story(
+        title,
+        answer,
+        about=f"{arm.name}, task {first.law.task.describe()}",
+        facts=facts,
+        lines=[f"{capitalised(line)}." for line in choice.describe()[1:]],
+        figures={
+            "laws": (
+                "How the motions end under each law",
+                "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals.",
+            )
+        },
+        tables=[key_table(choice)],
+        method=[
+            *((f"Law {k + 1}", one.law.describe()) for k, one in enumerate(choice.maps)),
+            *maps.story(first).method[1:],
+        ],
+        arm=arm,
+    )
 
 
 def next_steps(choice: LawChoice, name: str) -> list[str]:

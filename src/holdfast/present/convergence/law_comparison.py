@@ -24,6 +24,7 @@ from holdfast.present.convergence.law_rows import (
     run_rows,
     signed,
     time_unit,
+    within_reach,
 )
 from holdfast.provenance import versions
 from holdfast.report import page
@@ -70,9 +71,24 @@ def build(c: LawComparison, command: str = "") -> Page:
         sections,
         subtitle=c.about or f"{counted(len(c), 'motion')}, task {c.laws[0].task.describe()}",
         warnings=_alerts(c),
+        facts=_facts(c),
         method=_method(c),
         again=command,
     )
+
+
+def _facts(c: LawComparison) -> list[tuple[Cell, Cell]]:
+    """How often each law reaches the target after a lock, the best first."""
+    if not c.joints:
+        return []
+    ranked = sorted(((c.share_any(name), name) for name in c.names), key=lambda x: -x[0].value)
+    found: list[tuple[Cell, Cell]] = [
+        (percent(p.value), f"of the motions reach the target with {name}; {percent(p.low)} to {percent(p.high)}, 95 %")
+        for p, name in ranked[:4]
+        if p.value
+    ]
+    within = within_reach(c)
+    return [*found, (percent(within), "of the targets are still within reach")] if within else found
 
 
 def _alerts(c: LawComparison) -> list[Callout]:

@@ -109,9 +109,14 @@ def headline(c: LawComparison) -> str:
     """The answer in two sentences."""
     if not c.joints:
         return f"Healthy, {_listed([f'{percent(_share(c, n, HEALTHY))} converge with {n}' for n in c.names])}."
-    shares = _listed([f"{percent(c.share_any(n).value)} with {n}" for n in c.names])
-    text = f"With one joint locked and nobody aware of it, the end effector reaches its target in {shares} of the motions"
-    text += f" ({percent(_within_reach(c))} of the targets are still within reach)."
+    text = "With one joint locked and nobody aware of it, the end effector "
+    if any(c.share_any(n).value for n in c.names):
+        shares = [f"{percent(p.value) if p.value else 'none'} with {n}" for n in c.names for p in [c.share_any(n)]]
+        text += f"reaches its target in {_listed(shares)} of the motions"
+    else:
+        text += f"never reaches its target, whichever of the {len(c.names)} laws commands it"
+    within = within_reach(c)
+    text += f" ({percent(within) if within else 'none'} of the targets are still within reach)."
     for name in c.names[1:]:
         text += f" {_verdict(c, name)}"
     return text
@@ -148,7 +153,8 @@ def _share(c: LawComparison, law: str, failure: str) -> float:
     return share.value if share else 0.0
 
 
-def _within_reach(c: LawComparison) -> float:
+def within_reach(c: LawComparison) -> float:
+    """Fraction of the targets that are within reach once a joint has locked, every joint alike."""
     return float(np.mean([c.case(c.names[0], joint).reachable.mean() for joint in c.joints]))
 
 

@@ -15,6 +15,8 @@ from holdfast.notice import says
 from holdfast.present import results
 from holdfast.present.convergence.places import panels
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
+from holdfast.words import capitalised, counted, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_ENDS = {"stuck": "stop elsewhere", "moving": "keep moving", "undecided": "are undecided"}
 _WORDS = ("converged", "stuck", "moving", "undecided", "in_reach", "trapped")
 _ENDINGS = (
     "converges",
@@ -64,6 +67,89 @@ def key_table(m: ConvergenceMap) -> Rows:
         for name, s in converged.items()
     ]
     return Rows(["locked", "converged, 95 %", "not there, target in reach"], cells)
+
+
+def story(m: ConvergenceMap) -> Story:
+    """How often the target is still reached, after which lock least often, and how the others end."""
+    law, over = m.law, m.over
+    title = (
+        f"Starts from which {law.arm.name} reaches its target" if over == "starts" else f"Targets that {law.arm.name} reaches"
+    )
+    title += " after a lock that its controller does not know of"
+    asked = f"{law.arm.name}, {law.describe()}"
+    if not m.known.any():
+        why = (
+            f"No configuration was found at any of the {counted(len(m.places), over[:-1])}, so no "
+            f"motion was made; choose places within reach."
+        )
+        return Story(title, why, about=asked, method=_method(m), arm=law.arm)
+    converged, trapped = m.shares("converged"), m.shares("trapped")
+    *joints, none = converged
+    values = np.array([converged[name].value for name in joints])
+    mean, worst, caught = float(values.mean()), joints[int(values.argmin())], float(np.mean([trapped[x].value for x in joints]))
+    if not mean:
+        ends = {word: float(np.mean([s.value for name, s in m.shares(word).items() if name != none])) for word in _ENDS}
+        end = max(ends, key=lambda x: ends[x])
+        answer = f"No motion reaches its target once a joint has locked: {percent(ends[end])} of them {_ENDS[end]}"
+    else:
+        answer = f"Once a joint has locked and nobody knows, {percent(mean)} of the motions reach their target"
+        answer += (
+            f"; a lock of {worst} leaves the least, {_often(float(values.min()))}"
+            if np.ptp(values)
+            else " whichever joint it is"
+        )
+    answer += f". With no joint locked {_often(converged[none].value)} do."
+    facts = [(percent(mean), "of the motions reach their target, mean over the joint that locks")] if mean else []
+    if np.ptp(values) and values.min():
+        w = converged[worst]
+        facts.append(
+            (percent(w.value), f"once {worst} has locked, the worst of them; {percent(w.low)} to {percent(w.high)}, 95 %")
+        )
+    facts += [(percent(converged[none].value), "with no joint locked")] if converged[none].value else []
+    facts += [(percent(caught), "do not get there although the target is still within reach")] if caught else []
+    return Story(
+        title,
+        answer,
+        about=asked,
+        facts=facts,
+        lines=[f"{capitalised(m.describe()[-1])}."] if sum(m.undecided().values()) else [],
+        figures={
+            "outcomes": (
+                "How the motions end",
+                "A bar for each joint that is locked from the start, and for none; lines: 95 % intervals.",
+            ),
+            **{
+                f"map{view}": ("Where", f"The {over} by what becomes of their motions, joint by joint.")
+                for view in ("", "-top", "-side")
+            },
+        },
+        method=_method(m),
+        arm=law.arm,
+    )
+
+
+def _often(fraction: float) -> str:
+    return {0.0: "none", 1.0: "all"}.get(fraction, percent(fraction))
+
+
+def _method(m: ConvergenceMap) -> list[tuple[str, str]]:
+    places, motions = int(m.known.any(axis=1).sum()), int(m.known.sum())
+    return [
+        ("Law", m.law.describe()),
+        (
+            "Motions",
+            (
+                f"{motions:,} between {places:,} of {counted(len(m.places), m.over[:-1])} and their "
+                f"counterparts, each with every joint locked and with none"
+            ),
+        ),
+        (
+            "Target within reach",
+            "the arm reached it, or a configuration within the limits was found with the joint locked as it is",
+        ),
+        ("Intervals", "95 %; the unit is the place, whose motions resemble each other"),
+        ("Seed", str(m.seed)),
+    ]
 
 
 def tables(m: ConvergenceMap) -> list[Rows]:

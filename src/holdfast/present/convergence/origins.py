@@ -13,8 +13,10 @@ from holdfast.convergence.origins import Workspace
 from holdfast.convergence.table import save_places
 from holdfast.notice import says
 from holdfast.present import results
-from holdfast.present.convergence.places import mean_rows, measure_maps, with_interval
+from holdfast.present.convergence.places import MEASURES, answer, figure_words, mean_rows, measure_maps, with_interval
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
+from holdfast.words import capitalised, counted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,6 +68,43 @@ def tables(w: Workspace) -> list[Rows]:
         title = "where all configurations that were drawn do, an upper bound for all that there are"
         found.append(Rows(["joint", *(f"starts with {name} 100, percent" for name in names)], rows, title))
     return found
+
+
+def story(w: Workspace) -> Story:
+    """On how much of the way the target stays within reach, and how often the failed arm gets there."""
+    nothing = (
+        f"None of the {counted(len(w.places), 'start')} has a configuration from which the "
+        f"target is reached; choose starts within reach."
+    )
+    text, facts = answer(w, nothing)
+    how = {
+        "brute": "all failures simulated, from configurations equally far apart along the self-motion",
+        "procedure": "simulated only where a sink exists; elsewhere the arm is taken to reach the target",
+        "sampled": "random configurations, all failures simulated",
+    }
+    return Story(
+        f"Starts from which {w.law.arm.name} still reaches a target when a joint locks on the way",
+        text,
+        about=f"{w.law.arm.name}, {w.law.describe()}",
+        facts=facts,
+        lines=[f"{capitalised(line)}." for line in w.describe()[1:]],
+        figures=figure_words("starts"),
+        method=[
+            ("Law", w.law.describe()),
+            ("Target", ", ".join(f"{x:.4g}" for x in w.target[:3, 3]) + " m"),
+            (
+                "Starts",
+                (
+                    f"{int((w.configurations > 0).sum()):,} of {len(w.places):,} within reach, "
+                    f"{int(w.configurations.sum()):,} configurations"
+                ),
+            ),
+            ("Failures", f"{how[w.method]}; {w.simulated:,} simulated"),
+            ("Measures", MEASURES),
+            ("Source", "Goel, Maciejewski, Balakrishnan 2005"),
+        ],
+        arm=w.law.arm,
+    )
 
 
 def key_table(w: Workspace) -> Rows:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from holdfast.convergence.measures import FINISH, REACH
 from holdfast.convergence.places import Places, in_a_plane
 from holdfast.present.printing import Rows, alike, number
+from holdfast.words import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -107,3 +108,64 @@ def measure_maps(
         for view, figure in panels(law.task, places, rows, columns, label, f"{about}\n{second}", mark, False).items():
             found[word + view] = figure
     return found
+
+
+MEASURES = (
+    "R: part of the way on which the joint may lock and the target stays within reach; F: part of that from which the failed "
+    "arm reaches it. 100: fraction of the configurations for which that is all of the way; avg: mean; sens: greatest minus "
+    "least"
+)
+
+
+def answer(found: Workspace | TargetMeasures, nothing: str) -> tuple[str, list[tuple[str, str]]]:
+    """What the means say, and in numbers: how much stays within reach whichever joint locks, and is reached."""
+    means, names = found.means(), found.law.arm.joint_names
+    reach, finish = means["Ravg"], means["Favg"]
+    if np.isnan(reach[-1]):
+        return nothing, []
+    worst, best = (int(f(reach[:-1])) for f in (np.nanargmin, np.nanargmax))
+    facts = (
+        [(percent(reach[-1] / 100), "of the way keeps the target within reach whichever joint locks there")]
+        if reach[-1]
+        else []
+    )
+    if reach[-1]:
+        text = (
+            f"Whichever joint locks, the target stays within reach on {percent(reach[-1] / 100)} "
+            f"of the way, mean over all motions"
+        )
+    else:
+        text = "There is no part of the way on which any joint may lock and the target stays within reach"
+    if reach[worst] < reach[best]:
+        text += f"; a lock of {names[worst]} takes most, it leaves {percent(reach[worst] / 100) if reach[worst] else 'nothing'}"
+        facts += [(percent(reach[worst] / 100), f"if it is {names[worst]}, the worst of them")] if reach[worst] else []
+        facts += [(percent(reach[best] / 100), f"if it is {names[best]}, the best of them")]
+    if not found.ends.sum():
+        return f"{text}. No failure was simulated.", facts
+    if np.isfinite(finish[:-1]).any():
+        least = int(np.nanargmin(finish[:-1]))
+        mean = float(np.nanmean(finish[:-1])) / 100
+        after = {0.0: "never gets there after a failure", 1.0: "gets there after every failure that was tried"}
+        often = after.get(mean, f"gets there after {percent(mean)} of the failures")
+        text += f". Where it is within reach, the failed arm {often}"
+        if mean and finish[least] < np.nanmax(finish[:-1]):
+            text += f", least often once {names[least]} has locked ({percent(finish[least] / 100)})"
+        facts += (
+            [(percent(mean), "of the failures that leave the target within reach do not keep the arm from it")] if mean else []
+        )
+    return f"{text}.", facts
+
+
+def figure_words(where: str) -> dict[str, tuple[str, str]]:
+    """Of the maps that :func:`measure_maps` draws the titles and what they show."""
+    told = {
+        "reach": (
+            "Where the target stays within reach",
+            f"R of each of the {where}, for each joint that locks on the way and for any of them.",
+        ),
+        "finish": (
+            "Where the failed arm reaches the target",
+            f"F of each of the {where}: of the way on which the target stays within reach.",
+        ),
+    }
+    return {f"{word}{view}": words for word, words in told.items() for view in ("", *_VIEWS)}

@@ -5,13 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from holdfast.convergence.analysis import ENDS
 from holdfast.convergence.table import save_places
 from holdfast.convergence.targets import TargetMeasures
 from holdfast.notice import says
 from holdfast.present import results
-from holdfast.present.convergence.places import mean_rows, measure_maps
+from holdfast.present.convergence.places import MEASURES, answer, figure_words, mean_rows, measure_maps
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
+from holdfast.words import capitalised, counted, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,6 +29,44 @@ def to_dict(t: TargetMeasures) -> dict[str, Any]:
 def tables(t: TargetMeasures) -> list[Rows]:
     """The means of the measures."""
     return [mean_rows(t, "the targets")]
+
+
+def story(t: TargetMeasures) -> Story:
+    """Which part of the way keeps the targets within reach, and the target that a lock puts most at risk."""
+    nothing = (
+        f"None of the {counted(len(t.targets), 'target')} is within reach of motions from "
+        f"{counted(len(t.starts), 'start')}; choose others."
+    )
+    text, facts = answer(t, nothing)
+    each = t.measures["Ravg"][:, -1]
+    if np.isfinite(each).any() and np.nanmin(each) < np.nanmax(each):
+        ends = [int(f(each)) for f in (np.nanargmin, np.nanargmax)]
+        (low, high), (bad, good) = (each[ends], [f"({', '.join(f'{x:.3g}' for x in t.targets.points[k])}) m" for k in ends])
+        text += (
+            f" The target at {bad} is most at risk ({percent(low / 100)} of the way), that at "
+            f"{good} least ({percent(high / 100)})."
+        )
+    return Story(
+        f"Which targets of {t.law.arm.name} an unnoticed lock puts at risk",
+        text,
+        about=f"{t.law.arm.name}, {t.law.describe()}",
+        facts=facts,
+        lines=[f"{capitalised(line)}." for line in t.describe()],
+        figures=figure_words("targets"),
+        method=[
+            ("Law", t.law.describe()),
+            (
+                "Motions",
+                (
+                    f"to {counted(len(t.targets), 'target')} from {counted(len(t.starts), 'start')}, the "
+                    f"same for all; {int(t.configurations.sum()):,} of them"
+                ),
+            ),
+            ("Measures", MEASURES),
+            ("Source", "measures: Goel, Maciejewski, Balakrishnan 2005; over targets ours"),
+        ],
+        arm=t.law.arm,
+    )
 
 
 def figures(t: TargetMeasures) -> dict[str, Figure]:

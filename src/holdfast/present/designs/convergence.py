@@ -68,9 +68,24 @@ def build(d: ConvergenceDesigns) -> Page:
             Section("The best arm as a file", _file(d)),
         ],
         subtitle=f"{d.law.describe()}; {', '.join(d.space.names)}",
+        facts=[x for x in _facts(d) if x[0] != "0 %"],
         method=_method(d),
         again=_again(d),
     )
+
+
+def _facts(d: ConvergenceDesigns) -> list[tuple[Cell, Cell]]:
+    """What the best design and the given arm are worth."""
+    if d.checked is not None:
+        given, best, _ = d.checked
+        said = "of fresh failures, after which it reaches its target:"
+        pairs = [(best.value, f"{said} the best design")] * (d.best > 0) + [(given.value, f"{said} the given arm")]
+    else:
+        measure = d.measures[d.objective if d.exact else "converged"]
+        pairs = [(float(measure[d.best]), f"{d.objective}, the best design"), (float(measure[0]), "the given arm")][
+            : 1 + (d.best > 0)
+        ]
+    return [*((percent(value), about) for value, about in pairs), (f"{len(d.values):,}", "designs were tried")]
 
 
 def headline(d: ConvergenceDesigns) -> str:

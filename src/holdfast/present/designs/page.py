@@ -105,9 +105,26 @@ def build(designs: Designs) -> Page:
         d.headline,
         sections,
         subtitle=f"{d.region.name}; {', '.join(d.space.names)}",
+        facts=_facts(d),
         method=_method(d),
         again=_again(d),
     )
+
+
+def _facts(d: Designs) -> list[tuple[Cell, Cell]]:
+    """What is guaranteed before and after, on fresh poses, and the reach that it costs."""
+    given, best = d.checked.given, d.checked.best
+    often = f"guaranteed for {chosen(d.level)} of fresh poses"
+    found: list[tuple[Cell, Cell]] = []
+    if best.guaranteed.value:
+        found.append((number(best.guaranteed.value), f"{often}, {'the given arm' if d.best_is_start else 'the best design'}"))
+    if given.guaranteed.value and not d.best_is_start:
+        found.append((number(given.guaranteed.value), f"{often}, the given arm"))
+    found.append(
+        (number(float(best.distribution.quantile(0.5, reachable_only=False))), "median of the fresh poses, best design")
+    )
+    found.append((f"{number(float(d.reach[d.best]))} m", f"reach of the best design; the given arm: {number(d.start_reach)} m"))
+    return [x for x in found if x[0] != "0"]
 
 
 # ---- what to build -------------------------------------------------------------------------------------------------------

@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from holdfast.equilibria.attraction import Basins
-from holdfast.present.equilibria import points
+from holdfast.equilibria.stability import Kind
+from holdfast.present.equilibria import points as points_of
 from holdfast.present.printing import Rows, number
+from holdfast.present.story import Story
+from holdfast.words import counted, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,7 +18,7 @@ if TYPE_CHECKING:
 def to_dict(found: Basins) -> dict[str, Any]:
     """The stationary points, and which fraction of the starts ends at each."""
     return {
-        **points.to_dict(found.points),
+        **points_of.to_dict(found.points),
         "starts": len(found.end),
         "fractions": [{"end": name, "fraction": i.value, "low": i.low, "high": i.high} for name, i in found.shares],
         "converged": {"fraction": found.converged.value, "low": found.converged.low, "high": found.converged.high},
@@ -29,7 +32,68 @@ def tables(found: Basins) -> list[Rows]:
     rows = [
         [name, str(share), number(found.points.error[codes[name]]) if name in codes else ""] for name, share in found.shares
     ]
-    return [Rows(["ends at", "fraction of starts", points.error_head(found.points.law)], rows)]
+    return [Rows(["ends at", "fraction of starts", points_of.error_head(found.points.law)], rows)]
+
+
+def story(found: Basins) -> Story:
+    """Which fraction of the starts reaches the target, and where the others end."""
+    p, points = found.converged, found.points
+    told, count = points_of.story(points), counted(len(found.end), "start")
+    away = max((x for x in found.shares if not _reached(found, x[0])), key=lambda x: x[1].value, default=None)
+    lost = points_of.where(points)
+    if p.value == 0:
+        out = "" if (points.kind == Kind.SOLUTION).any() else ": it is out of reach"
+        answer = f"With {lost} none of {count} reaches the target{out} (at most {percent(p.high)} would, {p.confidence:.0%})."
+    else:
+        answer = (
+            f"With {lost} {percent(p.value)} of {count} reach the target ({percent(p.low)} to "
+            f"{percent(p.high)}, {p.confidence:.0%})."
+        )
+    off = _off(found)
+    if away is not None and away[1].value:
+        answer = answer[:-1] + f"; {percent(away[1].value)} end {_words(away[0])}{off.get(away[0], '')}."
+    facts = [
+        *([(percent(p.value), f"of the starts reach the target; {percent(p.low)} to {percent(p.high)}")] if p.value else []),
+        *[(percent(s.value), f"end {_words(name)}{off.get(name, '')}") for name, s in found.shares if s.value][:4],
+    ]
+    many = f"{found.shape[0]} by {found.shape[1]} cells" if found.shape else "starts drawn uniformly within the limits"
+    return Story(
+        f"Starts from which {points.law.arm.name} still reaches its target",
+        answer,
+        about=told.about,
+        facts=facts if p.value else facts[:4],
+        views=told.views,
+        figures={"basins": ("Where the starts end", f"{count}, by where each ends; {many}.")},
+        method=[
+            ("Starts", f"{count}: {many}; each is simulated until it stops or the time limit comes"),
+            (
+                "Intervals",
+                f"{p.confidence:.0%}, exact (Clopper-Pearson); of a grid those that as many random starts would have",
+            ),
+            *told.method[:-1],
+        ],
+        arm=points.law.arm,
+    )
+
+
+def _reached(found: Basins, name: str) -> bool:
+    return name == "target" or name.startswith("solution")
+
+
+def _words(name: str) -> str:
+    """Where a start ends, behind the verb."""
+    return {"moving": "nowhere: they keep moving", "undecided": "undecided", "target": "at the target"}.get(
+        name, name if name.startswith("stuck") else f"at {name}"
+    )
+
+
+def _off(found: Basins) -> dict[str, str]:
+    size = "" if found.points.law.task.angular else " m"
+    return {
+        found.name(k): f", {number(e)}{size} off it"
+        for k, e in enumerate(found.points.error)
+        if found.points.kind[k] != Kind.SOLUTION
+    }
 
 
 def next_steps(found: Basins, name: str) -> list[str]:

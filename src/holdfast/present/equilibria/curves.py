@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.equilibria.curves import Curves
+from holdfast.equilibria.stability import Kind
 from holdfast.present.equilibria.points import error_head
 from holdfast.present.printing import Rows, number
+from holdfast.present.story import Story
+from holdfast.words import capitalised, either, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,6 +58,68 @@ def tables(curves: Curves) -> list[Rows]:
             rows.append([str(k + 1), ends, s.kind.word, f"{number(error.min())} to {number(error.max())}"])
     head = ["curve", f"{arm.joint_names[curves.joint]}, {unit}", "kind", f"{error_head(curves.law)}, least to most"]
     return [Rows(head, rows)] if curves.curves else []
+
+
+def story(curves: Curves) -> Story:
+    """At which locked values the arm can stop off its target."""
+    arm = curves.law.arm
+    joint, (factor, unit) = arm.joints[curves.joint], arm.joints[curves.joint].shown
+    arcs = [f"{factor * a:.4g} to {factor * b:.4g}" for a, b in curves.sink_arcs]
+    far = max(
+        (float(c.error[s.first : s.last + 1].max()) for c in curves.curves for s in c.segments if s.kind == Kind.SINK),
+        default=0,
+    )
+    size = "" if curves.law.task.angular else " m"
+    if arcs:
+        whole = curves.sink_arcs == [(-np.pi, np.pi)]
+        answer = (
+            f"With {joint.name} locked at {'any value' if whole else f'{either(arcs)} {unit}'} "
+            f"the arm can stop off its target, by up to {number(far)}{size}."
+        )
+        if not whole:
+            answer += " At other values no sink was found."
+    elif curves.degenerate_angles or curves.loose.attracting.any():
+        answer = (
+            f"No isolated sink was found at any value of {joint.name}, but whole curves or "
+            f"surfaces of stationary points, on which the arm can stop."
+        )
+    else:
+        answer = f"No value of {joint.name} was found at which the arm stops off its target."
+    facts = []
+    if arcs:
+        inside = sum(b - a for a, b in curves.sink_arcs)
+        whole_range = float(np.nan_to_num(joint.upper - joint.lower, posinf=np.inf)) if joint.prismatic else 2 * np.pi
+        if np.isfinite(whole_range):
+            facts.append(
+                (
+                    percent(min(inside / whole_range, 1.0)),
+                    f"of {'the range' if joint.prismatic else 'a turn'} of {joint.name} has a sink",
+                )
+            )
+        facts.append((f"{number(far)}{size}", "off the target, at the farthest sink"))
+    facts += [(f"{len(curves):,}", "curves of stationary points"), (f"{curves.starts:,}", "random starts that looked for them")]
+    return Story(
+        f"Where {arm.name} can stop, over the value at which {joint.name} locks",
+        answer,
+        about=f"{arm.name}, {curves.law.describe()}",
+        facts=facts,
+        lines=[f"{capitalised(line)}." for line in curves.describe()[2:]],
+        figures={
+            "curves": (
+                "Stationary points over the locked value",
+                "Off the target: sinks hold the arm, saddles and sources do not. Shaded: the target is within reach.",
+            )
+        },
+        method=[
+            (
+                "Search",
+                f"{curves.starts:,} random starts, each followed along its curve; curves that none converges to are missed",
+            ),
+            ("Law", curves.law.describe()),
+            ("Not excluded", "limit cycles, and slow motion beside degenerate values"),
+        ],
+        arm=arm,
+    )
 
 
 def next_steps(curves: Curves, name: str) -> list[str]:

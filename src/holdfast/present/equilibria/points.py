@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.equilibria.points import StationaryPoints
-from holdfast.equilibria.stability import REACHED
+from holdfast.equilibria.stability import REACHED, Kind
 from holdfast.present.printing import Rows, number, print_rows
+from holdfast.present.story import Story
+from holdfast.words import capitalised
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -16,7 +18,16 @@ if TYPE_CHECKING:
     from holdfast.control.law import Law
 
 SHOWN = 12  # points of a kind on the console
+ROWS = 60  # on a page
 MANY = 3  # eigenvalues: of more only the ends of their range
+_ARMS = 3  # that are drawn off the target
+_COUNTED = {
+    Kind.SOLUTION: "configurations at the target",
+    Kind.SINK: "sinks: the arm stops there",
+    Kind.SADDLE: "saddles: hardly any start ends there",
+    Kind.SOURCE: "sources: no start ends there",
+    Kind.DEGENERATE: "points where the linearisation does not decide",
+}
 
 
 def to_dict(points: StationaryPoints) -> dict[str, Any]:
@@ -57,6 +68,80 @@ def tables(points: StationaryPoints) -> list[Rows]:
         values = [f"{j.shown[0] * x:.4f}" for j, x in zip(joints, points.q[k], strict=True)]
         rows.append([kind, *values, number(points.error[k]), _spread(points.eigenvalues[k]), ", ".join(notes)])
     return [Rows(head, rows)]
+
+
+def where(points: StationaryPoints) -> str:
+    """What is locked, and at which values: ``joint2 locked at 140 deg``."""
+    joints = points.law.arm.joints
+    at = [(joints[k], joints[k].shown, x) for k, x in zip(points.locked, points.at, strict=True)]
+    return ", ".join(f"{joint.name} locked at {factor * x:.4g} {unit}" for joint, (factor, unit), x in at)
+
+
+def story(points: StationaryPoints) -> Story:
+    """Where the arm can stop: at its target, off it, or nowhere."""
+    law, size = points.law, "" if points.law.task.angular else " m"
+    solved = points.kind == Kind.SOLUTION
+    holds = ~solved & points.attracting
+    errors = np.sort(points.error[holds])
+    there = f"With {where(points)} the target"
+    if not len(points):
+        answer = f"{there} is not reached in any configuration found, and no point at which the arm stops was found either."
+    elif not errors.size:
+        reached = "is within reach, and nothing else was found at which the arm can stop" if solved.any() else ""
+        answer = (
+            f"{there} {reached or 'is out of reach, and no stationary point that attracts was found: the arm keeps moving'}."
+        )
+    else:
+        near, far = (f"{number(x)}{size}" for x in errors[[0, -1]])
+        some = "a stationary point" if len(errors) == 1 else f"one of {len(errors)} stationary points that attract"
+        some += f", {near} off it" if near == far else f", {near} to {far} off it"
+        how = "within reach, but the arm can also stop at" if solved.any() else "out of reach, and the arm stops at"
+        answer = f"{there} is {how} {some}."
+    facts = [(f"{int((points.kind == kind).sum()):,}", _COUNTED[kind]) for kind in Kind if (points.kind == kind).any()]
+    if errors.size:
+        facts.insert(0, (f"{number(errors[0])}{size}", "off the target, at the nearest point that holds the arm away from it"))
+    lines = [*map(capitalised, points.describe()[1:])] if points.continuum.any() or _idle(points) else []
+    return Story(
+        f"Where {law.arm.name} can stop with a lock that its controller does not know of",
+        answer,
+        about=f"{law.arm.name}, {law.describe()}",
+        facts=facts[:5],
+        lines=[f"{line}." for line in lines],
+        views=[*_view(points, solved, holds)],
+        tables=[table._replace(rows=table.rows[:ROWS]) for table in tables(points)],
+        method=[
+            ("Search", f"{points.starts:,} random starts; points that none of them converges to are missed"),
+            ("Kinds", "by the eigenvalues of the linearised motion of the healthy joints, in units of the gain Ke"),
+            ("Law", law.describe()),
+            ("Listed", f"the first {min(ROWS, len(points))} of {len(points)}; --json has all"),
+        ],
+        arm=law.arm,
+    )
+
+
+def _idle(points: StationaryPoints) -> bool:
+    return any("does not notice" in line for line in points.describe())
+
+
+def _view(points: StationaryPoints, solved: Any, holds: Any) -> list[tuple[str, list[Any]]]:
+    from holdfast.present.arm.view import scene
+    from holdfast.report.page import Picture
+
+    chosen = [(np.flatnonzero(solved)[:1], "at its target"), (np.flatnonzero(holds)[:_ARMS], "")]
+    named = [(k, words or f"{points.kinds[k]} {k + 1}") for some, words in chosen for k in some]
+    if not named:
+        return []
+    shown = scene(
+        points.law.arm,
+        points.q[[k for k, _ in named]],
+        labels=[words for _, words in named] if len(named) > 1 else (),
+        locked=points.locked,
+        task=points.law.task,
+        lost=False,
+        targets=[points.target],
+    )
+    picture = Picture(shown.html("stops", "The arm where it can stop"), f"Where it can stop: {', '.join(w for _, w in named)}.")
+    return [("The arm where it stops", [picture])]
 
 
 def next_steps(points: StationaryPoints, name: str) -> list[str]:

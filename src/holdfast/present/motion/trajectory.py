@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import platform
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,16 +14,18 @@ from holdfast.motion.slowness import SlowMotion
 from holdfast.motion.trajectory import ON_PATH, Trajectory, susceptibilities
 from holdfast.notice import says
 from holdfast.present.arm.view import scene
-from holdfast.provenance import versions
+from holdfast.present.printing import number
+from holdfast.present.story import how
 from holdfast.report import page
 from holdfast.report.page import Block, Callout, Page, Picture, Section, Table, Text
 from holdfast.report.timelines import Line, Timeline, small_multiples, stacked_panels
-from holdfast.words import as_given, capitalised
+from holdfast.words import as_given, capitalised, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _FRAMES = 201
+_SAME, _FOLD = 5e-3, 10.0  # changes that are none, and those that a fraction would not tell
 SPEEDS = (1.0, 0.5, 0.25)  # shares of the time of the motion, as in Figs. 9 to 12
 _SERIOUS = {"end effector slowed", "not at an extremum", "algorithmic singularity", "value not kept", "value jump"}
 
@@ -35,7 +36,7 @@ def figures(t: Trajectory) -> dict[str, Figure]:
     from holdfast.report.motions import Motion, Panel, drawn_motion
 
     chain = t.arm.frames(t.q)[..., :3, 3]
-    moving = Motion(t.time, chain, np.r_[False, t.arm.prismatic, False], t.poses[:, :3, 3], [])
+    moving = Motion(chain, np.r_[False, t.arm.prismatic, False], t.poses[:, :3, 3])
     unit = "" if t.objective.unit in ("1", "mixed") else f", {t.objective.unit}"
     panel = Panel(t.time, t.value, f"{t.objective.name}{unit}", f"{capitalised(t.objective.better)} is better")
     caption = f"{t.arm.name}, {t.method}, {len(t.time):,} samples"
@@ -76,6 +77,7 @@ def build(t: Trajectory, command: str = "") -> Page:
         parts,
         subtitle=f"{t.method}, {t.objective.name}, {t.objective.better} is better",
         warnings=alerts,
+        facts=f.facts(),
         method=f.method(),
         again=command,
     )
@@ -89,17 +91,36 @@ class _Facts:
 
     @property
     def headline(self) -> str:
-        t = self.t
-        unit = f" ({t.objective.unit})" if self.unit else ""
-        hand = capitalised(t.headline) if t.on_path else "The end effector does not stay on its path"
-        return (
-            f"{hand}. In {t.time[-1]:.4g} s {t.objective.name}{unit} goes from {t.value[0]:.4g} to "
-            f"{t.value[-1]:.4g}, with a mean of {t.value.mean():.4g} and {self.worst:.4g} at its worst."
+        """The worst of the objective on the way, and how much the objective changes that."""
+        t, name, plain = self.t, self.t.objective.name, self.t.without
+        text = f"The worst {name} on the way is {number(t.worst)}{self.unit}"
+        if plain is not None:
+            change = (t.worst - plain.worst) / abs(plain.worst) if plain.worst else np.inf
+            if abs(change) < _SAME:
+                text += ", as on the same path without it"
+            else:
+                much = (
+                    f"{percent(abs(change))} {'less' if change < 0 else 'more'} than on"
+                    if abs(change) < _FOLD
+                    else "against that on"
+                )
+                text += f", {much} the same path without it ({number(plain.worst)}{self.unit})"
+        where = (
+            "; the end effector stays on its path."
+            if t.on_path
+            else f". The end effector leaves its path, by up to {t.tool_error}."
         )
+        return f"{text}{where}"
 
-    @property
-    def worst(self) -> float:
-        return float(self.t.value.max() if self.t.objective.better == "smaller" else self.t.value.min())
+    def facts(self) -> list[tuple[str, str]]:
+        """The answer in a few numbers."""
+        t, name, plain = self.t, self.t.objective.name, self.t.without
+        found = [(f"{number(t.worst)}{self.unit}", f"worst {name} on the way")]
+        if plain is not None:
+            found.append((f"{number(plain.worst)}{self.unit}", "on the same path without it, with least-norm rates"))
+        found.append((f"{number(float(t.value.mean()))}{self.unit}", "mean on the way"))
+        found.append((f"{number(t.peak_rate)} rad/s", f"largest norm of the joint rates, at {t.peak_time:.3g} s"))
+        return found
 
     def numbers(self) -> list[Block]:
         """The motion in a few numbers."""
@@ -124,18 +145,26 @@ class _Facts:
     # ---- the arm -----------------------------------------------------------------------------------------------
 
     def motion(self) -> list[Block]:
-        """The arm, moving."""
-        t = self.t
+        """The arm moving, beside the motion without the objective."""
+        t, plain = self.t, self.t.without
         few = np.unique(np.linspace(0, len(t.time) - 1, min(_FRAMES, len(t.time))).astype(int))
-        unit = "" if t.objective.unit in ("1", "mixed") or len(t.objective.unit) > 12 else f" {t.objective.unit}"
-        readings = [
-            f"{t.time[k]:.2f} s, {t.objective.name} {t.value[k]:.4g}{unit}, joint rates {t.rate_norm[k]:.3g} rad/s" for k in few
-        ]
-        view = scene(t.arm, t.q[few], time=t.time[few], path=t.poses[few][:, :3, 3], readings=readings)
-        speed = t.time[-1] / view.data["seconds"]
-        how = "in real time" if abs(speed - 1) < 1e-9 else f"{speed:.3g} times as fast as in reality"
-        caption = f"Orange: the path asked for; blue: path of the tool. Played {how}. The slider moves with the arrow keys."
-        return [Picture(view.html("motion", f"{t.arm.name} moving along its path"), caption)]
+        readings = []
+        for k in few:
+            other = "" if plain is None else f", without it {plain.value[k]:.4g}"
+            readings.append(f"{t.time[k]:.2f} s, {t.objective.name} {t.value[k]:.4g}{other}")
+        q = t.q[few] if plain is None else np.stack([t.q[few], plain.q[few]])
+        shown = scene(
+            t.arm,
+            q,
+            labels=() if plain is None else (t.method, "without the objective"),
+            time=np.linspace(t.time[0], t.time[-1], len(few)),
+            path=t.poses[few, :3, 3],
+            readings=readings,
+        )
+        caption = "The arm on its path (orange)."
+        if plain is not None:
+            caption += " See-through: the same path from the same configuration without the objective, by least-norm rates."
+        return [Picture(shown.html("motion", f"{t.arm.name} moving along its path"), caption)]
 
     # ---- curves ------------------------------------------------------------------------------------------------
 
@@ -146,6 +175,8 @@ class _Facts:
         """The objective, and each joint's measure."""
         t = self.t
         lines = [Line(t.value, t.method, "first")]
+        if t.without is not None:
+            lines.append(Line(t.without.value, "without the objective", "third"))
         caption = f"{capitalised(t.objective.name)} at {len(t.time):,} samples; {t.objective.better} is better."
         if t.best_value is not None:
             lines.append(Line(t.best_value, "best of each pose", "compared"))
@@ -316,17 +347,14 @@ class _Facts:
     def method(self) -> list[Block]:
         """How it was computed."""
         t = self.t
-        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
-        rows = [
+        return how(
+            t.arm,
             ("Law", t.method),
             ("Objective", f"{t.objective.name}, {t.objective.better} is better"),
             ("Task", t.task.describe()),
             ("Gain", as_given(t.gain)),
             ("Rate cap", "none" if t.rate_cap is None else f"{t.rate_cap:g} rad/s"),
             ("Steps", f"{t.steps:,} of {t.time[-1] / t.steps:.3g} s; {len(t.time):,} samples of them are kept"),
+            ("Without the objective", "least-norm rates, from the same configuration; everything else alike"),
             ("Seed", str(t.seed)),
-            ("Arm", t.arm.provenance),
-            ("Fingerprint of the arm", Markup("<code>{}</code>").format(t.arm.fingerprint)),
-            ("Versions", ", ".join([*(f"{k} {v}" for k, v in found.items()), f"Python {platform.python_version()}"])),
-        ]
-        return [Table(rows)]
+        )

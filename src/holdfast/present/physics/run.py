@@ -8,22 +8,35 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
+from holdfast.present.physics.console import key_table
+from holdfast.present.results import as_table
+from holdfast.present.simulation import run as simulation
 from holdfast.report import figures as style
-from holdfast.report.figures import save_png
+from holdfast.report.figures import save_png, svg
+from holdfast.report.page import Picture, Section, Text
+from holdfast.words import capitalised
 
 if TYPE_CHECKING:
     from holdfast.physics.run import PhysicalRun
 
 
 def write(run: PhysicalRun, path: Path, command: str = "") -> Path:
-    """The page of the kinematic run."""
-    return run.kinematic.report(path, command=command)
+    """The page of the kinematic run, with what differs in MuJoCo."""
+    return simulation.write(run.kinematic, path, command=command, more=[_section(run, figures(run)["physics"])])
 
 
 def save(run: PhysicalRun, folder: Path, command: str = "") -> list[Path]:
     """What is saved of the kinematic run, and physics.png."""
-    files = run.kinematic.save(folder, command=command)
-    return [*files, save_png(run.figures()["physics"], folder / "physics.png")]
+    drawn = figures(run)["physics"]
+    files = simulation.save(run.kinematic, folder, command=command, more=[_section(run, drawn)])
+    return [*files, save_png(drawn, folder / "physics.png")]
+
+
+def _section(run: PhysicalRun, drawn: Figure) -> Section:
+    about = "Thick: kinematic; thin: with masses and joint servos. Right: how far the joints lag behind."
+    said = [Text(f"{capitalised(line)}.") for line in run.describe()]
+    picture = Picture(svg(drawn, "physics", "The same run in MuJoCo"), about)
+    return Section("The same with masses and servos", [*said, picture, as_table(key_table(run))])
 
 
 def figures(run: PhysicalRun) -> dict[str, Figure]:

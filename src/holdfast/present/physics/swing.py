@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.present.printing import Rows, number
+from holdfast.present.story import Story
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from holdfast.physics.swing import FreeSwing
 
 _CLOSE_UP = 1.5  # times the last brake time
+_FRAMES, _SEEN = 201, 0.01  # of a motion; of the farthest that it goes
 
 
 def to_dict(swing: FreeSwing) -> dict[str, Any]:
@@ -97,6 +99,86 @@ def show(swing: FreeSwing, out: Console) -> None:
                 f"{number(1000 * d.distance)} mm",
             )
         out.print(table)
+
+
+def story(swing: FreeSwing) -> Story:
+    """How far the joint swings, and how far the tool drops until the brakes hold it."""
+    failed = swing.arm.joints[swing.joint]
+    factor, unit = failed.shown
+
+    def amount(value: float) -> str:
+        return f"{number(factor * value)} {unit}"
+
+    last = swing.drops[-1] if swing.drops else None
+    words = {
+        "balanced": f"{failed.name} does not move when it swings free here: gravity pulls it neither way",
+        "rest": f"{failed.name} swings by up to {amount(swing.peak)} and hangs still {amount(abs(swing.rest_angle))} away",
+        "stop": f"{failed.name} falls against its stop, {amount(abs(swing.rest_angle))} away",
+        "moving": f"{failed.name} swings by up to {amount(swing.peak)} and still moves after {number(swing.time[-1])} s",
+    }
+    answer = words[swing.outcome]
+    facts = [] if swing.outcome == "balanced" else [(amount(swing.peak), "farthest that the joint goes")]
+    if last is not None and swing.outcome != "balanced":
+        way = "dropped" if last.drop >= 0 else "risen"
+        answer += f"; if brakes engage after {last.after_ms:g} ms the tool has {way} by {number(1000 * abs(last.drop))} mm"
+        facts += [
+            (f"{number(1000 * d.distance)} mm", f"is how far the tool has moved when brakes engage after {d.after_ms:g} ms")
+            for d in swing.drops[:3]
+        ]
+    facts.append((f"{number(swing.initial_acceleration)} {failed.unit}/s²", "acceleration of the joint as it fails"))
+    joint = "joint has moved"
+    rows = [
+        [
+            f"{d.after_ms:g} ms",
+            amount(d.angle),
+            f"{amount(d.speed)}/s",
+            f"{number(1000 * d.drop)} mm",
+            f"{number(1000 * d.distance)} mm",
+        ]
+        for d in swing.drops
+    ]
+    friction = f"{number(swing.damping)} {'N s/m' if failed.prismatic else 'N m s/rad'}"
+    return Story(
+        f"A free-swinging {failed.name} of {swing.arm.name}",
+        f"{answer}.",
+        about="All other joints are held",
+        facts=[x for x in facts if x[0][:2] != "0 "],
+        views=_moving(swing),
+        figures={
+            "swing": ("Over time", "How far the joint has moved and the height of the tool; dots: where brakes would hold it.")
+        },
+        tables=[Rows(["brakes engage after", joint, "at", "tool has dropped", "and moved"], rows)] if rows else [],
+        method=[
+            ("Friction", f"viscous, {friction}"),
+            ("Brakes", "are taken to stop the joint at once"),
+            ("Simulated", f"{number(swing.time[-1])} s, MuJoCo"),
+            (
+                "Configuration",
+                ", ".join(f"{q * j.shown[0]:.4g} {j.shown[1]}" for q, j in zip(swing.q, swing.arm.joints, strict=True)),
+            ),
+        ],
+        arm=swing.arm,
+    )
+
+
+def _moving(swing: FreeSwing) -> list[tuple[str, list[Any]]]:
+    if swing.outcome == "balanced":
+        return []
+    from holdfast.present.arm.view import scene
+    from holdfast.report.page import Picture
+
+    away = np.flatnonzero(np.abs(swing.angle - swing.angle[-1]) > _SEEN * max(swing.peak, 1e-12))
+    end = min(int(1.05 * (away[-1] if away.size else 0)) + 2, len(swing.time))
+    time = np.linspace(0.0, swing.time[end - 1], _FRAMES)
+    q = np.tile(swing.q, (_FRAMES, 1))
+    q[:, swing.joint] += np.interp(time, swing.time, swing.angle)
+    factor, unit = swing.arm.joints[swing.joint].shown
+    readings = [
+        f"{t:.2f} s, moved by {factor * x:.3g} {unit}"
+        for t, x in zip(time, q[:, swing.joint] - swing.q[swing.joint], strict=True)
+    ]
+    words = f"{swing.arm.joint_names[swing.joint]} swinging free, all other joints held."
+    return [("The swing", [Picture(scene(swing.arm, q, time=time, readings=readings).html("motion", words), words)])]
 
 
 def figures(swing: FreeSwing) -> dict[str, Figure]:

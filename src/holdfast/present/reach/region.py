@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from holdfast.present.printing import Rows
+from holdfast.present.printing import Rows, number
 from holdfast.present.solvers.self_motions import ranges
+from holdfast.present.story import Story
+from holdfast.words import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,6 +44,69 @@ def key_table(region: TolerantWorkspace) -> Rows:
     return Rows(
         ["joint", "artificial limits", "lost by its lock"],
         [[j.name, ranges([limits], j), f"{lost:.1%}"] for j, limits, lost in each],
+    )
+
+
+def story(region: TolerantWorkspace) -> Story:
+    """How much is kept whichever joint locks, and which lock takes most."""
+    unit, lost = region.unit.replace("^2", "²").replace("^3", "³"), np.nan_to_num(region.lost_to)
+    worst, names = int(lost.argmax()), region.arm.joint_names
+    limits = "Under the limits that were found" if region.optimised else "Under the artificial limits"
+    if not region.healthy_size:
+        answer = "The healthy arm reaches none of the points that were tried, so nothing can be kept."
+    elif not region.within.any():
+        answer = (
+            f"{limits} the arm reaches no point even before a joint locks, of "
+            f"{number(region.healthy_size)} {unit} within its own."
+        )
+    elif not region.inside.any():
+        often = f"the locks of {names[worst]} alone lose {percent(lost[worst])} of the points"
+        answer = f"{limits} no point is kept through every lock: {often}."
+    else:
+        answer = (
+            f"{limits} the arm keeps {number(region.size)} {unit}, {percent(region.share)} of "
+            f"its workspace, wherever any single joint locks"
+        )
+        answer += f"; the locks of {names[worst]} take most, {percent(lost[worst])} of the points." if lost[worst] else "."
+    facts = []
+    if region.inside.any():
+        low, high = region.size_interval
+        about = "" if region.exact else f"; {number(low)} to {number(high)}, {region.confidence:.0%}"
+        facts = [
+            (percent(region.share), "of the workspace is kept wherever a joint locks"),
+            (f"{number(region.size)} {unit}", f"of {number(region.healthy_size)} {unit}{about}"),
+        ]
+    if lost[worst] and region.within.any():
+        facts.append((percent(lost[worst]), f"of the points within the artificial limits are lost to locks of {names[worst]}"))
+    how = f"{len(region.points):,} points, {region.angles} locked values of each joint; values between them are not tried"
+    return Story(
+        f"What {region.arm.name} reaches before and after any lock",
+        answer,
+        about=f"Task {region.task.describe()}, limits {'optimised' if region.optimised else 'given'}",
+        facts=facts,
+        figures={
+            "region": (
+                "Where it is, and what each lock leaves",
+                (
+                    "Points that the healthy arm reaches, those within the artificial limits, and those "
+                    "that are kept wherever any joint locks; right: the sizes, with what is left "
+                    "after the locks of each joint alone."
+                ),
+            )
+        },
+        tables=[key_table(region)],
+        method=[
+            (
+                "Kept",
+                (
+                    "a point that the arm reaches within the artificial limits, and still reaches "
+                    "wherever in them any one joint locks"
+                ),
+            ),
+            ("Region", "in closed form for each radius" if region.exact else how),
+            ("Limits", "optimised for the largest region" if region.optimised else "given, or the arm's own"),
+        ],
+        arm=region.arm,
     )
 
 

@@ -4,9 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, alike, number
-from holdfast.words import capitalised
+from holdfast.present.story import Story
+from holdfast.recovery.recovery import Ending
+from holdfast.words import capitalised, counted
+
+_FRAMES = 121
+_ANSWERS = {
+    Ending.HOME: "the whole goal is met",
+    Ending.HOME_WITH_ROWS_GIVEN_UP: "the goal is not met as a whole; a motion was found that gives rows up",
+    Ending.PATH_UNFINISHED: "the rest of the tool path is not finished",
+    Ending.NO_ROUTE_FOUND: "configurations of the goal were found, but no motion to any of them",
+    Ending.NOTHING_FOUND: "no configuration of the goal was found, not even with rows given up",
+    Ending.PROVED_UNREACHABLE: "the goal is proved out of reach, and no configuration was found with rows given up",
+    Ending.START_OUTSIDE_LIMITS: "there is no motion: the arm is outside its limits",
+    Ending.START_TOO_CLOSE: "there is no motion: the arm is closer to itself already than the clearance that must be kept",
+    Ending.LOCK_ELSEWHERE: "there is no motion: a joint is not where it is said to be locked",
+}
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -71,6 +88,107 @@ def key_table(recovery: Recovery) -> Rows:
     if recovery.left is not None and recovery.left.left is not None:
         rows.append(["of the workspace is left", str(recovery.left.left)])
     return Rows(["", ""], rows)
+
+
+def story(recovery: Recovery) -> Story:
+    """Whether the goal is met with what is locked, at what length, and what is left of the workspace."""
+    from holdfast.present.recovery.left import FIGURES
+    from holdfast.present.recovery.left import story as left_story
+
+    asked, _, *rest = recovery.describe()
+    arm, ending, left = recovery.arm, recovery.ending, recovery.left
+    joints = [(name, value, arm.joints[arm.joint_index(name)].shown) for name, value in recovery.locked.items()]
+    locked = " and ".join(f"{name} locked at {factor * value:.4g} {unit}" for name, value, (factor, unit) in joints)
+    moves, length = len(recovery.q) > 1, f"{number(recovery.length)} {recovery.unit}"
+    answer = f"With {locked} {_ANSWERS[ending]}"
+    if recovery.given_up is not None:
+        answer += f": {recovery.given_up}"
+    if moves:
+        least = recovery.length <= recovery.lower_bound * (1 + 1e-9)
+        bound = (
+            "no route to any configuration found is shorter" if least else f"at least {number(recovery.lower_bound)} are needed"
+        )
+        answer += f", by a motion of {counted(len(recovery.q), 'waypoint')} and {length}; {bound}"
+    elif ending == Ending.HOME:
+        answer += "; the arm is there already"
+    answer += "."
+    facts = [(length, "length of the motion" if recovery.unit == "rad" else "duration of the motion")] if moves else []
+    if moves:
+        facts.append((f"{len(recovery.q)}", "waypoints, with straight lines in joint space between them"))
+    if recovery.found:
+        facts.append((f"{recovery.found:,}", "configurations of the goal were found"))
+    if left is not None and left.left is not None:
+        told = left_story(left)
+        answer += f" {told.answer}"
+        facts += told.facts[:1]
+    q = recovery.q if moves else recovery.at[None]
+    rows = [
+        [
+            joint.name,
+            *(f"{number(joint.shown[0] * x)} {joint.shown[1]}" for x in (q[0, k], q[-1, k])),
+            "locked" * (joint.name in recovery.locked),
+        ]
+        for k, joint in enumerate(arm.joints)
+    ]
+    if len(recovery.q):
+        rest += [f"independent replay: {line}" for line in checks(recovery)]
+    return Story(
+        f"{arm.name} after a known lock",
+        answer,
+        about=capitalised(asked),
+        facts=facts,
+        lines=[f"{capitalised(line).rstrip('.')}." for line in rest if left is None or line not in left.describe()],
+        views=_view(recovery),
+        figures={"motion": None, **FIGURES},
+        tables=[Rows(["joint", "start", "end", ""], rows, "Where the joints begin and end")],
+        method=[
+            ("Goal", recovery.goal),
+            ("Task", recovery.task.describe()),
+            ("Search", f"{recovery.starts} random starts for configurations of the goal, seed {recovery.seed}"),
+            (
+                "Shortest",
+                "in joint space, 1 m of a slide as 1 rad" if recovery.unit == "rad" else "in time, within the velocity limits",
+            ),
+            ("Clearance", "not looked at" if recovery.clearance is None else shape_text(recovery.clearance, recovery.margin)),
+        ],
+        arm=arm,
+    )
+
+
+def _view(recovery: Recovery) -> list[tuple[str, list[Any]]]:
+    from holdfast.present.arm.view import scene
+    from holdfast.report.page import Picture
+
+    goal = [] if recovery.goal_pose is None else [recovery.goal_pose]
+    locked = list(recovery.locked)
+    if len(recovery.q) < 2:
+        words = "Where the arm is and stays, with the directions that the lock takes."
+        return [
+            (
+                "Where the arm is",
+                [
+                    Picture(
+                        scene(recovery.arm, recovery.at, locked=locked, task=recovery.task, targets=goal).html("motion", words),
+                        words,
+                    )
+                ],
+            )
+        ]
+    q, time = on_the_way(recovery.q, _FRAMES), np.linspace(0.0, 100.0, _FRAMES)
+    readings = [f"{share:.0f} % of the way" for share in time]
+    shown = scene(recovery.arm, q, locked=locked, targets=goal, time=time, readings=readings)
+    words = (
+        "The motion with what is locked, at one speed in joint space."
+        + " The target of the end effector is marked." * bool(goal)
+    )
+    return [("The motion", [Picture(shown.html("motion", words), words)])]
+
+
+def on_the_way(q: Any, count: int) -> Any:
+    """Configurations (count, n) at equal shares of the way (K, n)."""
+    steps = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
+    at = np.linspace(0, steps[-1], count)
+    return np.stack([np.interp(at, steps, column) for column in q.T], axis=1)
 
 
 def next_steps(recovery: Recovery, name: str) -> list[str]:

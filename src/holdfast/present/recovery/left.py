@@ -6,11 +6,19 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from holdfast.present.printing import Rows
+from holdfast.present.story import Story
+from holdfast.words import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from holdfast.recovery.remainder import WhatIsLeft
+FIGURES = {
+    "left": (
+        "What is left of the workspace",
+        "Fraction of the targets that the healthy arm (left) and the failed arm (right) reach, seen from the side.",
+    )
+}
 
 
 def to_dict(left: WhatIsLeft) -> dict[str, Any]:
@@ -35,6 +43,37 @@ def key_table(left: WhatIsLeft) -> Rows:
     """How many targets were reached before, and how many still are."""
     told = [["targets", f"{len(left.healthy):,}"], ["the healthy arm reaches", f"{int(left.healthy.sum()):,}"]]
     return Rows(["", ""], [*told, ["the failed arm still reaches", f"{int(left.locked.sum()):,}"]])
+
+
+def story(left: WhatIsLeft) -> Story:
+    """How much of the workspace is left."""
+    title = f"What is left of the workspace once {' and '.join(left.joints)} has locked"
+    told = [f"{line.removesuffix('.')}." for line in left.describe()]
+    found, name = left.left, " and ".join(left.joints)
+    if found is None:
+        return Story(title, told[0], about=left.region)
+    answer = (
+        f"Once {name} has locked, {percent(found.value)} of what the healthy arm reaches is "
+        f"still reached ({percent(found.low)} to {percent(found.high)}, 95 %)."
+    )
+    if not found.value:
+        answer = (
+            f"Once {name} has locked, none of the {int(left.healthy.sum()):,} targets that the "
+            f"healthy arm reaches was reached: at most {percent(found.high)} of them are left, 95 %."
+        )
+    facts = [(percent(found.value), "of what the healthy arm reaches is left")] if found.value else []
+    return Story(
+        title,
+        answer,
+        about=left.region,
+        facts=[*facts, (f"{int(left.healthy.sum()):,}", "targets that the healthy arm reaches were tried")],
+        figures=FIGURES,
+        tables=[key_table(left)],
+        method=[
+            ("Reached", f"a configuration was found in {left.starts} random starts; the fraction is a lower bound"),
+            ("Rows that count", ", ".join(left.rows)),
+        ],
+    )
 
 
 def next_steps(left: WhatIsLeft, name: str) -> list[str]:

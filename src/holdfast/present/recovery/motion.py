@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,13 +11,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from holdfast.files.output import put
-from holdfast.present.recovery.console import checks
-from holdfast.present.results import shown
-from holdfast.report import page
+from holdfast.present import results
+from holdfast.present.recovery.console import on_the_way
 from holdfast.report.figures import BLUE, FAINT, ORANGE, SKY, SOFT, WIDTH, finished, legend_below, plain, save_png, style
 from holdfast.report.scenes import Scale, Scene, color_bar, dot_size, draw_view, view_spans
 from holdfast.report.views import SIDE, sides
-from holdfast.words import capitalised
 
 if TYPE_CHECKING:
     from holdfast.recovery.recovery import Recovery
@@ -29,28 +26,9 @@ _DOTS = 160  # of the tool's path
 _BETWEEN = 4  # ghosts of the arm on its way
 
 
-def _on_the_way(q: Array, count: int) -> Array:
-    """Configurations (count, n) at equal shares of the way (K, n)."""
-    steps = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(q, axis=0), axis=1))])
-    at = np.linspace(0, steps[-1], count)
-    return np.stack([np.interp(at, steps, column) for column in q.T], axis=1)
-
-
 def figures(recovery: Recovery) -> dict[str, Figure]:
     """The arm on its way, from the side and from above, and maps of what is left of the workspace, if that was asked for."""
     return {"motion": _motion(recovery), **({} if recovery.left is None else recovery.left.figures())}
-
-
-def write(recovery: Recovery, path: Path, command: str = "", drawn: Mapping[str, Figure] | None = None) -> Path:
-    """The page: what came of it first, then why, the pictures, and what a replay of the motion found."""
-    asked, verdict, *rest = recovery.describe()
-    found = [page.Text(capitalised(line)) for line in rest]
-    checked = (
-        [page.Section("Independent replay", [page.Text(capitalised(x)) for x in checks(recovery)])] if len(recovery.q) else []
-    )
-    sections = [page.Section("What was found", found), *checked, page.Section("Pictures", shown(recovery, drawn))]
-    made = page.Page(f"{recovery.arm.name} after a known lock", verdict, sections, subtitle=asked, again=command)
-    return page.write(made, path)
 
 
 def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
@@ -59,16 +37,16 @@ def save(recovery: Recovery, folder: Path, command: str = "") -> list[Path]:
     drawn = figures(recovery)
     motion, *left = [save_png(figure, folder / f"{name}.png", 150) for name, figure in drawn.items()]
     waypoints = [recovery.to_csv(folder / "waypoints.csv")] if len(recovery.q) else []
-    return [file, motion, *waypoints, *left, write(recovery, folder / "report.html", command, drawn)]
+    return [file, motion, *waypoints, *left, results.write(recovery, folder / "report.html", command, drawn)]
 
 
 def _motion(recovery: Recovery) -> Figure:
     """The arm where it is, on its way and where it ends, with the path of the tool coloured from its start to its end."""
     arm = recovery.arm
     moving = len(recovery.q) > 1
-    way = _on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
+    way = on_the_way(recovery.q, _DOTS) if moving else np.zeros((0, arm.n))
     points = arm.forward_kinematics(way)[:, :3, 3] if moving else np.zeros((0, 3))
-    between = _on_the_way(recovery.q, _BETWEEN + 2)[1:-1] if moving else np.zeros((0, arm.n))
+    between = on_the_way(recovery.q, _BETWEEN + 2)[1:-1] if moving else np.zeros((0, arm.n))
     start, *ghosts, final = arm.frames(np.vstack([recovery.at, between, recovery.q[-1] if moving else recovery.at]))[..., :3, 3]
     # What only widens the view: the places of everything that is drawn by hand below.
     reach = np.concatenate([start, *ghosts, *([] if recovery.goal_pose is None else [recovery.goal_pose[None, :3, 3]])])

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path as File
 
 import numpy as np
-from markupsafe import Markup
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -15,7 +15,7 @@ from holdfast.notice import says
 from holdfast.paths.joint_table import joint_columns
 from holdfast.present.arm.view import scene
 from holdfast.present.stick_figure import views_of
-from holdfast.provenance import versions
+from holdfast.present.story import how
 from holdfast.report import page
 from holdfast.report.figures import save_png, svg
 from holdfast.report.motions import Motion, Panel, drawn_motion, motion_figure
@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 SHOWN = 200.0  # 1/Ke: a run that takes longer is drawn so far only
 _SAMPLES, _FRAMES = 1001, 201
+_REACHED = 1e-5  # an error below it counts as none
 _STILL = 1e-3  # rad (and m) from where a joint ends: nothing more to see
 
 
@@ -37,16 +38,16 @@ def figures(runs: Runs, k: int = 0) -> dict[str, Figure]:
 
 
 @says("drawing the motion")
-def write(runs: Runs, path: File, k: int = 0, command: str = "") -> File:
-    """Run k as a page with the arm moving."""
-    return _RunReport(runs, k).write(path, command)
+def write(runs: Runs, path: File, k: int = 0, command: str = "", more: Sequence[Section] = ()) -> File:
+    """Run k as a page with the arm moving; with more sections, of the same run."""
+    return _RunReport(runs, k).write(path, command, more)
 
 
-def save(runs: Runs, folder: File, k: int = 0, command: str = "") -> list[File]:
+def save(runs: Runs, folder: File, k: int = 0, command: str = "", more: Sequence[Section] = ()) -> list[File]:
     """Run k as run.csv, run.png and report.html."""
-    folder = made(folder)
-    table = runs.to_csv(folder / "run.csv", k)
-    return [table, save_png(figures(runs, k)["run"], folder / "run.png"), write(runs, folder / "report.html", k, command)]
+    folder, report = made(folder), _RunReport(runs, k)
+    table, picture = runs.to_csv(folder / "run.csv", k), save_png(report.figure(), folder / "run.png")
+    return [table, picture, report.write(folder / "report.html", command, more)]
 
 
 def to_csv(runs: Runs, file: File, k: int) -> File:
@@ -110,45 +111,48 @@ class _RunReport:
     @property
     def headline(self) -> str:
         """How it ended, and whether joints passed their limits on the way: two facts."""
-        reason = int(self._of("reason"))
-        why = f": {Reason(reason).sentence}" if reason else ""
-        error = f"{number(float(self._of('error')))} {self.size}"
-        ended = f"The end effector {Outcome(int(self._of('code'))).sentence}{why}; its error at the end is {error}."
-        return f"{ended} {self.runs.limits_sentence(self.k)}".rstrip()
+        code, error, least = Outcome(int(self._of("code"))), float(self._of("error")), self.least
+        far, took = f"{number(error)} {self.size}", f"{number(float(self._of('time')))} {self.unit}"
+        names = " and ".join(x.replace(f" at 0 {self.unit}", " at the start") for x in self.standing)
+        locked = (
+            f"With a lock of {names} that its controller does not know of, the arm" if names else "With no joint locked the arm"
+        )
+        out = least > _REACHED
+        told = {
+            Outcome.CONVERGED: f"{locked} reaches its target, after {took}",
+            Outcome.STUCK: f"{locked} stops {far} off its target",
+            Outcome.MOVING: f"{locked} never stops: after {took} it is {far} off its target",
+            Outcome.UNDECIDED: (
+                f"{locked} is {far} off its target when the run ends, undecided: {Reason(int(self._of('reason'))).sentence}"
+            ),
+        }[code]
+        if code != Outcome.CONVERGED:
+            told += f"; with what is locked it could not come closer than {number(least)} {self.size}" if out else ""
+            told += "; it could get there with what is locked" if not out and self.standing else ""
+        return f"{told}. {self.runs.limits_sentence(self.k)}".rstrip()
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [
+            (float(self._of("error")), self.size, "off the target at the end"),
+            (self.least, self.size, "the least error that the failed arm can have, as far as was found"),
+            (float(self._of("path_length")), "m", "path of the tool"),
+            (float(self._of("time")), self.unit, "until the run ended"),
+        ]
+        return [(f"{number(value)} {unit}", words) for value, unit, words in facts if value > _REACHED]
 
     @property
-    def _few(self) -> NDArray[np.int64]:
-        """Samples that are drawn."""
+    def few(self) -> NDArray[np.int64]:
+        """The samples that are shown one after the other."""
         return np.unique(np.linspace(0, len(self.seen.time) - 1, _FRAMES).astype(int))
 
     @cached_property
-    def motion(self) -> Motion:
-        """The stick figure over time."""
-        seen, law = self.seen, self.runs.law
-        few = self._few
-        chain = self.arm.frames(seen.q[few])[..., :3, 3]
-        start = chain[0, -1]
+    def goal(self) -> Array:
+        """(3,) where the tool should be, m; directions that the task leaves free stay as they are."""
+        law, start, target = self.runs.law, self.seen.x[0], self._of("target")
         linear = law.task.rows[:, :3]
         into = linear.T @ linear if law.task.frame == "base" else np.eye(3)
-        target = self._of("target")
         wanted = target[:3, 3] if target.shape == (4, 4) else target @ linear
-        goal = start + into @ (wanted - start)  # directions that the task leaves free stay as they are
-        names = np.array(self.arm.joint_names)
-        readings = []
-        for k in few:
-            locked = names[seen.locked[k]]
-            standing = f", locked: {', '.join(locked)}" if locked.size else ""
-            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {seen.error[k]:.3g} {self.size}{standing}")
-        rows = np.zeros((len(few), 1), dtype=bool)
-        return Motion(
-            time=seen.time[few],
-            chain=chain,
-            square=np.r_[False, self.arm.prismatic, False],
-            path=np.array([start, goal]),
-            readings=readings,
-            marked=np.hstack([rows, seen.locked[few], rows]),
-            goal=goal,
-        )
+        return np.asarray(start + into @ (wanted - start))
 
     def panel(self) -> Panel:
         """The error over time, with the locks."""
@@ -169,45 +173,61 @@ class _RunReport:
 
     def figure(self) -> Figure:
         """The arm at start and end, the way of its tool, and the error over time."""
-        views = views_of(self.arm, self.motion.chain)
-        return drawn_motion(self.motion, views, self.panel(), self.caption, self._xlabel)
+        seen = self.seen
+        chain = self.arm.frames(seen.q[self.few])[..., :3, 3]
+        square, locked = (np.r_[False, x, False] for x in (self.arm.prismatic, seen.locked[-1]))
+        motion = Motion(chain, square, np.array([seen.x[0], self.goal]), locked, self.goal)
+        return drawn_motion(motion, views_of(self.arm, chain), self.panel(), self.caption, self._xlabel)
 
     @property
     def _xlabel(self) -> str:
         return "cycle" if self.runs.cycles else "time, s"
 
-    def write(self, file: File, command: str) -> File:
+    def write(self, file: File, command: str, more: Sequence[Section] = ()) -> File:
         """The page."""
         sections = [
-            Section("The motion", [self._animation()]),
+            Section("The motion", [self._view()]),
             Section("The error of the end effector", [self._error()]),
             Section("Joint positions", [self._joints()]),
+            *more,
             Section("In numbers", self._numbers()),
         ]
-        subtitle = f"{self.runs.law.describe()}; locked: {', '.join(self.standing) or 'no joint'}"
         title = f"{self.arm.name} after a lock that its controller does not know of"
-        return page.write(Page(title, self.headline, sections, subtitle=subtitle, method=self._method(), again=command), file)
+        law = self.runs.law.describe()
+        return page.write(
+            Page(
+                title,
+                self.headline,
+                sections,
+                subtitle=f"{law}; locked: {', '.join(self.standing) or 'no joint'}",
+                facts=self._facts(),
+                method=how(self.arm, ("Law", law), ("Drawn", "all up to where nothing more can be seen, 200/Ke at most")),
+                again=command,
+            ),
+            file,
+        )
 
-    def _animation(self) -> Picture:
-        motion = self.motion
-        view = scene(
+    def _view(self) -> Picture:
+        seen, names = self.seen, np.array(self.arm.joint_names)
+        readings = []
+        for k in self.few:
+            locked = names[seen.locked[k]]
+            standing = f", locked: {', '.join(locked)}" if locked.size else ""
+            readings.append(f"{seen.time[k]:.2f} {self.unit}, error {seen.error[k]:.3g} {self.size}{standing}")
+        shown = scene(
             self.arm,
-            self.seen.q[self._few],
-            time=motion.time,
-            path=motion.path,
-            targets=[] if motion.goal is None else [motion.goal],
-            locked=dict(enumerate(self._lock_time.tolist())),
-            readings=motion.readings,
+            seen.q[self.few],
+            time=np.linspace(seen.time[0], seen.time[-1], len(self.few)),
+            locked={name: float(t) for name, t in zip(names, self._lock_time, strict=True) if np.isfinite(t)},
+            task=self.runs.law.task,
+            path=[seen.x[0], self.goal],
+            targets=[self.goal],
+            readings=readings,
         )
-        speed = (motion.time[-1] - motion.time[0]) / view.data["seconds"]
-        unit = f"{speed:.3g} cycles a second" if self.runs.cycles else f"{speed:.3g} times as fast as in reality"
-        unit = "in real time" if not self.runs.cycles and abs(speed - 1) < 1e-9 else unit
-        caption = (
-            f"Orange: joints that are locked, the target, and the straight line to it; blue: path of the tool. Played {unit}."
-        )
-        if self.seen.time[-1] < 0.99 * float(self._of("time")):
+        caption = "The arm moving; joints turn orange when they lock. Orange line: the straight way to the target."
+        if seen.time[-1] < 0.99 * float(self._of("time")):
             caption += f" The run took {float(self._of('time')):.4g} {self.unit} in all; no visible motion follows."
-        return Picture(view.html("motion", f"{self.arm.name} moving"), caption)
+        return Picture(shown.html("motion", f"{self.arm.name} moving"), caption)
 
     def _error(self) -> Picture:
         seen = self.seen
@@ -240,15 +260,5 @@ class _RunReport:
             ("Least error on the way", f"{number(float(self._of('closest')))} {size}"),
             ("Path of the tool", f"{number(float(self._of('path_length')))} m"),
             ("Took", f"{number(float(self._of('time')))} {self.unit}"),
-        ]
-        return [Table(rows)]
-
-    def _method(self) -> list[Block]:
-        found = versions("holdfast", "numpy", "scipy", "casadi", "llvmlite")
-        rows = [
-            ("Law", self.runs.law.describe()),
-            ("Arm", self.arm.provenance),
-            ("Fingerprint of the arm", Markup("<code>{}</code>").format(self.arm.fingerprint)),
-            ("Versions", ", ".join(f"{k} {v}" for k, v in found.items())),
         ]
         return [Table(rows)]

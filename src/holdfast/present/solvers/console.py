@@ -18,14 +18,17 @@ from holdfast.indices.susceptibility.measure import Susceptibility
 from holdfast.present.arm.console import print_outside, shown_position, shown_positions
 from holdfast.present.clearance.shape import shape_summary, shape_text
 from holdfast.present.printing import Rows, number, plain
+from holdfast.present.story import Story
 from holdfast.solvers.optima import Optima
 from holdfast.status import Status
+from holdfast.words import capitalised, percent
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 Array = NDArray[np.float64]
 
+_SAME, _FOLD = 1e-4, 10.0  # changes that are none, and those that a fraction would not tell
 MANY = 0.5  # fraction of starts that agree, below which more starts are worth it
 
 
@@ -91,6 +94,86 @@ def key_table(optima: Optima) -> Rows:
     return Rows(
         ["pose", "before", "best", ""], [[str(k), number(a), number(b), _name(s).replace("_", " ")] for k, (a, b, s) in each]
     )
+
+
+def story(optima: Optima) -> Story:
+    """What the best configurations gain over those before."""
+    found, unit = optima.rows, "" if optima.objective.unit in ("1", "mixed") else f" {optima.objective.unit}"
+    some, name = found.success, optima.objective.name
+    values = [x[some] for x in (found.value_before, found.value)]
+    before, after = (float(np.median(x)) if x.size else np.nan for x in values)
+    first = "the configuration given" if optima.initial is not None else "the first configuration found"
+    many = len(found.poses) > 1
+    middle = "the median of " * many
+    change = abs(after - before) / abs(before) if before else np.inf
+    how = "raises" if optima.objective.better == "larger" else "lowers"
+    if not some.any():
+        worst = Status(int(found.status[0])).sentence
+        answer = f"No configuration of {'any pose' if many else 'the pose'} was found: {worst}."
+    elif optima.initial is not None and found.worse[some].all():
+        answer = f"No configuration better than {first} was found: {middle}{name} stays {number(before)}{unit}."
+    elif np.isfinite(change) and change < _SAME:
+        answer = f"{capitalised(first)} is the best that was found already: {middle}{name} is {number(after)}{unit}."
+    else:
+        share = f", {percent(change)} {'more' if how == 'raises' else 'less'}" if np.isfinite(change) and change < _FOLD else ""
+        answer = (
+            f"Moving the arm on the spot {how} {middle}{name} from {number(before)} to "
+            f"{number(after)}{unit}{share}; the tool stays where it is."
+        )
+    if many and some.any():
+        answer = answer[:-1] + f" ({int(some.sum())} of {len(some)} poses have a configuration)."
+    facts = []
+    if some.any():
+        facts = [
+            (f"{number(after)}{unit}", f"{name} at the best configuration{'s, median' if many else ''}"),
+            (f"{number(before)}{unit}", f"before: {first}{'s' * 0}"),
+        ]
+        agreeing = found.agreeing[some]
+        if not many and not np.isnan(agreeing).any():
+            facts.append((percent(float(agreeing[0])), f"of the {found.starts[0]} starts that were followed to the end agree"))
+    if many:
+        facts.append((f"{int(some.sum())} of {len(some)}", "poses have a configuration"))
+    facts = [x for x in facts if x[0].split()[0] not in ("0", "–")]
+    tables = [key_table(optima)._replace(title="Configurations, before and best" if not many else "Objective, before and best")]
+    for label, units, old, new in _measures(found) if not many else ():
+        rows = [
+            list(row) for row in zip(found.arm.joint_names, *(shown_positions(x[0], units) for x in (old, new)), strict=True)
+        ]
+        tables.append(Rows(["joint that fails", "before", "best"], rows, capitalised(label.replace("-", " "))))
+    return Story(
+        f"The best configuration of {optima.arm.name} before a failure",
+        answer,
+        about=f"{capitalised(_wish(optima))}, task {optima.task.describe()}",
+        facts=facts,
+        lines=[
+            f"{Status(int(s)).sentence.capitalize()}." for s in sorted({*map(int, found.status)}) if s != Status.OK and many
+        ],
+        views=_beside(found, first) if some.any() else [],
+        tables=tables,
+        method=[
+            ("Objective", f"{name}, {optima.objective.better} is better"),
+            ("Task", optima.task.describe()),
+            (
+                "Starts",
+                f"{', '.join(map(str, sorted({*map(int, found.starts)})))} random ones for each pose, seed {optima.seed}",
+            ),
+            ("Clearance", "not looked at" if optima.clearance is None else shape_text(optima.clearance, optima.margin)),
+        ],
+        arm=optima.arm,
+    )
+
+
+def _beside(found: Optima, first: str) -> list[tuple[str, list[Any]]]:
+    from holdfast.present.arm.view import scene
+    from holdfast.report.page import Picture
+
+    k = int(found.success.argmax())
+    words = f"The arm at its best configuration and, see-through, at {first}; the tool is in the same place."
+    both = np.array([found.q[k], found.before[k]])
+    shown = scene(found.arm, both, labels=("best", "before"), targets=[found.poses[k]])
+    return [
+        ("Before and best", [Picture(shown.html("both", words), words + (f" Pose {k + 1}." if len(found.poses) > 1 else ""))])
+    ]
 
 
 def next_steps(optima: Optima, name: str) -> list[str]:

@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from holdfast.present.printing import Rows, number
+from holdfast.present.story import Story
 from holdfast.solvers.joint_space import turning
+from holdfast.status import Status
+from holdfast.words import counted, either, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -60,6 +63,133 @@ def next_steps(motion: SelfMotion, name: str) -> list[str]:
     return [f"hf.joint_bounds({name}.arm, {name}.pose, {name}.task)  # where each joint may lock without losing the pose"]
 
 
+def story(motion: SelfMotion) -> Story:
+    """In how many ways the target is reached, and which locks it survives."""
+    arm, count = motion.arm, len(motion.components)
+    if not len(motion.q):
+        proof = (
+            ", which does not prove that there is none" if motion.status == Status.NOT_FOUND else f": {motion.status.sentence}"
+        )
+        answer = f"No configuration of the target was found{proof}."
+    elif count:
+        closed = sum(c.closed for c in motion.components)
+        ends = (
+            "closed" if closed == count else "ended by limits or singular configurations" if not closed else f"{closed} closed"
+        )
+        answer = f"The target is reached on {counted(count, 'curve')} of configurations, {ends}"
+    else:
+        answer = (
+            f"The target is reached on a manifold of {motion.redundancy} dimensions, of which "
+            f"{len(motion.q):,} configurations were found"
+        )
+    facts = []
+    if len(motion.q) and motion.bounds is not None:
+        free, held = _allowed(motion)
+        answer += f"; {_kept(free, held)}."
+        if held:
+            facts.append(
+                (
+                    percent(min(held.values())),
+                    f"of the range of {min(held, key=lambda x: held[x])} keeps the target, the joint that is most bound",
+                )
+            )
+        if free:
+            facts.append((f"{len(free)} of {arm.n}", "joints may lock anywhere in their range"))
+    elif len(motion.q):
+        answer += "."
+    if count:
+        facts += [(f"{count}", f"separate {'curve' if count == 1 else 'curves'}; from one to another the target must be left")]
+        facts += [(f"{number(max(c.length for c in motion.components))} rad", "length of the longest in joint space")]
+    return Story(
+        f"All configurations of {arm.name} for one target",
+        answer,
+        about=f"Task {motion.task.describe()}, target {_place(motion)}",
+        facts=facts,
+        views=_moving(motion),
+        figures={
+            "self-motion": (
+                "Where each joint may lock",
+                "Shaded: values at which a joint may lock and the target stays within reach; the curves are the "
+                "self-motions, and the arm is drawn in a few of their configurations.",
+            )
+        },
+        tables=_tables(motion),
+        method=[
+            ("Task", motion.task.describe()),
+            (
+                "Points",
+                f"{len(motion.q):,}, {motion.spacing:.3g} rad apart; curves that no random start converges to are missed",
+            ),
+            ("Where joints may lock", "the values that each joint takes over all configurations found"),
+        ],
+        arm=arm,
+    )
+
+
+def _place(motion: SelfMotion) -> str:
+    return f"({', '.join(f'{x:.4g}' for x in motion.pose[:3, 3])}) m"
+
+
+def _allowed(motion: SelfMotion) -> tuple[list[str], dict[str, float]]:
+    """The joints that may lock anywhere, and of the others the fraction of the range in which they may."""
+    from holdfast.arm.configurations import finite_limits
+
+    free: list[str] = []
+    held: dict[str, float] = {}
+    low, high = finite_limits(motion.arm)
+    for k, (joint, arcs) in enumerate(zip(motion.arm.joints, motion.bounds or [], strict=True)):
+        if _whole(motion, k):
+            free.append(joint.name)
+        else:
+            held[joint.name] = float(min(sum(b - a for a, b in arcs) / max(high[k] - low[k], 1e-12), 1.0))
+    return free, held
+
+
+def _whole(motion: SelfMotion, k: int) -> bool:
+    joint, arcs = motion.arm.joints[k], list((motion.bounds or [])[k])
+    return arcs in ([(joint.lower, joint.upper)], [(-np.pi, np.pi)] if turning(motion.arm)[k] else None)
+
+
+def _kept(free: list[str], held: dict[str, float]) -> str:
+    lost = [name for name, fraction in held.items() if not fraction]
+    if lost:
+        return f"it is lost wherever {either(lost)} locks"
+    if not held:
+        return "it stays within reach wherever a single joint locks"
+    worst = min(held, key=lambda x: held[x])
+    anywhere = f"anywhere of {either(free)}, but " if free else ""
+    return f"it survives a lock {anywhere}in only {percent(held[worst])} of the range of {worst}, the joint that is most bound"
+
+
+def _tables(motion: SelfMotion) -> list[Rows]:
+    found = [key_table(motion)._replace(title="Self-motions")]
+    if motion.bounds is not None:
+        each = enumerate(zip(motion.arm.joints, motion.bounds, strict=True))
+        rows = [[j.name, "anywhere" if _whole(motion, k) else ranges(arcs, j) if arcs else "nowhere"] for k, (j, arcs) in each]
+        found.append(Rows(["joint", "may lock at"], rows, "A lock keeps the target within reach if and only if it lies there"))
+    return found
+
+
+def _moving(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
+    """The arm on its longest self-motion; of a sample, in a few configurations."""
+    if not len(motion.q):
+        return []
+    from holdfast.present.arm.view import scene
+    from holdfast.report.page import Picture
+
+    if not motion.components:
+        few = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
+        words = "The arm in a few of the configurations; the tool is at the target in each."
+        return [("The arm at the target", [Picture(scene(motion.arm, few).html("motion", words), words)])]
+    longest = max(motion.components, key=lambda c: c.length)
+    time = np.linspace(0.0, 8.0, len(longest.q))
+    words = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
+    if len(time) < 2:
+        return []
+    shown = scene(motion.arm, longest.q, time=time, targets=[motion.pose])
+    return [("The self-motion", [Picture(shown.html("motion", words), words)])]
+
+
 def show(motion: SelfMotion, out: Console) -> None:
     """A table of the curves, and one of where each joint may lock."""
     from rich.markup import escape
@@ -74,9 +204,9 @@ def show(motion: SelfMotion, out: Console) -> None:
         out.print(table)
     if motion.bounds is not None:
         table = Grid("joint", "may lock at", "")
-        for joint, found, turns in zip(motion.arm.joints, motion.bounds, turning(motion.arm), strict=True):
-            whole = list(found) in ([(joint.lower, joint.upper)], [(-np.pi, np.pi)] if turns else None)
-            table.add_row(escape(joint.name), ranges(found, joint), "anywhere" if whole else "" if found else "nowhere")
+        for k, (joint, found) in enumerate(zip(motion.arm.joints, motion.bounds, strict=True)):
+            word = "anywhere" if _whole(motion, k) else "" if found else "nowhere"
+            table.add_row(escape(joint.name), ranges(found, joint), word)
         out.print(table)
 
 

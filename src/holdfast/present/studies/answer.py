@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from holdfast.studies.ranking import Standing, said
-from holdfast.words import article, interval
+from holdfast.words import article, interval, percent
 
 
 def headline(stand: Sequence[Standing]) -> str:
@@ -61,3 +61,15 @@ def first(s: Standing) -> str:
     """Who leads, or shares the lead."""
     first, *others = s.level
     return f"{first} (level with {', '.join(others)})" if others else first
+
+
+def facts(stand: Sequence[Standing]) -> list[tuple[str, str]]:
+    """Who leads in the first questions; the best median where hardly anything is kept."""
+    found: list[tuple[str, str]] = []
+    for s in stand[:4]:
+        (name, p), *_ = s.ranked
+        if not s.empty:
+            found.append((percent(p.value), f"{name}, {s.question}; {percent(p.low)} to {percent(p.high)}, 95 %"))
+        elif s.median:
+            found.append((s.median[1], f"{s.median[0]}, the best median; {s.question}: hardly any pose"))
+    return found

@@ -14,7 +14,7 @@ from holdfast.assessment.single_points import Structure, explain, structure
 from holdfast.engine.study import Study
 from holdfast.errors import StoreError
 from holdfast.notice import says
-from holdfast.present.studies.answer import headline
+from holdfast.present.studies.answer import facts, headline
 from holdfast.present.studies.designs import sentence, sweep
 from holdfast.probability.intervals import Interval
 from holdfast.report import figures, page
@@ -75,6 +75,7 @@ def build(study: Study) -> Page:
         study.name,
         " ".join([*([headline(stand)] if found or laws or not sweeps else []), *map(sentence, sweeps)]),
         sections,
+        facts=facts(stand),
         subtitle=f"A study of {counted(len(arms), 'arm')}: {', '.join(arms)}",
         warnings=alerts,
         method=_provenance(study, found),
