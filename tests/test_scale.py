@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -68,15 +69,24 @@ def cases(rng, arm, task, count):
     return q0, target, rng.integers(0, arm.n, count)
 
 
+@pytest.fixture(scope="module")
+def moved(bent, generator):
+    """``moved(task, size)``: the same motions at a size; those at size 1, which every other is compared with, once."""
+
+    @cache
+    def at(task, size):
+        arm = bent if task == "position" else oracles.random_arm(generator("scaled seven"), types="C" * 7)
+        q0, target, locked = cases(generator(f"scaled {task}"), arm, task, 12)
+        resized_arm = arm if size == 1.0 else scaled(arm, size)
+        return simulate(Pseudoinverse(resized_arm, task), q0, resized(target, size), locked=locked, time_limit=60.0)
+
+    return at
+
+
 @pytest.mark.parametrize("task", ["position", "pose"])
 @pytest.mark.parametrize("size", [*EXACT, *ROUNDED])
-def test_motions(bent, generator, task, size):
-    arm = bent if task == "position" else oracles.random_arm(generator("scaled seven"), types="C" * 7)
-    q0, target, locked = cases(generator(f"scaled {task}"), arm, task, 12)
-    own, other = (
-        simulate(Pseudoinverse(a, task), q0, resized(target, s), locked=locked, time_limit=60.0)
-        for a, s in ((arm, 1.0), (scaled(arm, size), size))
-    )
+def test_motions(moved, task, size):
+    own, other = moved(task, 1.0), moved(task, size)
     assert (own.code == Outcome.CONVERGED).any()
     np.testing.assert_array_equal(own.code, other.code)
     np.testing.assert_array_equal(own.reason, other.reason)
@@ -163,12 +173,20 @@ def test_joint_bounds_are_the_closed_form(links, size):
     np.testing.assert_allclose(bounds[1:], [[(-bend, bend)]] * 2, atol=1e-8)
 
 
-@pytest.mark.parametrize("size", [*ROUNDED, 1e6])
-def test_workspace(links, size):
-    def measures(s):
+@pytest.fixture(scope="module")
+def measures(links):
+    """``measures(size)`` of the workspace; those at size 1, which every other is compared with, once."""
+
+    @cache
+    def at(s):
         law = Pseudoinverse(scaled(links, s), "planar")
         return hf.workspace(law, [1.5 * s, 1.5 * s], np.array([[2.0, -1.4], [1.0, 1.0]]) * s, configurations=8, points=2)
 
+    return at
+
+
+@pytest.mark.parametrize("size", [*ROUNDED, 1e6])
+def test_workspace(measures, size):
     own, other = measures(1.0), measures(size)
     for mine, others in zip(own.measures.values(), other.measures.values(), strict=True):
         np.testing.assert_allclose(mine, others, atol=1e-6)
