@@ -240,7 +240,7 @@ def test_an_interrupted_run_says_so(tmp_path: Path) -> None:
         hf.assess(NINE, JOINTS, poses=140_000, store=tmp_path / "run", progress=stop)
     html = hf.load(tmp_path / "run").report(tmp_path / "r.html").read_text(encoding="utf-8")
     check(html)
-    assert html.index("This run is not complete") < html.index('class="headline"')
+    assert html.index('class="headline"') < html.index("This run is not complete") < html.index("<h2>")
     assert "131,072 of 140,000 configurations are computed" in html
 
 

@@ -245,7 +245,7 @@ def test_the_theme_is_the_systems_until_it_is_chosen(small):
 def test_contents_lead_to_the_sections_and_stay_in_sight(report):
     report.set_viewport_size({"width": 390, "height": 800})
     report.locator("nav a", has_text="The same run again").click()
-    assert report.url.endswith("#again")
+    report.wait_for_url("**#again")
     top = report.locator("#again").bounding_box()["y"]
     assert report.locator("nav").bounding_box()["height"] <= top < 800
     assert report.locator("nav a[aria-current]").text_content() == "The same run again"

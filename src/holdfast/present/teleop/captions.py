@@ -13,7 +13,7 @@ from holdfast.words import fixed
 _SMALL = 1e-4
 
 
-def picture(a: Analysis, figure: Figure, name: str, about: str) -> Picture:
+def captioned(a: Analysis, figure: Figure, name: str, about: str) -> Picture:
     """A figure with its caption, which says "simulated" where it must."""
     text = f"Simulated operators. {about}" if a.simulated else about
     return Picture(svg(figure, name, text), text)

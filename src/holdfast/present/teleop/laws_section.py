@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from holdfast.present.teleop import figures as drawing
-from holdfast.present.teleop.captions import labelled, p_value, picture
+from holdfast.present.teleop.captions import captioned, labelled, p_value
 from holdfast.report.page import Block, Cell, Table, Text
 from holdfast.teleop.analysis.mixed_model import Mixed
 from holdfast.teleop.analysis.observations import NAMES
@@ -19,7 +19,7 @@ def laws(a: Analysis) -> list[Block]:
     blocks: list[Block] = []
     count = f"{a.who}, tasks grouped by the {'computer' if a.groups.by == 'computer' else 'median operator'}'s CPM"
     caption = f"Mean CPM of each subject (dots), over subjects (large) with {100 * a.confidence:g} % intervals; {count}."
-    blocks.append(picture(a, drawing.cells_figure(a), "cells", caption))
+    blocks.append(captioned(a, drawing.cells_figure(a), "cells", caption))
     means = a.table("means")
     rows: list[list[Cell]] = []
     for law in a.cells.laws:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from holdfast.errors import InputError
 from holdfast.notice import says
 from holdfast.present.teleop import figures as drawing
-from holdfast.present.teleop.captions import equals, labelled, p_value, picture
+from holdfast.present.teleop.captions import captioned, equals, labelled, p_value
 from holdfast.present.teleop.examples import example_blocks
 from holdfast.present.teleop.laws_section import healthy, laws
 from holdfast.present.teleop.tables import ABOUT, write_tables
@@ -170,7 +170,7 @@ def _difficulty(a: Analysis) -> list[Block]:
         lost = sorted({x for c in a.correlations for x in c.left_out})
         if lost:
             caption += f" Without a value on one of the axes: {', '.join(lost)}."
-        blocks.append(picture(a, drawing.scatter_figure(panels, a.groups.names), "difficulty", caption))
+        blocks.append(captioned(a, drawing.scatter_figure(panels, a.groups.names), "difficulty", caption))
     return blocks
 
 
@@ -185,7 +185,7 @@ def _tasks(a: Analysis) -> list[Block]:
         f"the one whose CPM under "
         "the reference law is nearest to the median of all. Coloured stems: another law than the reference is better."
     )
-    blocks: list[Block] = [picture(a, _tasks_figure(a), "tasks", caption)]
+    blocks: list[Block] = [captioned(a, _tasks_figure(a), "tasks", caption)]
     if "gains" in a.tables:
         rows: list[list[Cell]] = [
             [
@@ -235,7 +235,7 @@ def _distributions(a: Analysis) -> list[Block]:
         "Circles: the computer's median over tasks. CPM of operators and computer have different normalisers unless the notes "
         "say otherwise."
     )
-    return [picture(a, _measures_figure(a), "measures", caption)]
+    return [captioned(a, _measures_figure(a), "measures", caption)]
 
 
 def _power(a: Analysis) -> list[Block]:
@@ -260,7 +260,7 @@ def _power(a: Analysis) -> list[Block]:
             f"Lines: noncentral F. Circles: of 2000 random subsets of the {a.who}, drawn without replacement, the fraction in "
             f"which the effect has p < {a.limit:g}; near all of them the subsets hardly differ."
         )
-        blocks.append(picture(a, drawing.power_figure(a), "power", about))
+        blocks.append(captioned(a, drawing.power_figure(a), "power", about))
     return blocks
 
 
