@@ -15,6 +15,7 @@ _ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 _SETTING = re.compile(r"~?[\w.]+\.Annotated\[(.*?), ~?holdfast\.registry\.Parameter\(.*?\)\]")
 _ARRAY = re.compile(r"[~\w.]*_Buffer \| .*?_NestedSequence\[complex \| bytes \| str\]")
 _PARAMETERS = re.compile(r'(<span class="sig-paren">\(</span>)\s*<dl>(.*?)</dl>\s*(<span class="sig-paren">\))', re.S)
+_THUMBNAIL = re.compile(r'(<a class="reference internal" href="[^"]*")(><span class="doc">)([^<"]*)')
 _QUALIFIED = re.compile(r"~(?:\w+\.)+(\w+)")
 _NAMES = re.compile(r"^( +)(\w+(?:, \w+)+): (.*)$")
 
@@ -102,10 +103,14 @@ def same_thing(app: Sphinx, env: Any, node: Any, shown: Any) -> Any:
     return None
 
 
-def plain_parameters(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
-    """Parameters one a line as spans: Sphinx makes them definitions without terms, which screen readers stumble on."""
-    if "body" in context:
-        context["body"] = _PARAMETERS.sub(_spans, context["body"])
+def spoken(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """What screen readers stumble on: definitions without terms, a list without items, links whose text is hidden."""
+    if "body" not in context:
+        return
+    body = _PARAMETERS.sub(_spans, context["body"]).replace(
+        '<div role="list" class="citation-list">', '<div class="citation-list">'
+    )
+    context["body"] = _THUMBNAIL.sub(r'\1 aria-label="\3"\2\3', body) if page.startswith("gallery") else body
 
 
 def _spans(match: re.Match[str]) -> str:
@@ -117,7 +122,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-docstring", repair, priority=400)
     app.connect("autodoc-process-signature", plain_names)
     app.connect("missing-reference", same_thing)
-    app.connect("html-page-context", plain_parameters)
+    app.connect("html-page-context", spoken)
     plain = GoogleDocstring.__init__
 
     # Napoleon takes the words before a colon in the docstring of a property or constant for its type; ours are sentences.
