@@ -241,6 +241,13 @@ def test_another_plan_is_refused_with_the_difference(change, words, folder):
     assert snapshot(folder) == before
 
 
+def test_a_program_killed_while_it_wrote_the_first_file_does_not_make_the_folder_foreign(folder):
+    folder.mkdir(exist_ok=True)
+    (folder / ".holdfast-4711-0badcafe.tmp").write_text('{"format": "hold')
+    make(folder)
+    assert Store.open(folder).plan == PLAN
+
+
 def test_a_foreign_folder_is_refused_and_left_alone(folder):
     folder.mkdir()
     (folder / "thesis.tex").write_text("years of work")

@@ -123,7 +123,8 @@ class Store:
             return store
         if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
-        if reading.exists(folder) and any(folder.iterdir()):
+        # What `replaced` leaves when a program is killed while it writes the first file does not make a folder foreign.
+        if reading.exists(folder) and not all(file.match(".holdfast-*.tmp") for file in folder.iterdir()):
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast run; give a new or empty folder")
         run = {
             "format": _FORMAT,
