@@ -454,6 +454,13 @@ def test_a_killed_program_loses_at_most_the_chunks_in_hand(tmp_path, straight):
     assert study.verify() == []
 
 
+def test_a_program_killed_while_it_wrote_the_first_file_does_not_make_the_folder_foreign(tmp_path):
+    (tmp_path / "s").mkdir()
+    (tmp_path / "s" / ".holdfast-4711-0badcafe.tmp").write_text('{"format": "hold')
+    make(tmp_path / "s")
+    assert Study.open(tmp_path / "s").cells
+
+
 @pytest.mark.parametrize("name", ["study.json", "made.json"])
 def test_a_file_that_is_nested_too_deep_is_refused_with_a_sentence(tmp_path, name):
     make(tmp_path / "s")

@@ -24,7 +24,7 @@ from holdfast.engine.folder import SAFE, difference, digest, held, is_plain, sho
 from holdfast.engine.journal import Entry, Journal
 from holdfast.errors import StoreError
 from holdfast.files import reading
-from holdfast.files.output import guarded, made, replaced
+from holdfast.files.output import guarded, made, occupied, replaced
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -123,8 +123,7 @@ class Store:
             return store
         if reading.exists(folder) and not folder.is_dir():
             raise StoreError(f"'{folder}' is a file; give a folder")
-        # What `replaced` leaves when a program is killed while it writes the first file does not make a folder foreign.
-        if reading.exists(folder) and not all(file.match(".holdfast-*.tmp") for file in folder.iterdir()):
+        if reading.exists(folder) and occupied(folder):
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast run; give a new or empty folder")
         run = {
             "format": _FORMAT,

@@ -18,7 +18,7 @@ from holdfast.engine.store import Store
 from holdfast.engine.work import Progress, Work
 from holdfast.errors import HoldfastError, StoreError
 from holdfast.files import reading
-from holdfast.files.output import guarded, replaced
+from holdfast.files.output import guarded, occupied, replaced
 from holdfast.notice import says
 from holdfast.result import Result
 from holdfast.words import duration
@@ -74,8 +74,8 @@ class Study(Result):
             raise StoreError(f"'{folder}' is a file; give a folder")
         with guarded(folder):
             folder.mkdir(parents=True, exist_ok=True)
-            occupied = any(folder.iterdir())
-        if occupied:
+            foreign = occupied(folder)
+        if foreign:
             raise StoreError(f"'{folder}' exists, is not empty and is not a holdfast study; give a new or empty folder")
         study = cls(folder, data)
         study._write(data)

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from holdfast.errors import StoreError
 
+_TEMPORARY = ".holdfast-{}.tmp"  # beside a file that is being written
+
 
 @contextmanager
 def guarded(place: str | Path, what: str = "to", advice: str = "choose another folder") -> Iterator[None]:
@@ -73,6 +75,11 @@ def put(folder: str | Path, texts: Mapping[str, str]) -> list[Path]:
     return [place / name for name in texts]
 
 
+def occupied(folder: Path) -> bool:
+    """Whether a folder holds anything but what :func:`replaced` leaves there when the program is killed while it writes."""
+    return not all(file.match(_TEMPORARY.format("*")) for file in folder.iterdir())
+
+
 @contextmanager
 def writing(path: Path, what: str = "") -> Iterator[TextIO]:
     """A file of text in UTF-8 to write into, line ends as given; it takes its place once the block ends, if nothing was wrong.
@@ -110,7 +117,7 @@ def _beside(path: Path) -> Iterator[Path]:
         return
     path = path.resolve()  # a link stays one
     # Not tempfile: its files are private, and results are for sharing.
-    temporary = path.with_name(f".holdfast-{os.getpid()}-{secrets.token_hex(4)}.tmp")
+    temporary = path.with_name(_TEMPORARY.format(f"{os.getpid()}-{secrets.token_hex(4)}"))
     try:
         yield temporary
         with temporary.open("rb+") as file:

@@ -6,7 +6,6 @@ is there to be read; with it tables are sorted, the theme is chosen, and :class:
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -19,7 +18,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from holdfast.files.output import replaced
-from holdfast.report.viewer import with_library
+from holdfast.report.viewer import scripted, template, with_library
 
 Cell = str | Markup
 FOOTER = "Written by holdfast. This file needs no network and no other file."
@@ -215,20 +214,9 @@ def environment() -> Environment:
         lstrip_blocks=True,
     )
     made.filters["breakable"] = _breakable
-    made.filters["scripted"] = scripted
-    made.globals["source"] = _source
+    made.filters["scripted"] = lambda data: Markup(scripted(data))
+    made.globals["source"] = lambda file: Markup(template(file))
     return made
-
-
-def scripted(data: Any) -> Markup:
-    """Data as JSON inside a script, where nothing is escaped, so that nothing may end it."""
-    return Markup(json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/"))
-
-
-def _source(file: str) -> Markup:
-    loader = environment().loader
-    assert loader is not None
-    return Markup(loader.get_source(environment(), file)[0])
 
 
 def render(page: Page) -> str:

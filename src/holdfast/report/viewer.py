@@ -59,9 +59,9 @@ class Scene:
         marked = [j["name"] for j, t in zip(self.data["joints"], self.data["locked"], strict=True) if t is not None]
         free = [self.data["joints"][k]["name"] for k in self.data["free"]]
         lines = [*self.notes, *(f"{w}: {', '.join(x)}." for w, x in (("Locked", marked), ("Swinging freely", free)) if x)]
-        parts = _json(self.data["parts"])
+        parts = scripted(self.data["parts"])
         key = sha256(parts.encode()).hexdigest()[:12]
-        text = _json({**self.data, "parts": key})
+        text = scripted({**self.data, "parts": key})
         return Markup(
             f'<div class="view3d" id="{escape(name, quote=True)}" role="group" aria-label="{what}">\n'
             f'<div class="view3d-stage">{drawing(self, about)}<canvas tabindex="0" role="img" aria-label="{what}"></canvas>'
@@ -73,12 +73,14 @@ class Scene:
         )
 
 
-def _json(data: Any) -> str:
+def scripted(data: Any) -> str:
+    """Data as JSON inside a script, where nothing is escaped, so that nothing may end it."""
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
 
 
 @cache
-def _part(name: str) -> str:
+def template(name: str) -> str:
+    """The text of one of the templates."""
     return resources.files("holdfast.report").joinpath("templates", name).read_text(encoding="utf-8")
 
 
@@ -95,9 +97,9 @@ def with_library(html: str) -> str:
         return found[0]
 
     bodies = re.sub(re.escape(_BODY).replace(r"\{\}", "(.*?)"), once, html)
-    styled = bodies.replace("</head>", f"<style>\n{_part('viewer.css')}</style>\n</head>", 1)
+    styled = bodies.replace("</head>", f"<style>\n{template('viewer.css')}</style>\n</head>", 1)
     before, _, after = styled.rpartition("</body>")
-    return f"{before}<script>{_part('viewer.js').strip()}</script>\n</body>{after}"
+    return f"{before}<script>{template('viewer.js').strip()}</script>\n</body>{after}"
 
 
 def page(view: Markup, title: str) -> str:

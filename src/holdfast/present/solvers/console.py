@@ -126,7 +126,7 @@ def story(optima: Optima) -> Story:
     if some.any():
         facts = [
             (f"{number(after)}{unit}", f"{name} at the best configuration{'s, median' if many else ''}"),
-            (f"{number(before)}{unit}", f"before: {first}{'s' * 0}"),
+            (f"{number(before)}{unit}", f"before: {first}"),
         ]
         agreeing = found.agreeing[some]
         if not many and not np.isnan(agreeing).any():
