@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 from docstrings import thing
 from docutils import nodes
 from docutils.parsers.rst import directives
+from generated import keep
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
@@ -53,14 +54,7 @@ def write(app: Sphinx) -> None:
         for name, options in ASKED.findall(source.read_text(encoding="utf-8")):
             title = name.rpartition(".")[2]
             pages[name] = f"{title}\n{'=' * len(title)}\n\n.. autoclass:: {name}\n{options}"
-    (folder / "classes").mkdir(exist_ok=True)
-    for old in (folder / "classes").glob("*.rst"):
-        if old.stem not in pages:
-            old.unlink()
-    for name, text in pages.items():
-        path = folder / "classes" / f"{name}.rst"
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
+    keep(folder / "classes", pages)
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from typing import Any
 
 import typer
 from docutils import nodes
+from generated import keep
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
@@ -131,16 +132,7 @@ class Examples(SphinxDirective):
 
 
 def write(app: Sphinx) -> None:
-    folder = Path(app.srcdir) / "commands"
-    folder.mkdir(exist_ok=True)
-    pages = written()
-    for old in folder.glob("*.rst"):
-        if old.stem not in pages:
-            old.unlink()
-    for name, text in pages.items():
-        path = folder / f"{name}.rst"
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
+    keep(Path(app.srcdir) / "commands", written())
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
