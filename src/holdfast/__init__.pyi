@@ -1,4 +1,5 @@
 from holdfast import arms as arms
+from holdfast import cell as cell
 from holdfast import control as control
 from holdfast import indices as indices
 from holdfast import paths as paths
@@ -13,6 +14,7 @@ from holdfast.assessment import Comparison as Comparison
 from holdfast.assessment import assess as assess
 from holdfast.assessment import compare_assessments as compare_assessments
 from holdfast.assessment import load as load
+from holdfast.cell import Cell as Cell
 from holdfast.clearance import Capsules as Capsules
 from holdfast.clearance import Clearance as Clearance
 from holdfast.convergence import ConvergenceMap as ConvergenceMap

@@ -184,7 +184,7 @@ _KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
     "ndarray": ("an array", lambda x: isinstance(x, np.ndarray)),
 }
 _CLASSES = (
-    *("Arm", "Assessment", "Capsules", "Clearance", "DH", "DesignSpace", "Index", "Joint", "Law", "Link", "Objective"),
+    *("Arm", "Assessment", "Capsules", "Cell", "Clearance", "DH", "DesignSpace", "Index", "Joint", "Law", "Link", "Objective"),
     *("Parameter", "Places", "Region", "Servos", "Task", "TimedPath"),
 )
 

@@ -11,7 +11,6 @@ import oracles
 from holdfast.arm.task import as_task, rows_task
 from holdfast.clearance import Capsules, Clearance
 from holdfast.recovery import check_waypoints, read_waypoints, write_waypoints
-from holdfast.recovery.bounds import clearance_slopes
 from holdfast.recovery.routes import Space
 from holdfast.recovery.rows import row_solver
 
@@ -57,7 +56,7 @@ def test_no_distance_changes_faster_than_its_bound(rng, types):
     low = np.where(np.isfinite(arm.lower), arm.lower, -np.pi)
     high = np.where(np.isfinite(arm.upper), arm.upper, np.pi)
     low, high = (np.where(arm.prismatic, np.clip(x, -1, 1), x) for x in (low, high))
-    bound = clearance_slopes(clearance, low, high)
+    bound = clearance.changes(low, high)
     a, b = (rng.uniform(low, high, (4000, arm.n)) for _ in range(2))
     share = 10 ** rng.uniform(-3, 0, (4000, 1))
     b = a + share * (b - a)

@@ -1,4 +1,4 @@
-"""The clearance of an arm from itself: the smallest distance between capsules that could collide."""
+"""The clearance of an arm from itself and from a cell: the smallest distance between what could collide."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ from holdfast.arm.configurations import as_configurations, finite_limits
 from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
+from holdfast.cell.cell import Cell
 from holdfast.clearance.capsules import Capsules, link_name
+from holdfast.clearance.changes import changes_between
+from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
 from holdfast.kernels.kernel import Kernel
@@ -48,9 +51,10 @@ class IgnoredPair:
 
 
 class Clearance:
-    """Distance in m between the capsules of an arm that come closest; below 0 where two of them overlap.
+    """Distance in m between what comes closest, of the capsules of an arm and the objects of its cell; below 0 in a collision.
 
-    A negative value is minus the depth: the distance between the axes less the two radii.
+    Between two capsules a negative value is minus the depth: the distance between the axes less the two radii. The distance
+    from an object of the cell is a lower bound: that of the spheres that cover the capsules of a link.
 
     Not checked are capsules of one link or of adjacent links, links under ``ignore``, and capsules that touch by
     construction: those that overlap in at least 95 % of 512 configurations within the limits (the first 512 points of the
@@ -61,20 +65,26 @@ class Clearance:
     Args:
         arm: The arm.
         capsules: Its shape; :meth:`Capsules.along` if not given, whose radius is an assumption.
+        cell: What stands around it; nothing if not given. Objects are never adjacent to a link and never left out: only
+            ``may_touch`` of the cell takes a pair away.
+        itself: Look at the arm's own links as well, one against the other.
 
     Attributes:
-        arm, capsules: As given.
+        arm, capsules, cell: As given.
+        obstacles: The objects of the cell as the arm meets them, or None.
+        margins: (P,) what each pair keeps at least, m: 0 between links, the object's or the cell's margin otherwise.
         pairs: Positions in ``capsules.parts`` of the capsules that are checked, the one nearer to the base first.
-        pair_names: Their links, ``base & joint3``, by the joints that move them, with the number of the capsule where a
-            link has several.
+        pair_names: Of all P pairs, their links, ``base & joint3``, by the joints that move them, with the number of the capsule
+            where a link has several; then each link with each object, ``joint3 & table``.
         ignored: The pairs on different links that are not checked, and why.
 
     Raises:
         ArmError: A capsule on a link that the arm does not have.
+        InputError: The base touches an object, or ``may_touch`` names nothing of the cell or the arm.
     """
 
     @checked
-    def __init__(self, arm: Arm, capsules: Capsules | None = None) -> None:
+    def __init__(self, arm: Arm, capsules: Capsules | None = None, cell: Cell | None = None, *, itself: bool = True) -> None:
         self.arm = arm
         self.capsules = Capsules.along(arm) if capsules is None else capsules
         highest = max((link for link in self._links + [x for p in self.capsules.ignore for x in p]), default=-1)
@@ -82,16 +92,23 @@ class Clearance:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
         self.pairs: list[Pair] = []
         self.ignored: list[IgnoredPair] = []
-        self._choose_pairs()
-        self.pair_names = [self._name(pair) for pair in self.pairs]
+        self.itself, self.cell = itself, cell
+        if itself:
+            self._choose_pairs()
+        self.obstacles = None if cell is None or not len(cell) else Obstacles(arm, self.capsules, cell)
+        seen = self.obstacles
+        self.pair_names = [self._name(pair) for pair in self.pairs] + ([] if seen is None else seen.names)
+        self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if seen is None else seen.margins])
 
     @classmethod
-    def by_default(cls, arm: Arm) -> Clearance | None:
+    def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
         """What is kept where nothing else is said: capsules of an assumed radius, :meth:`Capsules.along`.
 
-        None for an arm that moves in a plane, whose links lie beside each other, not in one plane.
+        The links of an arm that moves in a plane lie beside each other, not in one plane: they are not checked against each
+        other, and without a cell there is nothing to keep: None.
         """
-        return cls(arm) if plane_normal(arm) is None else None
+        flat = plane_normal(arm) is not None
+        return None if flat and cell is None else cls(arm, cell=cell, itself=not flat)
 
     # ---- which pairs -------------------------------------------------------------------------------------------
 
@@ -237,7 +254,7 @@ class Clearance:
     # ---- what a user asks --------------------------------------------------------------------------------------
 
     def __call__(self, q: ArrayLike) -> Array:
-        """The clearance in m, (N,), or a scalar for one configuration; infinite if the arm has no pair to check.
+        """The smallest distance in m, (N,), or a scalar for one configuration; infinite if there is no pair to check.
 
         Args:
             q: (n,) or (N, n), rad and m.
@@ -247,38 +264,69 @@ class Clearance:
         """
         rows, single = as_configurations(self.arm, q)
         values = self._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
+        if self.obstacles is not None:
+            values = np.minimum(values, self.obstacles.distances(rows).min(axis=1))
         return values[0] if single else values
 
     def by_pair(self, q: ArrayLike) -> Array:
-        """The distance of every checked pair in m, (N, P) or (P,), in the order of ``pairs``."""
+        """The distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
         rows, single = as_configurations(self.arm, q)
         values = self._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
+        if self.obstacles is not None:
+            values = np.concatenate([values, self.obstacles.distances(rows)], axis=1)
+        return values[0] if single else values
+
+    def room(self, q: ArrayLike) -> Array:
+        """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
+        rows, single = as_configurations(self.arm, q)
+        values = self.nearest(rows)[0] if self.margins.any() else self(rows)
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
-        """Position in ``pairs`` of the pair with the smallest distance, the first of several, (N,) or a scalar.
+        """Position in ``pair_names`` of the pair with the least room, the first of several, (N,) or a scalar.
 
         It is -1 where q is not finite and if there is no pair to check.
         """
         rows, single = as_configurations(self.arm, q)
         closest = np.full(len(rows), -1, dtype=np.int64)
-        if self.pairs:
+        if self.pair_names:
             finite = np.isfinite(rows).all(axis=1)
-            closest[finite] = self.by_pair(rows[finite]).argmin(axis=1)
+            closest[finite] = (self.by_pair(rows[finite]) - self.margins).argmin(axis=1)
         return closest[0] if single else closest
 
     def gradient(self, q: ArrayLike) -> Array:
-        """Exact gradient of the clearance, (N, n) or (n,), m per rad and m.
+        """Exact gradient of the room, (N, n) or (n,), m per rad and m; that of the clearance where all margins are equal.
 
         Where two pairs tie it is that of the first. It is 0 if there is no pair to check, near 0 where the two
         axes cross, which is a kink, and NaN where q is.
         """
         rows, single = as_configurations(self.arm, q)
-        g = self._gradient_kernel.rows(rows) if self.pairs else np.repeat(_constant(rows, 0.0)[:, None], self.arm.n, axis=1)
+        g = self.nearest(rows)[1]
         return g[0] if single else g
 
+    def nearest(self, q: Array) -> tuple[Array, Array]:
+        """Room (N,) m and its gradient (N, n) of configurations (N, n)."""
+        room, slope = _constant(q, np.inf), np.repeat(_constant(q, 0.0)[:, None], self.arm.n, axis=1)
+        if self.pairs:
+            room, slope = self._value_kernel.rows(q)[:, 0], self._gradient_kernel.rows(q)
+        if self.obstacles is not None:
+            other, _, theirs = self.obstacles.nearest(q)
+            closer = ~(room <= other)
+            room, slope = np.where(closer, other, room), np.where(closer[:, None], theirs, slope)
+        return room, slope
+
+    def changes(self, low: Array, high: Array) -> Array:
+        """(P, n) bounds of how much the distance of each pair changes per rad and m of each joint within a box; for proofs.
+
+        Args:
+            low: (n,) lower corner of the box, finite, rad and m.
+            high: (n,) upper corner.
+        """
+        bounds = changes_between(self.arm, self.capsules, self.pairs, low, high)
+        return bounds if self.obstacles is None else np.concatenate([bounds, self.obstacles.changes(low, high)])
+
     def __repr__(self) -> str:
-        return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pairs)} pairs checked>"
+        return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
 
 
 def too_close(margin: float) -> str:

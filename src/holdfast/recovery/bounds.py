@@ -1,4 +1,4 @@
-"""Bounds from geometry alone: how fast distances on an arm can change, and where its end effector can never be."""
+"""Bounds from geometry alone: where the end effector of a failed arm can never be."""
 
 from __future__ import annotations
 
@@ -6,39 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.clearance.clearance import Clearance
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 _SLACK = 1e-9  # of the arm's own length: rounding of the bounds themselves
-
-
-def clearance_slopes(clearance: Clearance, low: Array, high: Array) -> Array:
-    """(P, n) bounds of how much the distance of each checked pair changes per rad and m of each joint.
-
-    A joint between the two links of a pair turns one capsule about an axis that the other does not feel, so the distance
-    changes by no more than the farthest point of either capsule from that axis, per rad; by 1 m per m along a slide. The
-    farthest point is no farther than the lengths along the chain: a Lipschitz bound for every configuration within the box.
-
-    Args:
-        clearance: The pairs.
-        low: (n,) lower corner of the box, finite, rad and m.
-        high: (n,) upper corner.
-    """
-    arm = clearance.arm
-    slide = np.where(arm.prismatic, np.maximum(np.abs(low), np.abs(high)), 0.0)
-    step = np.array([float(np.linalg.norm(j.origin[:3, 3])) for j in arm.joints])  # frame k seen from link k - 1
-    bounds = np.zeros((len(clearance.pairs), arm.n))
-    for row, (a, b) in zip(bounds, clearance.pairs, strict=True):
-        first, second = clearance.capsules.parts[a], clearance.capsules.parts[b]
-        far = [max(float(np.linalg.norm(x)) for x in (part.start, part.end)) for part in (first, second)]
-        for k in range(first.link + 1, second.link + 1):
-            # Outwards from axis k to the second capsule; inwards from it to the first.
-            outward = slide[k] + step[k + 1 : second.link + 1].sum() + slide[k + 1 : second.link + 1].sum() + far[1]
-            inward = step[first.link + 1 : k + 1].sum() + slide[first.link + 1 : k].sum() + far[0]
-            row[k] = 1.0 if arm.prismatic[k] else min(outward, inward)
-    return bounds
 
 
 def out_of_reach(arm: Arm, free: Flags, at: Array, pose: Array, whole_pose: bool, planar: Array | None) -> str | None:

@@ -13,7 +13,6 @@ from holdfast.arm.model import Arm
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.notice import each
-from holdfast.recovery.bounds import clearance_slopes
 from holdfast.solvers import joint_space
 
 Array = NDArray[np.float64]
@@ -92,14 +91,14 @@ class Space:
 
     def __init__(self, arm: Arm, free: Flags, clearance: Clearance | None, margin: float, around: Array) -> None:
         self.arm, self.free, self.margin = arm, free, margin
-        self.clearance = clearance if clearance is not None and clearance.pairs else None
+        self.clearance = clearance if clearance is not None and clearance.pair_names else None
         low, high = finite_limits(arm)
         self.low = np.where(free, np.minimum(low, around.min(axis=0)), around[0])
         self.high = np.where(free, np.maximum(high, around.max(axis=0)), around[0])
         # Joints that turn may wind beyond the box, no bound below depends on their values; slides may not.
         self._lower = np.where(arm.prismatic, self.low, arm.lower)
         self._upper = np.where(arm.prismatic, self.high, arm.upper)
-        self._slopes = None if self.clearance is None else clearance_slopes(self.clearance, self.low, self.high)
+        self._slopes = None if self.clearance is None else self.clearance.changes(self.low, self.high)
 
     def inside(self, q: Array) -> Flags:
         """(N,) True within the limits, locked joints left aside."""
@@ -115,7 +114,7 @@ class Space:
         """(E,) True where the whole straight piece from a to b (E, n) is proved to keep limits and clearance.
 
         Between two configurations at which a pair is d_1 and d_2 away, it comes no closer than ``(d_1 + d_2 - L) / 2``, L the
-        most that its distance can change on the way (:func:`clearance_slopes`). Pieces for which that does not do are
+        most that its distance can change on the way (:meth:`Clearance.changes`). Pieces for which that does not do are
         halved, until it does or L is below half a millimetre: such a piece counts as blocked.
         """
         if self.clearance is None or not len(a):
@@ -144,9 +143,9 @@ class Space:
             first, last = np.concatenate([first, gaps]), np.concatenate([gaps, last])
 
     def _gaps(self, q: Array) -> Array:
-        """(N, P) distance of every pair beyond the margin, m."""
+        """(N, P) distance of every pair beyond what must be kept, m."""
         assert self.clearance is not None
-        return self.clearance.by_pair(q) - self.margin
+        return self.clearance.by_pair(q) - self.clearance.margins - self.margin
 
     def difference(self, a: Array, b: Array) -> Array:
         """``a - b`` of the joints that move, the short way round where they turn without limits."""

@@ -1,0 +1,159 @@
+"""A lower bound of the distance between an arm and the objects of a cell, compiled once for the arm: objects are inputs.
+
+The arm is covered by spheres (:mod:`holdfast.clearance.chains`), so what is said to be clear is clear. Objects are taken in
+blocks, which share the positions of the spheres; a cell that changed compiles nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.caching import cached_property
+from holdfast.cell.cell import Cell
+from holdfast.cell.solids import Primitive
+from holdfast.clearance.capsules import BASE, Capsules, link_name
+from holdfast.clearance.chains import Balls, chains
+from holdfast.clearance.changes import changes_from_outside
+from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
+from holdfast.errors import InputError
+from holdfast.kernels.kernel import Kernel
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_NOWHERE = 1e9  # m: how far away is what is not looked at
+
+
+class Obstacles:
+    """The objects of a cell as an arm meets them.
+
+    Args:
+        arm: The arm.
+        capsules: What covers its links.
+        cell: The objects.
+
+    Attributes:
+        arm, capsules, cell: As given.
+        balls: The spheres that cover the capsules.
+        links: (L,) the links that have spheres and move, ascending.
+        pairs: (L K, 2) link and object of each pair: all objects of the first link, then of the next.
+        margins: (L K,) what each pair keeps at least, m.
+        names: Of the pairs, ``panda_joint4 & table``.
+
+    Raises:
+        InputError: The base touches an object, or ``may_touch`` names no object or link.
+    """
+
+    def __init__(self, arm: Arm, capsules: Capsules, cell: Cell) -> None:
+        self.arm, self.capsules, self.cell = arm, capsules, cell
+        self.balls: Balls = chains(capsules)
+        self.links: Indices = np.unique(self.balls.link[self.balls.link > BASE])
+        count = len(cell)
+        self.pairs: Indices = np.stack(
+            [np.repeat(self.links, count), np.tile(np.arange(count, dtype=np.int64), len(self.links))], axis=1
+        )
+        own = np.array([cell.margin_of(solid) for solid in cell])
+        self.margins: Array = np.tile(own, len(self.links))
+        names = [solid.name for solid in cell]
+        self.names = [f"{link_name(arm, int(link))} & {names[k]}" for link, k in self.pairs]
+        self._apart = self._switched_off()
+        self._check_base()
+
+    # ---- what is looked at ---------------------------------------------------------------------------------------
+
+    def _switched_off(self) -> NDArray[np.bool_]:
+        """(n + 1, K) pairs of a link, the base first, and an object that may touch."""
+        names = [solid.name for solid in self.cell]
+        links = ["base", *self.arm.joint_names]
+        off = np.zeros((len(links), len(names)), dtype=np.bool_)
+        for thing, link in self.cell.may_touch:
+            if thing not in names:
+                raise InputError(f"may_touch: cell '{self.cell.name}' has no object '{thing}'; it has {', '.join(names)}")
+            if link not in links:
+                raise InputError(f"may_touch: '{self.arm.name}' has no link '{link}'; its links are {', '.join(links)}")
+            off[links.index(link), names.index(thing)] = True
+        return off
+
+    def _check_base(self) -> None:
+        """The base stands still, so what it touches it touches always.
+
+        Raises:
+            InputError: It touches an object that it is not said to stand on.
+        """
+        still = self.balls.link == BASE
+        centre = self.balls.centre[still] @ self.arm.base[:3, :3].T + self.arm.base[:3, 3]
+        for k, solid in enumerate(self.cell):
+            if self._apart[0, k] or not still.any():
+                continue
+            gap = float((solid.signed_distance(centre) - self.balls.radius[still]).min())
+            if gap < self.cell.margin_of(solid):
+                near = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
+                raise InputError(
+                    f"the base of '{self.arm.name}' is {near} object '{solid.name}' of the cell, always; "
+                    f"if it stands there, add may_touch: [[{solid.name}, base]]"
+                )
+
+    def _blocks(self, margins: bool = False) -> list[Array]:
+        """(BLOCK (18 + L),) what the kernels take for each block of objects: their numbers, and what is added for each link.
+
+        Args:
+            margins: Every object is larger by what is kept from it.
+        """
+        rows = []
+        for k, solid in enumerate(self.cell):
+            assert isinstance(solid, Primitive)
+            off = np.where(self._apart[self.links + 1, k], _NOWHERE, 0.0)
+            rows.append(np.concatenate([solid.numbers(self.cell.margin_of(solid) if margins else 0.0), off]))
+        nothing = np.zeros(NUMBERS + len(self.links))
+        nothing[-len(self.links) :] = _NOWHERE
+        rows += [nothing] * (-len(rows) % BLOCK)
+        return [np.stack(rows[at : at + BLOCK]) for at in range(0, len(rows), BLOCK)]
+
+    @cached_property
+    def _distance_kernel(self) -> Kernel:
+        return distance_kernel(self.arm, self.balls)
+
+    @cached_property
+    def _nearest_kernel(self) -> Kernel:
+        return nearest_kernel(self.arm, self.balls)
+
+    # ---- what is asked -------------------------------------------------------------------------------------------
+
+    def nearest(self, q: Array) -> tuple[Array, Indices, Array]:
+        """What is nearest once every pair has what it must keep: (N,) distance beyond that margin, m; pair; gradient (N, n).
+
+        Args:
+            q: (N, n) rad and m; a row that is not finite gets NaN and pair -1.
+        """
+        rooms, pairs, slopes = [], [], []
+        for number, block in enumerate(self._blocks(margins=True)):
+            rows = self._nearest_kernel.rows(q, block)
+            known = np.isfinite(rows[:, 0])
+            at = np.where(known, rows[:, 1], 0).astype(np.int64)
+            thing = np.minimum(number * BLOCK + np.where(known, rows[:, 2], 0).astype(np.int64), len(self.cell) - 1)
+            rooms.append(rows[:, 0])
+            pairs.append(np.where(known, at * len(self.cell) + thing, -1))
+            slopes.append(rows[:, 3:])
+        room = np.stack(rooms)
+        first, each = np.argmin(np.where(np.isnan(room), -np.inf, room), axis=0), np.arange(len(q))
+        return room[first, each], np.stack(pairs)[first, each], np.stack(slopes)[first, each]
+
+    def distances(self, q: Array) -> Array:
+        """(N, L K) lower bound of the distance of every pair, m; about 1e9 m where a pair may touch."""
+        rows, count = [], len(self.links)
+        for block in self._blocks():
+            rows.append(self._distance_kernel.rows(q, block).reshape(len(q), count, BLOCK))
+        return np.concatenate(rows, axis=2)[:, :, : len(self.cell)].reshape(len(q), -1)
+
+    def changes(self, low: Array, high: Array) -> Array:
+        """(L K, n) bounds of how much the distance of each pair changes per rad and m of each joint within a box.
+
+        Args:
+            low: (n,) lower corner of the box, finite, rad and m.
+            high: (n,) upper corner.
+        """
+        reach = np.linalg.norm(self.balls.centre, axis=1)
+        far = np.array([reach[self.balls.link == link].max() for link in self.links])
+        return np.repeat(changes_from_outside(self.arm, self.links, far, low, high), len(self.cell), axis=0)

@@ -1,0 +1,116 @@
+"""The bound of an arm's distance from a cell, against formulas in NumPy, differences, and points on the arm."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from tests import oracles
+
+import holdfast as hf
+from holdfast.cell import Box, Capsule, Cylinder, HalfSpace, Sphere
+
+
+def at(x: float, y: float, z: float, turn=None) -> np.ndarray:
+    pose = np.eye(4)
+    pose[:3, 3] = x, y, z
+    pose[:3, :3] = np.eye(3) if turn is None else turn.as_matrix()
+    return pose
+
+
+def random_cell(rng, count: int = 9) -> hf.Cell:
+    made = []
+    for k in range(count):
+        name, size = f"o{k}", rng.uniform(0.05, 0.3, 3)
+        pose = at(*(rng.uniform(0.5, 0.9, 3) * rng.choice([-1, 1], 3)), Rotation.from_rotvec(rng.normal(size=3)))
+        kind = k % 5
+        if kind == 0:
+            made.append(Box(name, size, pose=pose))
+        elif kind < 3:
+            made.append((Cylinder, Capsule)[kind - 1](name, size[0], size[1], pose=pose))
+        else:
+            made.append(Sphere(name, size[0], pose=pose, margin=0.05) if kind == 3 else HalfSpace(name, pose=at(0, 0, -1.5)))
+    return hf.Cell(made)
+
+
+def covered(arm, capsules, cell, q):
+    """(N, L K) distances of the spheres' centres by NumPy, less the radii."""
+    from holdfast.clearance.chains import chains
+
+    balls, frames = chains(capsules), arm.frames(q)
+    links = sorted({int(x) for x in balls.link if x >= 0})
+    out = np.full((len(q), len(links), len(cell)), np.inf)
+    for link, centre, radius in zip(balls.link, balls.centre, balls.radius, strict=True):
+        if link >= 0:
+            at = frames[:, link + 1, :3, :3] @ centre + frames[:, link + 1, :3, 3]
+            for k, solid in enumerate(cell):
+                row = out[:, links.index(link), k]
+                np.minimum(row, solid.signed_distance(at) - radius, out=row)
+    return out.reshape(len(q), -1)
+
+
+@pytest.fixture
+def scene(rng):
+    arm = oracles.random_arm(rng, types="RRPRRR", limits=2.0)
+    return arm, hf.Capsules.along(arm, 0.03), random_cell(rng)
+
+
+def test_distances_are_those_of_the_spheres(rng, scene):
+    arm, capsules, cell = scene
+    clearance = hf.Clearance(arm, capsules, cell, itself=False)
+    q = rng.uniform(arm.lower, arm.upper, (300, arm.n))
+    expected = covered(arm, capsules, cell, q)
+    np.testing.assert_allclose(clearance.by_pair(q), expected, atol=1e-12)
+    np.testing.assert_allclose(clearance(q), expected.min(axis=1), atol=1e-12)
+    np.testing.assert_allclose(clearance.room(q), (expected - clearance.margins).min(axis=1), atol=1e-12)
+
+
+def test_gradient_agrees_with_differences(rng, scene):
+    arm, capsules, cell = scene
+    clearance = hf.Clearance(arm, capsules, cell)
+    q = rng.uniform(arm.lower, arm.upper, (300, arm.n))
+    step = 1e-6
+    slope = np.stack(
+        [(clearance.room(q + step * e) - clearance.room(q - step * e)) / (2 * step) for e in np.eye(arm.n)], axis=1
+    )
+    error = np.abs(slope - clearance.gradient(q)).max(axis=1)
+    assert np.quantile(error, 0.97) < 1e-6  # the rest are where two pairs tie within the step, or at an edge
+
+
+@pytest.mark.parametrize("types", ["RRPRRR", "RRRRRRR"])
+def test_no_distance_from_an_object_changes_faster_than_its_bound(rng, types):
+    arm = oracles.random_arm(rng, types=types, limits=2.0)
+    clearance = hf.Clearance(arm, hf.Capsules.along(arm, 0.03), random_cell(rng))
+    low, high = (np.where(arm.prismatic, np.clip(x, -1, 1), x) for x in (arm.lower, arm.upper))
+    bound = clearance.changes(low, high)
+    a, b = (rng.uniform(low, high, (2000, arm.n)) for _ in range(2))
+    b = a + 10 ** rng.uniform(-3, 0, (2000, 1)) * (b - a)
+    change = np.abs(clearance.by_pair(a) - clearance.by_pair(b))
+    allowed = np.abs(b - a) @ bound.T
+    assert (change <= allowed + 1e-9).all()
+    assert (change > 0.3 * allowed).any()
+
+
+def test_a_base_that_touches_an_object_is_refused_with_what_to_say():
+    arm = hf.arms.load("panda")
+    table = Box("table", [1.0, 1.0, 0.1])
+    with pytest.raises(hf.InputError, match=r"may_touch: \[\[table, base\]\]"):
+        hf.Clearance(arm, cell=hf.Cell([table]))
+    clearance = hf.Clearance(arm, cell=hf.Cell([table], may_touch=[("table", "base")]))
+    assert "panda_joint4 & table" in clearance.pair_names
+
+
+def test_a_pair_that_may_touch_is_not_looked_at(rng):
+    arm = hf.arms.load("panda")
+    ball = Sphere("ball", 0.3, pose=at(0.5, 0, 0.5))
+    cell = hf.Cell([ball], may_touch=[("ball", name) for name in arm.joint_names])
+    q = rng.uniform(arm.lower, arm.upper, (50, arm.n))
+    clearance = hf.Clearance(arm, cell=cell, itself=False)
+    assert (clearance(q) > 1e8).all()
+
+
+def test_a_changed_cell_compiles_nothing(rng, scene):
+    arm, capsules, cell = scene
+    first = hf.Clearance(arm, capsules, cell, itself=False)
+    second = hf.Clearance(arm, capsules, random_cell(rng, 3), itself=False)
+    made = first.obstacles._distance_kernel.made_of
+    assert made is not None
+    assert made == second.obstacles._distance_kernel.made_of
