@@ -33,9 +33,9 @@ def random_cell(rng, count: int = 9) -> hf.Cell:
 
 def covered(arm, capsules, cell, q):
     """(N, L K) distances of the spheres' centres by NumPy, less the radii."""
-    from holdfast.clearance.chains import chains
+    from holdfast.clearance.chains import spheres_of
 
-    balls, frames = chains(capsules), arm.frames(q)
+    balls, frames = spheres_of(capsules), arm.frames(q)
     links = sorted({int(x) for x in balls.link if x >= 0})
     out = np.full((len(q), len(links), len(cell)), np.inf)
     for link, centre, radius in zip(balls.link, balls.centre, balls.radius, strict=True):

@@ -1,4 +1,4 @@
-"""The cell that an arm stands in: objects in the world that it must keep clear of. Pure data, which knows of no arm."""
+"""The cell around an arm: objects in the world that it must keep clear of. Pure data, which knows of no arm."""
 
 from holdfast._lazy import offer
 

@@ -13,7 +13,7 @@ from holdfast.errors import InputError
 @checked_class
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """Objects that stand in the world.
+    """Objects in the world, which do not move.
 
     Attributes:
         objects: In any order, each with a name of its own.

@@ -19,7 +19,7 @@ _UNBOUNDED = 1e9  # m: half a size that no arm reaches
 @checked_class
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """An object that stands in the world.
+    """An object in the world, which does not move.
 
     Attributes:
         name: Unique in its cell.

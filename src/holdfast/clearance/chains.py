@@ -32,7 +32,7 @@ class Balls:
     part: NDArray[np.int64]
 
 
-def chains(capsules: Capsules, wider: float = WIDER) -> Balls:
+def spheres_of(capsules: Capsules, wider: float = WIDER) -> Balls:
     """Spheres that together contain every capsule.
 
     A capsule from a to b of radius r lies in the k + 1 spheres about ``a + (b - a) i / k``, both ends included, of radius

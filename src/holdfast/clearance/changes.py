@@ -40,7 +40,7 @@ def changes_between(arm: Arm, capsules: Capsules, pairs: list[tuple[int, int]], 
 
 
 def changes_from_outside(arm: Arm, links: Pairs, far: Array, low: Array, high: Array) -> Array:
-    """(L, n) as :func:`changes_between`, of the distances between links and what stands in the world.
+    """(L, n) as :func:`changes_between`, of the distances between links and what does not move.
 
     Args:
         arm: The arm.

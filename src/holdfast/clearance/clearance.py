@@ -65,7 +65,7 @@ class Clearance:
     Args:
         arm: The arm.
         capsules: Its shape; :meth:`Capsules.along` if not given, whose radius is an assumption.
-        cell: What stands around it; nothing if not given. Objects are never adjacent to a link and never left out: only
+        cell: The objects around it; none if not given. Objects are never adjacent to a link and never left out: only
             ``may_touch`` of the cell takes a pair away.
         itself: Look at the arm's own links as well, one against the other.
 

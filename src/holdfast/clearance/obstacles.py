@@ -14,7 +14,7 @@ from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE, Capsules, link_name
-from holdfast.clearance.chains import Balls, chains
+from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
 from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
 from holdfast.errors import InputError
@@ -48,7 +48,7 @@ class Obstacles:
 
     def __init__(self, arm: Arm, capsules: Capsules, cell: Cell) -> None:
         self.arm, self.capsules, self.cell = arm, capsules, cell
-        self.balls: Balls = chains(capsules)
+        self.balls: Balls = spheres_of(capsules)
         self.links: Indices = np.unique(self.balls.link[self.balls.link > BASE])
         count = len(cell)
         self.pairs: Indices = np.stack(
@@ -77,10 +77,10 @@ class Obstacles:
         return off
 
     def _check_base(self) -> None:
-        """The base stands still, so what it touches it touches always.
+        """The base does not move, so what it touches it touches always.
 
         Raises:
-            InputError: It touches an object that it is not said to stand on.
+            InputError: It touches an object that it may not touch.
         """
         still = self.balls.link == BASE
         centre = self.balls.centre[still] @ self.arm.base[:3, :3].T + self.arm.base[:3, 3]
@@ -92,7 +92,7 @@ class Obstacles:
                 near = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
                 raise InputError(
                     f"the base of '{self.arm.name}' is {near} object '{solid.name}' of the cell, always; "
-                    f"if it stands there, add may_touch: [[{solid.name}, base]]"
+                    f"if it is mounted there, add may_touch: [[{solid.name}, base]]"
                 )
 
     def _blocks(self, margins: bool = False) -> list[Array]:
