@@ -37,6 +37,10 @@ class Solid:
         if not (np.isfinite(self.margin) and self.margin >= 0):
             raise InputError(f"the margin of object '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
 
+    def signed_distance(self, points: ArrayLike) -> Array:
+        """Distance in m of points (..., 3) in the world from its surface, below 0 inside; never above the true one."""
+        raise NotImplementedError
+
     def _length(self, value: float, what: str) -> None:
         if not (np.isfinite(value) and value > 0):
             raise InputError(f"the {what} of object '{self.name}' is {value:g} m; it must be finite and above 0")

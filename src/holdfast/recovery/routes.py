@@ -145,7 +145,7 @@ class Space:
     def _gaps(self, q: Array) -> Array:
         """(N, P) distance of every pair beyond what must be kept, m."""
         assert self.clearance is not None
-        return self.clearance.by_pair(q) - self.clearance.margins - self.margin
+        return np.asarray(self.clearance.by_pair(q) - self.clearance.margins - self.margin)
 
     def difference(self, a: Array, b: Array) -> Array:
         """``a - b`` of the joints that move, the short way round where they turn without limits."""
