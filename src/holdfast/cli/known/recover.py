@@ -19,8 +19,8 @@ from holdfast.cli.options import (
     TipOption,
     check_unit_of_places,
     read_arm,
-    read_locks,
     read_configuration,
+    read_locks,
     read_pose,
     read_task,
 )

@@ -62,8 +62,8 @@ def blocks(f: Facts, figure: Figure) -> list[Block]:
     many = min(len(names), _MOST_FAILURES)
     some = f", the worst {many}" if many < len(names) else ""
     told = f"How often the threshold is missed once this locks{some}, of the {f.reached}:"
-    bars = (names, missed, Markup('<p class="quiet">{}</p>\n<ul class="bars">{}</ul>').format(told, _BAR * many) if many else "")
-    return [slider(f, asked, answers, figure, "the curve", f.a.distribution.band(), bars)]
+    seen = Markup('<p class="quiet">{}</p>\n<ul class="bars">{}</ul>').format(told, _BAR * many) if many else ""
+    return [slider(f, asked, answers, figure, "the curve", f.a.distribution.band(), (names, missed, seen))]
 
 
 def slider(
