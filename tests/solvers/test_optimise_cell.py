@@ -38,12 +38,12 @@ def room(q):
 
 def test_exhaustive_search_among_discs(index, clearance, rng):
     arm = index.arm
-    radius, angle = rng.uniform(0.3, 2.6, 80), rng.uniform(-np.pi, np.pi, 80)
-    poses = np.tile(np.eye(4), (80, 1, 1))
+    radius, angle = rng.uniform(0.3, 2.6, 40), rng.uniform(-np.pi, np.pi, 40)
+    poses = np.tile(np.eye(4), (40, 1, 1))
     poses[:, :2, 3] = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
     best = optimise(arm, poses, index, clearance=clearance, margin=MARGIN)
     free = optimise(arm, poses, index)
-    assert 5 < best.blocked.sum() < 75
+    assert 5 < best.blocked.sum() < 35
     short = []
     for k, pose in enumerate(poses):
         q = oracles.three_link_fibre(arm, pose[:2, 3])
@@ -60,7 +60,7 @@ def test_exhaustive_search_among_discs(index, clearance, rng):
     assert (best.status == Status.INFEASIBLE).any()
     assert (np.array(short) <= 5e-3).mean() >= 0.95
     np.testing.assert_array_equal(best.q[~best.blocked], free.q[~best.blocked])
-    bars = [best.obstacles[k] for k in range(80)]
+    bars = [best.obstacles[k] for k in range(40)]
     for k in np.flatnonzero(best.blocked):
         gaps = [cells.from_disc([1, 1, 1], WIDTH, free.q[k][None], at, r)[0] - 0.01 * j for j, (at, r) in enumerate(DISCS)]
         assert bars[k].endswith(f"disc{int(np.argmin(gaps))}")
@@ -80,9 +80,10 @@ def test_a_step_is_compiled_once_for_all_cells(index, clearance):
 def test_the_best_of_a_panda_over_a_bench_touches_nothing(rng):
     arm, cell = hf.arms.load("panda"), cells.bench()
     index = hf.indices.relative_manipulability(arm)
-    q = oracles.inside(arm, rng, 400)
+    q = oracles.inside(arm, rng, 2000)
     clearance = hf.Clearance(arm, cell=cell, itself=False)
-    q = q[clearance.room(q) > 0][:40]
+    near = clearance.room(q)
+    q = q[(near > 0) & (near < 0.06)][:40]
     best = optimise(arm, oracles.forward(arm, q), index, clearance=False, cell=cell, starts=24)
     assert best.clearance.cell is cell
     assert best.blocked.any()
@@ -96,7 +97,8 @@ def test_the_best_of_a_panda_over_a_bench_touches_nothing(rng):
 def test_what_is_found_without_a_clear_one_says_what_is_in_the_way(index, clearance):
     pose = cells.placed(0.9, 0.9, 0)  # within a disc
     with pytest.raises(
-        hf.HoldfastError, match=r"comes closer to the cell than it may in each that was found, .* joint3 & disc0"
+        hf.HoldfastError,
+        match=r"comes closer to the cell than it may in each that was found .* at the best by joint3 & disc0: .* move the object",
     ):
         optimise(index.arm, pose, index, clearance=clearance).require_any()
 

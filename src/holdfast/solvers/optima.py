@@ -120,10 +120,12 @@ class Optima(Optimum, Result):
         first = Status(int(self.status.flat[0])) if self.status.size else Status.NOT_FOUND
         advice = first.sentence
         if first == Status.INFEASIBLE and self.clearance is not None:
+            k, shape = int(self.rows.blocked_by[0]), self.clearance.capsules.describe(self.arm)
+            ours = k < len(self.clearance.pairs)
             advice = (
-                f"the arm {self.clearance.too_close(self.margin)} in each that was found, at the best with "
-                f"{self.obstacles[0]} (capsules: {self.clearance.capsules.describe(self.arm)}): choose another pose, give the "
-                "real shape by --capsules or a smaller --margin, or let it by --no-clearance"
+                f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), at the best by "
+                f"{self.clearance.pair_names[k]}: choose another pose, give the real shape by --capsules or a smaller --margin, "
+                + ("or let it by --no-clearance" if ours else "or move the object")
             )
         raise HoldfastError(f"no configuration of {'the pose' if self.status.size == 1 else 'any pose'}: {advice}")
 

@@ -53,8 +53,8 @@ class Optimum:
         start_value: (N,) of the first configuration that inverse kinematics found: the non-optimised sample.
         start_q: (N, n) that configuration, or the nearest miss.
         status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (nothing better than a singular configuration), ``INFEASIBLE`` (every
-            configuration found has the arm collide with itself or the cell), ``UNDEFINED`` (a formula of the user's own has no value at
-            any configuration found) or ``BAD_INPUT``.
+            configuration found has the arm collide with itself or the cell), ``UNDEFINED`` (a formula of the user's own has no
+            value at any configuration found) or ``BAD_INPUT``.
         position_error: (N,) m.
         rotation_error: (N,) rad.
         starts: (N,) starts from which a configuration of the pose was found.
@@ -170,9 +170,7 @@ class Ascent:
     def _clear_step(self) -> Kernel:
         """The step that also keeps the arm clear: compiled once it is needed, and for a changed cell not again."""
         assert self.clearance is not None
-        return step_kernel(
-            self.objective, self.task, self.clearance.alone, self.margin, self.clearance.obstacles is not None
-        )
+        return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, self.clearance.obstacles is not None)
 
     def _climb(self, clear: bool, q: Array, poses: Array, steps: int, radius: Array | None = None) -> tuple[Array, Array]:
         """Steps from q (N, n); returns where they led and the last trust radius."""
