@@ -98,7 +98,7 @@ def test_what_is_found_without_a_clear_one_says_what_is_in_the_way(index, cleara
     pose = cells.placed(0.9, 0.9, 0)  # within a disc
     with pytest.raises(
         hf.HoldfastError,
-        match=r"comes closer to the cell than it may in each that was found .* at the best by joint3 & disc0: .* move the object",
+        match=r"comes closer to the cell than it may in each .* at the best by joint3 & disc0: .* move the object",
     ):
         optimise(index.arm, pose, index, clearance=clearance).require_any()
 

@@ -124,8 +124,8 @@ class Optima(Optimum, Result):
             ours = k < len(self.clearance.pairs)
             advice = (
                 f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), at the best by "
-                f"{self.clearance.pair_names[k]}: choose another pose, give the real shape by --capsules or a smaller --margin, "
-                + ("or let it by --no-clearance" if ours else "or move the object")
+                f"{self.clearance.pair_names[k]}: choose another pose, give the real shape by --capsules or a smaller "
+                "--margin, " + ("or let it by --no-clearance" if ours else "or move the object")
             )
         raise HoldfastError(f"no configuration of {'the pose' if self.status.size == 1 else 'any pose'}: {advice}")
 
