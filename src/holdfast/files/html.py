@@ -8,7 +8,6 @@ from pathlib import Path
 
 from holdfast.files.output import replaced
 
-
 # A page in a frame cannot see where it lies: it is told whether the text around it is light, now and when that changes.
 _GROUND = """
 const told = () => {
