@@ -57,12 +57,12 @@ class Cell:
         object.__setattr__(self, "may_touch", tuple((a, b) for a, b in self.may_touch))
         object.__setattr__(self, "held", tuple(self.held))
         object.__setattr__(self, "hold", dict(self.hold))
+        if not 0 <= self.margin < float("inf"):
+            raise InputError(f"the margin of cell '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
         names = [solid.name for solid in self.objects]
         double = next((name for k, name in enumerate(names) if name in names[:k]), None)
         if double is not None:
             raise InputError(f"cell '{self.name}': the name '{double}' is used by two objects; names must be unique")
-        if not (np.isfinite(self.margin) and self.margin >= 0):
-            raise InputError(f"cell '{self.name}': margin is {self.margin:g} m; it must be finite and 0 or more")
 
     def __iter__(self) -> Iterator[Solid]:
         return iter(self.objects)

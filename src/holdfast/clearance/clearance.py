@@ -274,15 +274,10 @@ class Clearance:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
-        values = self._smallest(rows, 0.0)
-        return values[0] if single else values
-
-    def _smallest(self, q: Array, margins: Array | float) -> Array:
-        """(N,) m; the margins (L K,) are taken off the distances from objects."""
-        values = self.alone._value_kernel.rows(q)[:, 0] if self.pairs else _constant(q, np.inf)
+        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
         if self.obstacles is not None:
-            values = np.minimum(values, (self.obstacles.distances(q) - margins).min(axis=1))
-        return values
+            values = np.minimum(values, self.obstacles.least(rows))
+        return values[0] if single else values
 
     def by_pair(self, q: ArrayLike) -> Array:
         """The distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
@@ -295,7 +290,9 @@ class Clearance:
     def room(self, q: ArrayLike) -> Array:
         """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
         rows, single = as_configurations(self.arm, q)
-        values = self._smallest(rows, 0.0 if self.obstacles is None else self.obstacles.margins)
+        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
+        if self.obstacles is not None:
+            values = np.minimum(values, self.obstacles.room(rows))
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
