@@ -38,11 +38,13 @@ class Scene:
         data: As ``page/src/viewer/scene.ts`` describes it.
         frames: (A, F, K, 4, 4) poses over the frames of a motion of each arm: base, joints, end effector.
         notes: Sentences under the view, such as what could not be shown.
+        around: Corners (V, 3) in the world of each object around the arms, of which the drawing has the outline.
     """
 
     data: Mapping[str, Any]
     frames: Array
     notes: tuple[str, ...] = ()
+    around: tuple[Array, ...] = ()
 
     def html(self, name: str, about: str) -> Markup:
         """The view as part of a page; :func:`with_library` makes it move.
@@ -211,6 +213,7 @@ def drawing(scene: Scene, about: str) -> str:
     size, origin = data["size"], scene.frames[0, 0, 0, :3, 3]
     east = right - np.array(data["up"]) * (right @ data["up"])
     out.append(line([origin - 0.4 * size * east, origin + 0.4 * size * east], FAINT, 3))
+    out += [_outline(flat(corners)) for corners in scene.around]
     for box in data["boxes"]:
         low, high = np.array(box["low"]), np.array(box["high"])
         corners = [np.where([k & 1, k & 2, k & 4], high, low) for k in range(8)]
@@ -240,3 +243,12 @@ def drawing(scene: Scene, about: str) -> str:
         if locked[k]:
             out.append(word(f"{joint['name']} locked", scene.frames[0, -1, k + 1, :3, 3]))
     return "".join([*out, "</svg>"])
+
+
+def _outline(points: Array) -> str:
+    """What bodies without dents cover of a drawing; (V, 2) their corners there."""
+    from scipy.spatial import ConvexHull
+
+    hull = points[ConvexHull(points).vertices]
+    text = " ".join(f"{x:.1f},{y:.1f}" for x, y in hull)
+    return f'<polygon points="{text}" fill="#cdb27e" fill-opacity="0.35" stroke="#8a7446" stroke-width="1"/>'
