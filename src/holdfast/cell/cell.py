@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import KW_ONLY, dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import checked_class
 from holdfast.cell.solids import Solid
@@ -44,6 +47,22 @@ class Cell:
 
     def __len__(self) -> int:
         return len(self.objects)
+
+    def with_poses(self, poses: Mapping[str, ArrayLike]) -> Cell:
+        """The same cell with some of its objects elsewhere.
+
+        Args:
+            poses: (4, 4) in the world, m, by the name of the object.
+
+        Raises:
+            InputError: It has no such object.
+        """
+        names = [solid.name for solid in self.objects]
+        lost = next((name for name in poses if name not in names), None)
+        if lost is not None:
+            raise InputError(f"cell '{self.name}' has no object '{lost}'; it has {', '.join(names)}")
+        moved = [replace(x, pose=np.asarray(poses[x.name])) if x.name in poses else x for x in self.objects]
+        return replace(self, objects=moved)
 
     def margin_of(self, solid: Solid) -> float:
         """What is kept from an object, m: the larger of its own margin and the cell's."""
