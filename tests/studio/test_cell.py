@@ -40,7 +40,12 @@ def test_a_ball_is_dragged_until_the_arm_is_blocked(cell_studio, visit):
     page, window = visit(cell_studio)
     clear = hf.Clearance.by_default(window.machine.arm, CELL)
     gap = clear.obstacles.gap(window.q)
-    wait_for(page, lambda: f"Nearest (red line): {clear.obstacles.names[gap.pair]}, at least {gap.distance:.3g} m" in page.inner_text("body"))
+    wait_for(
+        page,
+        lambda: (
+            f"Nearest (red line): {clear.obstacles.names[gap.pair]}, at least {gap.distance:.3g} m" in page.inner_text("body")
+        ),
+    )
     window.ask("pick", "ball")
     hand = window.machine.hand(window.q)
     window.ask("object", ("ball", pose_numbers(hand)))
