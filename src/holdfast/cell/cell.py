@@ -84,7 +84,7 @@ class Cell:
         lost = next((name for name in poses if name not in names), None)
         if lost is not None:
             raise InputError(f"cell '{self.name}' has no object '{lost}'; it has {', '.join(names)}")
-        moved = [replace(x, pose=np.asarray(poses[x.name])) if x.name in poses else x for x in self.objects]
+        moved = [x.moved_to(poses[x.name]) if x.name in poses else x for x in self.objects]
         return replace(self, objects=moved)
 
     def __str__(self) -> str:

@@ -187,8 +187,6 @@ def _moved(given: list[str]) -> tuple[tuple[str, tuple[float, ...]], ...]:
         if values.size == 3:
             values = np.concatenate([values, [0.0, 0.0, 0.0, 1.0]])
         if values.size != 7 or not np.isfinite(values).all() or not np.linalg.norm(values[3:]) > 1e-9:
-            raise InputError(
-                f"--move '{text}': give name=x,y,z in m, or name=x,y,z,qx,qy,qz,qw with a quaternion that is not 0"
-            )
+            raise InputError(f"--move '{text}': give name=x,y,z in m, or name=x,y,z,qx,qy,qz,qw, not all q 0")
         out.append((name, tuple(values.tolist())))
     return tuple(out)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.cell.cell import Cell
+from holdfast.cell.meshes import Mesh, Points
 from holdfast.cell.solids import Box, Capsule, Cylinder, HalfSpace, Solid, Sphere
 from holdfast.errors import InputError
 from holdfast.present.arm.body import Color, Part, ball, box, tube
@@ -15,6 +16,7 @@ Faces = NDArray[np.int64]
 
 OBJECT: Color = (205, 178, 126)
 NEAREST: Color = (190, 30, 45)
+_SPECKS = 3000  # points of a cloud that are drawn
 _PLATE = 0.02  # thickness of what is drawn of a half space, as a share of its width
 
 
@@ -38,7 +40,22 @@ def body(solid: Solid, size: float) -> tuple[Array, Faces]:
     if isinstance(solid, HalfSpace):
         vertices, faces = box(np.array([2 * size, 2 * size, 2 * _PLATE * size]))
         return vertices - [0, 0, _PLATE * size], faces
+    if isinstance(solid, Mesh):
+        return solid.surface.vertices, solid.surface.faces
+    if isinstance(solid, Points):
+        return _specks(solid)
     raise InputError(f"object '{solid.name}' cannot be drawn")
+
+
+def _specks(cloud: Points) -> tuple[Array, Faces]:
+    """A small tetrahedron for each of some thousand points, evenly chosen."""
+    places = np.asarray(cloud.points)
+    some = places[:: max(len(places) // _SPECKS, 1)]
+    radius = max(cloud.radius, 0.004 * float(np.ptp(some, axis=0).max()))
+    corners = radius * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / np.sqrt(3)
+    sides = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    vertices = (some[:, None] + corners).reshape(-1, 3)
+    return vertices, (sides + 4 * np.arange(len(some))[:, None, None]).reshape(-1, 3)
 
 
 def parts(cell: Cell, base: ArrayLike, size: float) -> list[Part]:
