@@ -153,7 +153,7 @@ def command(
         file=file,
         region=region,
         time=time,
-        cell=cell,
+        cell=None if cell is None else str(cell),
         moved=_moved(move or []),
     )
 
