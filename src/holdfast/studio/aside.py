@@ -30,7 +30,7 @@ _POLL = 0.02  # s
 class Aside:
     """The process, started when it is first needed, ended and started again where a request does not give up in time."""
 
-    def __init__(self, arm: Arm, task: Task, cell: Cell | None) -> None:
+    def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
         self._of = replace(arm), task, cell  # without what has been compiled
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
