@@ -27,8 +27,8 @@ from holdfast.cli.options import (
     TipOption,
     check_unit_of_places,
     read_arm,
-    read_locks,
     read_configuration,
+    read_locks,
     read_pose,
     read_task,
 )
