@@ -93,13 +93,22 @@ class Clearance:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
         self.pairs: list[Pair] = []
         self.ignored: list[IgnoredPair] = []
-        self.itself, self.cell = itself, cell
+        self.itself = itself
         if itself:
             self._choose_pairs()
-        self.obstacles = None if cell is None or not len(cell) else Obstacles(arm, self.capsules, cell)
-        seen = self.obstacles
+        self._meet(cell)
+
+    def _meet(self, cell: Cell | None) -> None:
+        seen = None if cell is None or not len(cell) else Obstacles(self.arm, self.capsules, cell)
+        self.cell, self.obstacles = cell, seen
         self.pair_names = [self._name(pair) for pair in self.pairs] + ([] if seen is None else seen.names)
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if seen is None else seen.margins])
+
+    def with_cell(self, cell: Cell | None) -> Clearance:
+        """The same clearance in another cell; the arm's own pairs are not chosen again."""
+        other = copy(self)
+        other._meet(cell)
+        return other
 
     @classmethod
     def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
