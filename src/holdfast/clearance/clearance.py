@@ -263,10 +263,15 @@ class Clearance:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
-        values = self._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
-        if self.obstacles is not None:
-            values = np.minimum(values, self.obstacles.distances(rows).min(axis=1))
+        values = self._smallest(rows, 0.0)
         return values[0] if single else values
+
+    def _smallest(self, q: Array, margins: Array | float) -> Array:
+        """(N,) m; the margins (L K,) are taken off the distances from objects."""
+        values = self._value_kernel.rows(q)[:, 0] if self.pairs else _constant(q, np.inf)
+        if self.obstacles is not None:
+            values = np.minimum(values, (self.obstacles.distances(q) - margins).min(axis=1))
+        return values
 
     def by_pair(self, q: ArrayLike) -> Array:
         """The distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
@@ -279,7 +284,7 @@ class Clearance:
     def room(self, q: ArrayLike) -> Array:
         """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
         rows, single = as_configurations(self.arm, q)
-        values = self.nearest(rows)[0] if self.margins.any() else self(rows)
+        values = self._smallest(rows, 0.0 if self.obstacles is None else self.obstacles.margins)
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
@@ -325,13 +330,37 @@ class Clearance:
         bounds = changes_between(self.arm, self.capsules, self.pairs, low, high)
         return bounds if self.obstacles is None else np.concatenate([bounds, self.obstacles.changes(low, high)])
 
+    # ---- words -------------------------------------------------------------------------------------------------
+
+    @property
+    def others(self) -> str:
+        """What the arm is kept clear of: ``itself``, ``the cell``, or ``itself or the cell``."""
+        return (
+            " or ".join((["itself"] if self.itself else []) + (["the cell"] if self.obstacles is not None else [])) or "nothing"
+        )
+
+    def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
+        """The phrase for an arm whose room is below the margin.
+
+        Args:
+            margin: m.
+            q: (n,) rad and m, to say what is too close there: the pair with the least room and its distance.
+        """
+        other, where, own = self.others, "", bool(self.margins.any())
+        if q is not None:
+            k = int(self.closest_pair(q))
+            other, own = ("itself", False) if k < len(self.pairs) else ("the cell", bool(self.margins[k]))
+            where = f" ({self.pair_names[k]}, {_apart(float(self.by_pair(q)[k]))})"
+        if own:
+            return f"comes closer to {other} than it may{where}"
+        return (f"comes closer than {margin:g} m to {other}" if margin else f"collides with {other}") + where
+
     def __repr__(self) -> str:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
 
 
-def too_close(margin: float) -> str:
-    """The phrase for an arm whose clearance is below the margin, m."""
-    return f"comes closer than {margin:g} m to itself" if margin else "collides with itself"
+def _apart(distance: float) -> str:
+    return f"{-distance:.3g} m deep" if distance < 0 else f"{distance:.3g} m apart"
 
 
 def _constant(rows: Array, value: float) -> Array:

@@ -249,15 +249,13 @@ def _show_clearance(found: Optima, out: Console) -> None:
     """What keeps the arm from colliding with itself, and where it would have."""
     from rich.markup import escape
 
-    from holdfast.clearance.clearance import too_close
-
     if found.clearance is None:
         return
     before, after = found.apart(found.before), found.apart(found.q)
-    close, blocked = too_close(found.margin), int(found.blocked.sum())
+    close, blocked = found.clearance.too_close(found.margin), int(found.blocked.sum())
     if len(before) == 1:
         apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
-        text = f"clearance of the arm from itself: {apart}"
+        text = f"clearance of the arm from {found.clearance.others}: {apart}"
         text += f"; a better configuration {close} and was not taken" if blocked else ""
     else:
         counts = [int((x < found.margin).sum()) for x in (before, after)]
