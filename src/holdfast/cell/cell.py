@@ -22,7 +22,7 @@ class Cell:
         may_touch: Pairs of an object and a link, by the joint that moves it or ``base``, that are not checked.
 
     Raises:
-        InputError: Two objects of one name, or a margin that is no length.
+        InputError: Two objects of one name, or a margin below 0 or not finite.
     """
 
     objects: Sequence[Solid]
@@ -34,6 +34,8 @@ class Cell:
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))
         object.__setattr__(self, "may_touch", tuple((a, b) for a, b in self.may_touch))
+        if not 0 <= self.margin < float("inf"):
+            raise InputError(f"the margin of cell '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
         names = [solid.name for solid in self.objects]
         double = next((name for k, name in enumerate(names) if name in names[:k]), None)
         if double is not None:
