@@ -28,7 +28,7 @@ class Contact:
         time: When, in the unit of the motion's time: the bound of the distance is 0 there for the first time.
         link: By the joint that moves it, with the number of the capsule where two links meet and one has several.
         object: Of the cell; or the other link.
-        depth: How far below 0 the bound goes on the motion, m: the arm is in the object by at most this.
+        depth: How far below 0 the bound goes on the motion, m, to half a millimetre: the arm is no deeper in the object.
     """
 
     run: int = 0
@@ -49,7 +49,8 @@ def first_contacts(clearance: Clearance, time: Array, q: Array, at: Callable[[Ar
     The motion is taken to be straight in joint space between instants at most 0.05 rad or m apart. A pair that is d_1 and d_2
     away at two of them comes no closer between them than ``(d_1 + d_2 - L) / 2``, L the most that its distance can change on
     the way (:meth:`Clearance.changes`). Where that is below 0 the instant in the middle is looked at too, until L is below half
-    a millimetre: a touch that is less than a quarter of a millimetre deep may go unseen, no other.
+    a millimetre: a touch that is less than a quarter of a millimetre deep may go unseen, no other. Depths are known to half a
+    millimetre in the same way.
 
     Args:
         clearance: What is looked at; margins are not contacts.
@@ -67,7 +68,9 @@ def first_contacts(clearance: Clearance, time: Array, q: Array, at: Callable[[Ar
     while True:
         most = np.abs(np.diff(q, axis=0)) @ slopes.T
         untouched = np.minimum.accumulate(gaps, axis=0)[1:] >= 0
-        open_ = (untouched & (gaps[:-1] + gaps[1:] < most) & (most >= FINEST)).any(axis=1)
+        least, between = gaps.min(axis=0), (gaps[:-1] + gaps[1:] - most) / 2
+        deeper = (least < 0) & (between < least - FINEST)
+        open_ = (untouched & (between < 0) & (most >= FINEST) | deeper).any(axis=1)
         if not open_.any():
             break
         rows = np.flatnonzero(open_) + 1

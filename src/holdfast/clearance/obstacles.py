@@ -145,7 +145,7 @@ class Obstacles:
         rows, count = [], len(self.links)
         for block in self._blocks():
             rows.append(self._distance_kernel.rows(q, block).reshape(len(q), count, BLOCK))
-        return np.concatenate(rows, axis=2)[:, :, : len(self.cell)].reshape(len(q), -1)
+        return np.concatenate(rows, axis=2)[:, :, : len(self.cell)].reshape(len(q), count * len(self.cell))
 
     def changes(self, low: Array, high: Array) -> Array:
         """(L K, n) bounds of how much the distance of each pair changes per rad and m of each joint within a box.
