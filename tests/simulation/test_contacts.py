@@ -69,7 +69,7 @@ def test_a_planar_arm_swings_into_a_wall_where_its_tip_is_as_high_as_the_wall(tw
 def test_looking_changes_nothing_of_a_run(two, panda, wall):
     plain, told = run(two), run(two, clearance=wall)
     q0 = np.array([[0, -0.6, 0, -2.2, 0, 1.6, 0.8], [0.4, -0.3, 0.2, -1.9, 0.1, 1.5, 0.3]])
-    target = panda.arm.forward_kinematics(q0 + [0.5, 0.3, -0.4, 0.2, 0.3, -0.2, 0.5])
+    target = panda.arm.forward_kinematics(q0 + np.array([0.5, 0.3, -0.4, 0.2, 0.3, -0.2, 0.5]))
     pairs = [(plain, told)]
     pairs.append((hf.simulate(panda, q0, target, locked=[3]), hf.simulate(panda, q0, target, locked=[3], cell=cells.bench())))
     for one, other in pairs:
@@ -141,8 +141,12 @@ def test_times_are_those_at_which_mujoco_sees_spheres_touch(panda):
             first = int((gaps[:, pair] < 0).argmax())
             if not first or gaps[first - 1, pair] < 0 or not gaps[first, pair] < 0:
                 continue
-            pose = told._motion.recorded(told, int(k), float(told.time[k]))[1]
-            when = brentq(lambda t: apart(pose(np.array([t])))[0, pair], path.time[first - 1], path.time[first], xtol=1e-12)
+            at = told._motion.recorded(told, k, float(told.time[k]))[1]
+
+            def gap(t, pair=pair, pose=at):
+                return apart(pose(np.array([t])))[0, pair]
+
+            when = brentq(gap, path.time[first - 1], path.time[first], xtol=1e-12)
             assert contact.time == pytest.approx(when, abs=1e-6)
             assert contact.depth == pytest.approx(-gaps[:, pair].min(), abs=5e-4)
             checked += 1
@@ -157,7 +161,11 @@ def _mujoco_distances(arm, parts, cell):
         spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[part.radius, 0, 0])
     for solid in cell:
         kind = getattr(mujoco.mjtGeom, f"mjGEOM_{kinds[type(solid).__name__]}")
-        size = np.r_[solid.size / 2] if hasattr(solid, "size") else [getattr(solid, "radius", 5), getattr(solid, "length", 10) / 2, 1]
+        size = (
+            np.r_[solid.size / 2]
+            if hasattr(solid, "size")
+            else [getattr(solid, "radius", 5), getattr(solid, "length", 10) / 2, 1]
+        )
         spec.worldbody.add_geom(type=kind, size=size, pos=solid.pose[:3, 3])  # the bench's objects are not turned
     model = spec.compile()
     data = mujoco.MjData(model)

@@ -82,7 +82,7 @@ def first_contacts(clearance: Clearance, time: Array, q: Array, at: Callable[[Ar
     contacts = []
     for pair in np.flatnonzero(touch.any(axis=0)):
         first = int(touch[:, pair].argmax())
-        when = float(time[0]) if not first else _crossing(clearance, int(pair), float(time[first - 1]), float(time[first]), found)
+        when = float(time[0]) if not first else _crossing(clearance, int(pair), time[first - 1 : first + 1], found)
         link, _, thing = clearance.pair_names[pair].partition(" & ")
         contacts.append(Contact(time=when, link=link, object=thing, depth=float(-gaps[:, pair].min())))
     return sorted(contacts, key=lambda contact: contact.time)
@@ -99,8 +99,9 @@ def _spaced(time: Array, q: Array, at: Callable[[Array], Array]) -> tuple[Array,
     return time, q
 
 
-def _crossing(clearance: Clearance, pair: int, clear: float, touching: float, at: Callable[[Array], Array]) -> float:
-    """When a pair that is clear at one time and touches at a later one first touches, by halving."""
+def _crossing(clearance: Clearance, pair: int, between: Array, at: Callable[[Array], Array]) -> float:
+    """When a pair that is clear at the first of two times and touches at the second first touches, by halving."""
+    clear, touching = map(float, between)
     tolerance = SOONEST * max(abs(touching), 1e-12)
     for _ in range(_MOST):
         if touching - clear <= tolerance:

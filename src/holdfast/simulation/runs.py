@@ -83,6 +83,8 @@ _SENTENCES = {
     Reason.BAD_INPUT: "the start, the target or a lock held NaN or infinity: look at where it came from",
 }
 
+UNDECIDED = tuple(reason for reason in Reason if reason not in (Reason.NONE, Reason.CONTACT))
+
 
 @dataclass(frozen=True)
 class Path:
@@ -292,8 +294,7 @@ class Runs(Result):
             there = int((past & (np.atleast_1d(self.code) == Outcome.CONVERGED)).sum())
             lines.append(f"{int(past.sum())} of them pass a joint limit on the way, {there} of these converge")
         reasons = np.atleast_1d(self.reason)
-        undecided = [r for r in Reason if r not in (Reason.NONE, Reason.CONTACT) and (reasons == r).any()]
-        lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in undecided]
+        lines += [f"{int((reasons == r).sum())} undecided: {r.sentence}" for r in UNDECIDED if (reasons == r).any()]
         return [*lines, *[x for x in (self.contact_sentence(),) if x]]
 
 

@@ -12,8 +12,7 @@ from holdfast.present.printing import Rows, number
 def contact_entries(contacts: Sequence[Contact], unit: str = "s", many: bool = False) -> list[dict[str, Any]]:
     """Every contact by name; with the number of its run, from 0, if there are many."""
     return [
-        ({"run": c.run} if many else {})
-        | {f"time_{unit}": c.time, "link": c.link, "object": c.object, "depth_m": c.depth}
+        ({"run": c.run} if many else {}) | {f"time_{unit}": c.time, "link": c.link, "object": c.object, "depth_m": c.depth}
         for c in contacts
     ]
 

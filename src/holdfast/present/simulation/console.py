@@ -60,7 +60,11 @@ def sentences(runs: Runs) -> list[str]:
         return runs.describe()
     why = f": {Reason(int(runs.reason)).sentence}" if runs.reason else ""
     ended = f"The end effector {Outcome(int(runs.code)).sentence}{why}."
-    return [x for x in (ended, runs.limits_sentence(), runs.contact_sentence(), f"Arm {runs.law.arm.title}, {runs.law.describe()}.") if x]
+    return [
+        x
+        for x in (ended, runs.limits_sentence(), runs.contact_sentence(), f"Arm {runs.law.arm.title}, {runs.law.describe()}.")
+        if x
+    ]
 
 
 def key_table(runs: Runs) -> Rows:
@@ -84,7 +88,9 @@ def key_table(runs: Runs) -> Rows:
         ["took", f"{number(float(runs.time))} {unit}"],
     ]
     if runs.contacts is not None:
-        rows.append(["touches", ", ".join(f"{c.link} & {c.object} at {number(c.time)} {unit}" for c in runs.contacts) or "nothing"])
+        rows.append(
+            ["touches", ", ".join(f"{c.link} & {c.object} at {number(c.time)} {unit}" for c in runs.contacts) or "nothing"]
+        )
     return Rows(["", ""], rows)
 
 
