@@ -6,7 +6,7 @@ from pathlib import Path
 
 from holdfast.arguments import checked
 from holdfast.arm.model import Arm
-from holdfast.cell.cell import Cell
+from holdfast.cell.cell import Cell, as_cell
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 
@@ -33,9 +33,9 @@ def chosen_clearance(
     """
     if isinstance(clearance, Clearance) and clearance.arm.fingerprint != arm.fingerprint:
         raise InputError(f"the clearance belongs to '{clearance.arm.name}', not to '{arm.name}'; make it with the same arm")
-    around = cell if cell is None or isinstance(cell, Cell) else Cell.load(cell)
+    around = as_cell(cell)
     if isinstance(clearance, Clearance):
-        if around is None or around is clearance.cell:
+        if around is None or (clearance.cell is not None and around.digest == clearance.cell.digest):
             return clearance
         if clearance.cell is not None:
             raise InputError(

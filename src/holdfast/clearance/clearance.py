@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -223,6 +224,16 @@ class Clearance:
         return best, chosen
 
     @cached_property
+    def alone(self) -> Clearance:
+        """The same without the cell: what programs are made of, so that for a changed cell none is made anew."""
+        if self.cell is None:
+            return self
+        made = copy(self)
+        made.cell = made.obstacles = None
+        made.pair_names, made.margins = self.pair_names[: len(self.pairs)], self.margins[: len(self.pairs)]
+        return made
+
+    @cached_property
     @recalled
     def _value_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
@@ -263,20 +274,15 @@ class Clearance:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
-        values = self._smallest(rows, 0.0)
-        return values[0] if single else values
-
-    def _smallest(self, q: Array, margins: Array | float) -> Array:
-        """(N,) m; the margins (L K,) are taken off the distances from objects."""
-        values = self._value_kernel.rows(q)[:, 0] if self.pairs else _constant(q, np.inf)
+        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
         if self.obstacles is not None:
-            values = np.minimum(values, (self.obstacles.distances(q) - margins).min(axis=1))
-        return values
+            values = np.minimum(values, self.obstacles.least(rows))
+        return values[0] if single else values
 
     def by_pair(self, q: ArrayLike) -> Array:
         """The distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
         rows, single = as_configurations(self.arm, q)
-        values = self._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
+        values = self.alone._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
         if self.obstacles is not None:
             values = np.concatenate([values, self.obstacles.distances(rows)], axis=1)
         return values[0] if single else values
@@ -284,7 +290,9 @@ class Clearance:
     def room(self, q: ArrayLike) -> Array:
         """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
         rows, single = as_configurations(self.arm, q)
-        values = self._smallest(rows, 0.0 if self.obstacles is None else self.obstacles.margins)
+        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
+        if self.obstacles is not None:
+            values = np.minimum(values, self.obstacles.room(rows))
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
@@ -313,7 +321,7 @@ class Clearance:
         """Room (N,) m and its gradient (N, n) of configurations (N, n)."""
         room, slope = _constant(q, np.inf), np.repeat(_constant(q, 0.0)[:, None], self.arm.n, axis=1)
         if self.pairs:
-            room, slope = self._value_kernel.rows(q)[:, 0], self._gradient_kernel.rows(q)
+            room, slope = self.alone._value_kernel.rows(q)[:, 0], self.alone._gradient_kernel.rows(q)
         if self.obstacles is not None:
             other, _, theirs = self.obstacles.nearest(q)
             closer = ~(room <= other)
@@ -335,9 +343,8 @@ class Clearance:
     @property
     def others(self) -> str:
         """What the arm is kept clear of: ``itself``, ``the cell``, or ``itself or the cell``."""
-        return (
-            " or ".join((["itself"] if self.itself else []) + (["the cell"] if self.obstacles is not None else [])) or "nothing"
-        )
+        named = (("itself", self.itself), ("the cell", self.obstacles is not None))
+        return " or ".join(name for name, there in named if there) or "nothing"
 
     def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
         """The phrase for an arm whose room is below the margin.

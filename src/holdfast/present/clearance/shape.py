@@ -29,12 +29,18 @@ def shape_summary(clearance: Clearance, margin: float) -> dict[str, Any]:
 
 def cell_summary(cell: Cell) -> dict[str, Any]:
     """What is around the arm, for machines; its distances are lower bounds."""
-    return {"name": cell.name, "objects": [solid.name for solid in cell], "margin_m": cell.margin, "distances": "bound"}
+    return {
+        "name": cell.name,
+        "sha256": cell.digest,
+        "objects": [solid.name for solid in cell],
+        "margin_m": cell.margin,
+        "distances": "bound",
+    }
 
 
 def cell_text(cell: Cell) -> str:
     """What is around the arm, for people."""
-    return f"cell '{cell.name}' with {counted(len(cell), 'object')}, distances from it are lower bounds"
+    return f"cell '{cell.name}' with {counted(len(cell), 'object')} ({cell.digest[:12]}), distances from it are lower bounds"
 
 
 def shape_text(clearance: Clearance, margin: float) -> str:
