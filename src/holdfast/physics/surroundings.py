@@ -1,4 +1,4 @@
-"""A cell in a MuJoCo model: objects that do not move, and an arm that is no heavier for it can touch them."""
+"""A cell in a MuJoCo model: objects that do not move, which an arm can touch and is not heavier for it."""
 
 from __future__ import annotations
 
