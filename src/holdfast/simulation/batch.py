@@ -100,7 +100,7 @@ class Motion:
                 return self._block(q0[some], target[some], lock_time[some], setting, over)
 
             done = [work(b) for b in blocks] if workers == 1 or len(blocks) == 1 else list(pool().map(work, blocks))
-        ends: dict[str, Any] = done[0] if len(done) == 1 else {name: np.concatenate([d[name] for d in done]) for name in done[0]}
+        ends: dict[str, Any] = {name: np.concatenate([d[name] for d in done]) for name in done[0]} if done[1:] else done[0]
         return Runs(
             law=self.law,
             q0=q0,

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from holdfast.clearance.clearance import Clearance
 from holdfast.clearance.contacts import Contact, first_contacts
 from holdfast.notice import each
-from holdfast.simulation.runs import Reason, Runs
+from holdfast.simulation.runs import Outcome, Reason, Runs
 
 Array = NDArray[np.float64]
+
+ENDLESS = 200.0  # 1/Ke: so far a run is looked at that never stops
 
 _ENDS = ("code", "q_final", "x_final", "error", "closest", "path_length", "q_low", "q_high", "limits_passed", "time")
 
@@ -20,13 +22,15 @@ _ENDS = ("code", "q_final", "x_final", "error", "closest", "path_length", "q_low
 def with_contacts(runs: Runs, clearance: Clearance, stop: bool) -> Runs:
     """The same runs with what they touch; stopped there if they are to, and otherwise unchanged.
 
-    Every run is made once more, one after the other, to be looked at.
+    Every run is made once more, one after the other, to be looked at; of one that never stops the first 200/Ke.
     """
     found: list[Contact] = []
     for k in each("runs looked at for contacts", range(len(runs))):
         if runs.reason[k] != Reason.BAD_INPUT:
-            time, at = runs._motion.recorded(runs, k, float(runs.time[k]))
-            time = np.unique(np.minimum(time, runs.time[k]))
+            circles = runs.code[k] == Outcome.MOVING and not runs.cycles
+            end = min(float(runs.time[k]), ENDLESS / runs.law.gain if circles else np.inf)
+            time, at = runs._motion.recorded(runs, k, end)
+            time = np.unique(np.minimum(time, end))
             found += [replace(contact, run=k) for contact in first_contacts(clearance, time, at(time), at)]
     runs = replace(runs, clearance=clearance, contacts=tuple(found))
     return _stopped(runs, clearance) if stop else runs
