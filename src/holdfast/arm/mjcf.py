@@ -96,7 +96,7 @@ def load(
         tree = _tree(mujoco, model, label, tip)
         return _arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}") from error
+        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
 
 def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:

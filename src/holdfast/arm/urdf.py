@@ -78,7 +78,7 @@ def load(
         file = beside if srdf is None and beside.is_file() else None if srdf is None else Path(srdf)
         return arm if file is None else replace(arm, states=_states(file, arm))
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}") from error
+        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
 
 # ---- the file ----------------------------------------------------------------------------------------------------
