@@ -175,7 +175,7 @@ def possible_tips(tree: Tree, base: str) -> list[str]:
 
 
 def likely_tip(tree: Tree, base: str, candidates: Sequence[str]) -> str:
-    """The candidate that most looks like a tool: by its name, then by how little of its way may be a finger, then the farthest."""
+    """The candidate that looks most like a tool: by its name, then with the fewest fingers on its way, then the farthest."""
 
     def rank(link: str) -> tuple[bool, int]:
         moving = [joint for joint in tree.path(base, link) if joint.moving]
