@@ -24,7 +24,7 @@ JOINTS = {
     "wrist roll": (X, (0, 0, -0.7026)),
 }
 TOOL, LIMIT = (1.3589, 0, 0), np.radians(270)  # m from the last joint to the end effector; rad, of every joint either way
-BACK = np.array([0, np.pi, 0])  # the end effector looks back at the wall (x = 0) that the arm stands on, at the origin
+BACK = np.array([0, np.pi, 0])  # the end effector looks back at the wall (x = 0) that carries the arm, at the origin
 WORK = {  # what is asked of it: rows of the pose that count, and where: m, rad
     "berth a vehicle": ("pose", hf.Region.box([3, 6, 0], [2, 3, 3], BACK, np.radians(40))),
     "step onto a fixture": ("pose", hf.Region.box([0, 4, 0], 0.0, BACK, [0, 0, 2 * np.pi])),
@@ -91,7 +91,7 @@ def main(out, count=300):
         "kinematics from 20 random starts, joint limits ±270 degrees. Not found counts as not done: the shares are lower "
         "bounds. The interval is over the poses. 'No lock': found with any of the locks. The model is our own, from dimensions "
         "of Nguyen and Hughes 1994 as a URDF file of TraceableRobotModels quotes them; the chapter itself was not read. What "
-        "the arm stands on, where it works and how far off it may turn are ours. Not modelled: the station, collisions, "
+        "carries the arm, where it works and how far off it may turn are ours. Not modelled: the station, collisions, "
         "flexible links, the way from pose to pose. A joint that swings free does not fall: in free fall nothing pulls at it, "
         "so that its drift from rest is nil, and what remains is that it cannot be driven."
     )
