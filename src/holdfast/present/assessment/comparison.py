@@ -291,7 +291,7 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
         facts.append(
             (
                 "Clearance",
-                f"best configurations keep the arm clear of itself{' or the cell' * bool(around)}, by capsules ({what})",
+                f"best configurations keep the arm clear of itself{' and the cell' * bool(around)}, by capsules ({what})",
             )
         )
     return [Table([[k, v] for k, v in facts])]

@@ -56,6 +56,12 @@ class Facts(Answer):
         return "itself" if clearance is None else clearance.others
 
     @property
+    def everything(self) -> str:
+        """The same with ``and``."""
+        clearance = self.a.plan.clearance
+        return "itself" if clearance is None else clearance.everything
+
+    @property
     def drawable(self) -> bool:
         """There are finite values."""
         return self.d.reached > self.d.infinite

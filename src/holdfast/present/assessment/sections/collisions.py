@@ -39,7 +39,7 @@ def blocks(f: Facts) -> list[Block]:
     hit = f"{most}{share(found.found, found.reached)}"
     facts = [(f"Configurations found that bring the arm into collision with {f.others}", hit)]
     if f.a.clear is not None:
-        facts.append((f"Poses reached clear of {f.others}", f"at least {interval(f.a.reached_clear())} of all"))
+        facts.append((f"Poses reached clear of {f.everything}", f"at least {interval(f.a.reached_clear())} of all"))
     if f.a.optimised is not None:
         close = clearance.too_close(found.margin)
         facts += [
@@ -128,7 +128,7 @@ def summary(f: Facts) -> str:
     if f.a.clear is not None:
         text += f"; at least {interval(f.a.reached_clear())} of the poses are reached by a clear one"
     if f.a.optimised is not None:
-        kept = f"keep a clearance of {found.margin:g} m" if found.margin else f"keep the arm clear of {f.others}"
+        kept = f"keep a clearance of {found.margin:g} m" if found.margin else f"keep the arm clear of {f.everything}"
         text += f"; the best configurations {kept}, which {percent(found.blocked / found.reached)} of them otherwise would not"
         text += f", and {counted(found.hopeless, 'pose')} cannot" if found.hopeless else ""
     around = "" if clearance.cell is None else f"; {cell_text(clearance.cell)}"

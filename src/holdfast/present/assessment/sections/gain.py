@@ -45,13 +45,13 @@ def _kept(f: Facts) -> str:
     clearance, margin = f.a.plan.clearance, f.a.plan.margin
     if clearance is None:
         return " and the joint limits, even where the arm collides with itself"
-    apart = f"a clearance of {margin:g} m" if margin else f"the arm clear of {f.others}"
+    apart = f"a clearance of {margin:g} m" if margin else f"the arm clear of {f.everything}"
     return f", the joint limits and {apart} ({clearance.capsules.describe(f.a.arm)})"
 
 
 def _lost(f: Facts) -> str:
     hopeless = f.a.collisions.hopeless if f.a.collisions is not None else 0
-    others = "the arm itself" if f.others == "itself" else f.others
+    others = "the arm itself" if f.others == "itself" else f.everything
     return f" {counted(hopeless, 'pose')} without a configuration clear of {others} have no dot." if hopeless else ""
 
 

@@ -63,11 +63,11 @@ def blocks(f: Facts) -> list[Block]:
 
 def _clear(f: Facts) -> str:
     """The same where only configurations clear of the cell count, if there is one."""
-    return "" if f.a.clear is None else f", at least {interval(f.a.reached_clear())} of them clear of {f.others}"
+    return "" if f.a.clear is None else f" and at least {interval(f.a.reached_clear())} of all clear of {f.everything}"
 
 
 def _and_clear(f: Facts) -> str:
-    return "" if f.a.clear is None else f", clear of {f.others}"
+    return "" if f.a.clear is None else f", clear of {f.everything}"
 
 
 def _whole(f: Facts) -> float:
