@@ -18,7 +18,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
-from holdfast.clearance.capsules import Capsules, link_name
+from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.changes import changes_between
 from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
@@ -93,13 +93,22 @@ class Clearance:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
         self.pairs: list[Pair] = []
         self.ignored: list[IgnoredPair] = []
-        self.itself, self.cell = itself, cell
+        self.itself = itself
         if itself:
             self._choose_pairs()
-        self.obstacles = None if cell is None or not len(cell) else Obstacles(arm, self.capsules, cell)
-        seen = self.obstacles
+        self._meet(cell)
+
+    def _meet(self, cell: Cell | None) -> None:
+        seen = None if cell is None or not len(cell) else Obstacles(self.arm, self.capsules, cell)
+        self.cell, self.obstacles = cell, seen
         self.pair_names = [self._name(pair) for pair in self.pairs] + ([] if seen is None else seen.names)
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if seen is None else seen.margins])
+
+    def with_cell(self, cell: Cell | None) -> Clearance:
+        """The same clearance in another cell; the arm's own pairs are not chosen again."""
+        other = copy(self)
+        other._meet(cell)
+        return other
 
     @classmethod
     def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
@@ -126,7 +135,7 @@ class Clearance:
             low, high = links[a], links[b]
             if high - low == 1:
                 reasons[a, b] = "adjacent links"
-            elif (low, high) in self.capsules.ignore:
+            elif (low, high) in self.capsules.ignore or (min(a, b), max(a, b)) in self.capsules.apart:
                 reasons[a, b] = "to be ignored"
         open_pairs = [pair for pair in different if pair not in reasons]
         for pair, share in zip(open_pairs, self._overlaps(open_pairs), strict=True):
@@ -148,12 +157,7 @@ class Clearance:
         return np.asarray((values < 0).mean(axis=0))
 
     def _name(self, pair: Pair) -> str:
-        return " & ".join(self._label(part) for part in pair)
-
-    def _label(self, part: int) -> str:
-        links = self._links
-        name = link_name(self.arm, links[part])
-        return name if links.count(links[part]) == 1 else f"{name} ({links[: part + 1].count(links[part])})"
+        return " & ".join(self.capsules.label(self.arm, part) for part in pair)
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
