@@ -27,7 +27,7 @@ def data(html):
 def test_the_page_is_whole_and_asks_no_other_host():
     shown = arms.load("panda").show(locked=["panda_joint4"])
     html = shown.to_html()
-    check(html)
+    check(html, 1)
     assert not re.search(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}", html)
     assert len(html) < 45_000
     assert "</script" not in json.dumps(data(html))
@@ -246,3 +246,51 @@ def test_without_a_script_or_webgl_there_is_a_drawing(opened, off):
     assert not found.locator("canvas").is_visible()
     sentence = "if the browser had WebGL" if off == "webgl" else "Where JavaScript is on"
     assert sentence in found.locator(".view3d-hint").inner_text()
+
+
+def framed(shown, ground, ink, wide):
+    """A notebook or a column of the documentation that holds a view."""
+    style = f"margin: 0 auto; width: {wide}px; background: {ground}; color: {ink}"
+    return f'<!DOCTYPE html><html lang="en"><title>n</title><body style="{style}">{shown._repr_html_()}</body></html>'
+
+
+def inside(found, script):
+    return found.frames[1].evaluate(script)
+
+
+GROUND = "getComputedStyle(document.documentElement).backgroundColor"
+
+
+@pytest.mark.parametrize(("ground", "ink", "scheme", "shade"), [("#111", "#eee", "light", 20), ("#fff", "#222", "dark", 255)])
+def test_in_a_notebook_a_view_is_dark_as_the_notebook_is_whatever_the_system_is(opened, ground, ink, scheme, shade):
+    shown = arms.load("planar-3r").show()
+    found = opened(framed(shown, ground, ink, 640), color_scheme=scheme)
+    found.wait_for_function("document.querySelector('iframe').contentWindow")
+    found.frames[1].wait_for_function(f"{GROUND}.startsWith('rgb({shade},')")
+    found.evaluate(f"document.body.style.color = '{ground}'")  # another theme is chosen
+    found.frames[1].wait_for_function(f"{GROUND}.startsWith('rgb({275 - shade},')")
+
+
+@pytest.mark.parametrize("wide", [390, 690, 1000])
+def test_the_frame_of_a_view_cuts_nothing_off(opened, wide):
+    arm = arms.load("panda")
+    q = generic_configuration(arm)
+    shown = arm.show([q, q + 0.1], labels=["as it is", "best found"], locked=["panda_joint2", "panda_joint4"])
+    found = opened(framed(shown, "#fff", "#222", wide))
+    found.frames[1].wait_for_selector(".view3d-drawn")
+    tall, room = inside(found, "[document.documentElement.scrollHeight, innerHeight]")
+    assert tall <= room == shown.height
+    assert inside(found, "document.querySelector('.view3d-stage').clientHeight") > 300
+    inside(found, "document.querySelector('details').open = true")
+    assert inside(found, "document.querySelector('.view3d-stage').clientHeight") >= 258  # the arm stays beside its sliders
+
+
+def test_the_drawing_stays_until_the_view_is_drawn(opened):
+    html = arms.load("planar-3r").show().to_html().replace("<main>", '<main style="margin-top: 3000px">')
+    found = opened(html)
+    seen = "getComputedStyle(document.querySelector('.view3d-stage svg')).visibility"
+    found.wait_for_selector(".view3d-live", state="attached")
+    assert found.evaluate(seen) == "visible"  # nothing was drawn: it is out of sight
+    found.locator(".view3d-stage").scroll_into_view_if_needed()
+    found.wait_for_function(f"{seen} === 'hidden'")
+    assert painted(found)[0] > 50

@@ -265,7 +265,7 @@ class Clearance:
         rows, single = as_configurations(self.arm, q)
         values = self._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
         if self.obstacles is not None:
-            values = np.minimum(values, self.obstacles.distances(rows).min(axis=1))
+            values = np.minimum(values, self.obstacles.least(rows))
         return values[0] if single else values
 
     def by_pair(self, q: ArrayLike) -> Array:
@@ -279,7 +279,9 @@ class Clearance:
     def room(self, q: ArrayLike) -> Array:
         """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
         rows, single = as_configurations(self.arm, q)
-        values = self.nearest(rows)[0] if self.margins.any() else self(rows)
+        values = self._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
+        if self.obstacles is not None:
+            values = np.minimum(values, self.obstacles.room(rows))
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:

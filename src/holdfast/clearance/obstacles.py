@@ -6,6 +6,8 @@ blocks, which share the positions of the spheres; a cell that changed compiles n
 
 from __future__ import annotations
 
+from functools import reduce
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -95,8 +97,8 @@ class Obstacles:
                     f"if it is mounted there, add may_touch: [[{solid.name}, base]]"
                 )
 
-    def _blocks(self, margins: bool = False) -> list[Array]:
-        """(BLOCK (18 + L),) what the kernels take for each block of objects: their numbers, and what is added for each link.
+    def _blocks(self, margins: bool) -> Array:
+        """(B, BLOCK, 18 + L) what the kernels take for each block of objects: their numbers, and what is added for each link.
 
         Args:
             margins: Every object is larger by what is kept from it.
@@ -109,7 +111,15 @@ class Obstacles:
         nothing = np.zeros(NUMBERS + len(self.links))
         nothing[-len(self.links) :] = _NOWHERE
         rows += [nothing] * (-len(rows) % BLOCK)
-        return [np.stack(rows[at : at + BLOCK]) for at in range(0, len(rows), BLOCK)]
+        return np.stack(rows).reshape(-1, BLOCK, len(nothing))
+
+    @cached_property
+    def _bare(self) -> Array:
+        return self._blocks(margins=False)
+
+    @cached_property
+    def _kept_from(self) -> Array:
+        return self._blocks(margins=True)
 
     @cached_property
     def _distance_kernel(self) -> Kernel:
@@ -127,25 +137,39 @@ class Obstacles:
         Args:
             q: (N, n) rad and m; a row that is not finite gets NaN and pair -1.
         """
-        rooms, pairs, slopes = [], [], []
-        for number, block in enumerate(self._blocks(margins=True)):
-            rows = self._nearest_kernel.rows(q, block)
-            known = np.isfinite(rows[:, 0])
-            at = np.where(known, rows[:, 1], 0).astype(np.int64)
-            thing = np.minimum(number * BLOCK + np.where(known, rows[:, 2], 0).astype(np.int64), len(self.cell) - 1)
-            rooms.append(rows[:, 0])
-            pairs.append(np.where(known, at * len(self.cell) + thing, -1))
-            slopes.append(rows[:, 3:])
-        room = np.stack(rooms)
-        first, each = np.argmin(np.where(np.isnan(room), -np.inf, room), axis=0), np.arange(len(q))
-        return room[first, each], np.stack(pairs)[first, each], np.stack(slopes)[first, each]
+        rows = np.stack(self._by_block(self._nearest_kernel, q, self._kept_from))
+        block = np.argmin(rows[:, :, 0], axis=0)  # NaN is in all of them or in none
+        best = rows[block, np.arange(len(q))]
+        count = len(self.cell)
+        thing = np.minimum(block * BLOCK + best[:, 2], count - 1)  # where all may touch, an object that is not there
+        pair = best[:, 1] * count + thing
+        return best[:, 0], np.where(np.isnan(pair), -1, pair).astype(np.int64), best[:, 3:]
+
+    def room(self, q: Array) -> Array:
+        """(N,) the least distance beyond what each pair keeps, m."""
+        return self._least(q, self._kept_from)
+
+    def least(self, q: Array) -> Array:
+        """(N,) the least distance, m."""
+        return self._least(q, self._bare)
+
+    def _least(self, q: Array, blocks: Array) -> Array:
+        return reduce(np.minimum, [rows[:, 0] for rows in self._by_block(self._distance_kernel, q, blocks, first=1)])
 
     def distances(self, q: Array) -> Array:
         """(N, L K) lower bound of the distance of every pair, m; about 1e9 m where a pair may touch."""
-        rows, count = [], len(self.links)
-        for block in self._blocks():
-            rows.append(self._distance_kernel.rows(q, block).reshape(len(q), count, BLOCK))
-        return np.concatenate(rows, axis=2)[:, :, : len(self.cell)].reshape(len(q), -1)
+        links, count = len(self.links), len(self.cell)
+        out = np.empty((len(q), links, count))
+        for number, rows in enumerate(self._by_block(self._distance_kernel, q, self._bare)):
+            some = out[:, :, number * BLOCK : (number + 1) * BLOCK]
+            some[...] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : some.shape[2]]
+        return out.reshape(len(q), -1)
+
+    def _by_block(self, kernel: Kernel, q: Array, blocks: Array, first: int | None = None) -> list[Array]:
+        """(N, outputs) of each block."""
+        if len(q) == 1:  # one call: the blocks are its rows
+            return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=first)[:, None])
+        return [kernel.rows(q, block, first=first) for block in blocks]
 
     def changes(self, low: Array, high: Array) -> Array:
         """(L K, n) bounds of how much the distance of each pair changes per rad and m of each joint within a box.

@@ -102,11 +102,19 @@ def with_library(html: str) -> str:
     return f"{before}<script>{template('viewer.js').strip()}</script>\n</body>{after}"
 
 
+# In a notebook: light or dark as the notebook is, which the frame around the page says.
+_GROUND = """<script>
+addEventListener("message", ({ data, source }) => {
+  if (source === parent && typeof data?.dark === "boolean") document.documentElement.style.colorScheme = data.dark ? "dark" : "light";
+});
+</script>"""
+
+
 def page(view: Markup, title: str) -> str:
-    """A page that holds a view and nothing else, as wide as its window, light or dark as the reader has it."""
+    """A page that holds a view and nothing else, as large as its window, light or dark as the reader or the notebook has it."""
     return with_library(
         '<!DOCTYPE html>\n<html lang="en" class="view3d-page">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n</head>\n'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n{_GROUND}\n</head>\n'
         f"<body>\n<main>\n<h1>{escape(title)}</h1>\n{view}\n</main>\n</body>\n</html>\n"
     )
 
