@@ -28,8 +28,9 @@ class Field:
     """A lower bound of a signed distance, from its values at the nodes of a grid.
 
     A signed distance changes by at most 1 m per m, so what is between the nodes differs from their mean, weighted as trilinear
-    interpolation does, by at most half a diagonal of the grid's cubes: the bound is that mean less this. For a point p beyond the grid
-    and the nearest point b in its box, ``|p - s|^2 >= |p - b|^2 + |b - s|^2`` for every s in the box, as that is convex.
+    interpolation does, by at most half a diagonal of the grid's cubes: the bound is that mean less this. For a point p beyond
+    the grid and b, the nearest to it in the grid's box, ``|p - s|^2 >= |p - b|^2 + |b - s|^2`` for all s in it, as it is
+    convex.
 
     Attributes:
         grid: The nodes, in the object's own frame.
