@@ -70,6 +70,30 @@ def test_bad_input_gets_a_sentence(options, sentence):
         scene(arms.load("panda"), **options)
 
 
+@pytest.mark.parametrize("turn", [0.0, 1.2])
+def test_objects_of_a_cell_are_drawn_where_they_are(turn):
+    pose = np.eye(4)
+    pose[:3, 3] = 0.6, -0.2, 0.4
+    base = np.eye(4)
+    base[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    base[:3, 3] = 0.1, 0.2, 0.3
+    solids = [
+        hf.cell.Box("box", [0.2, 0.3, 0.4], pose=pose),
+        hf.cell.Cylinder("cylinder", 0.1, 0.4, pose=pose),
+        hf.cell.Capsule("capsule", 0.1, 0.4, pose=pose),
+        hf.cell.Sphere("sphere", 0.2, pose=pose),
+    ]
+    shown = scene(arms.load("panda").with_base(base), cell=hf.Cell(solids))
+    assert [x["name"] for x in shown.data["objects"]] == ["box", "cylinder", "capsule", "sphere"]
+    for solid, corners in zip(solids, shown.around, strict=True):
+        outside = solid.signed_distance(corners)
+        assert np.abs(outside).min() < 1e-9  # its corners are on its surface
+        assert outside.max() < 1e-9
+        np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, pose[:3, 3], atol=0.002)
+    drawn = viewer.drawing(shown, "a cell")
+    assert drawn.count("<polygon") == len(solids)
+
+
 def test_meshes_are_thinned_and_packed(rng):
     t = np.linspace(0, np.pi, 120)
     around = np.linspace(0, 2 * np.pi, 240)

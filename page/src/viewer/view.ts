@@ -206,6 +206,7 @@ export class View {
       });
     }
     labels.push(...this.jointLabels(places[0], paint.ink, failed));
+    if (this.names) labels.push(...scene.objects.map(({ name, at }) => ({ text: name, at, color: paint.soft })));
     this.write(onto, labels, matrix, ratio, paint.paper);
     onto.font = `${12 * ratio}px Arial, Helvetica, "Liberation Sans", sans-serif`;
     onto.fillStyle = css(paint.soft);

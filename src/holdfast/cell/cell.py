@@ -7,11 +7,12 @@ import json
 import os
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from holdfast.arguments import checked, checked_class
 from holdfast.caching import cached_property
@@ -69,6 +70,22 @@ class Cell:
 
     def __len__(self) -> int:
         return len(self.objects)
+
+    def with_poses(self, poses: Mapping[str, ArrayLike]) -> Cell:
+        """The same cell with some of its objects elsewhere.
+
+        Args:
+            poses: (4, 4) in the world, m, by the name of the object.
+
+        Raises:
+            InputError: It has no such object.
+        """
+        names = [solid.name for solid in self.objects]
+        lost = next((name for name in poses if name not in names), None)
+        if lost is not None:
+            raise InputError(f"cell '{self.name}' has no object '{lost}'; it has {', '.join(names)}")
+        moved = [x.moved_to(poses[x.name]) if x.name in poses else x for x in self.objects]
+        return replace(self, objects=moved)
 
     def __str__(self) -> str:
         kinds = Counter(type(solid).__name__ for solid in self.objects)

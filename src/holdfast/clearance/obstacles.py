@@ -7,6 +7,7 @@ up in their grids (:mod:`holdfast.clearance.gridded`).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
@@ -28,7 +29,26 @@ from holdfast.kernels.kernel import Kernel
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+_STEP = 1e-6  # m: for the direction away from an object
 _NOWHERE = 1e9  # m: how far away is what is not looked at
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Gap:
+    """Where an arm comes nearest to an object.
+
+    Attributes:
+        pair: Position in ``pairs`` of the obstacles.
+        distance: m, of the cover of the arm: at most the true one.
+        room: m, the distance less what must be kept.
+        on_arm, on_object: (3,) the two points in the world, m; the first on the sphere that covers the link there.
+    """
+
+    pair: int
+    distance: float
+    room: float
+    on_arm: Array
+    on_object: Array
 
 
 class Obstacles:
@@ -203,6 +223,27 @@ class Obstacles:
         if len(q) == 1:  # one call: the blocks are its rows
             return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=first)[:, None])
         return [kernel.rows(q, block, first=first) for block in blocks]
+
+    def gap(self, q: Array) -> Gap:
+        """What is nearest at one configuration (n,), once every pair has what it must keep."""
+        room, pair, _ = (x[0] for x in self.nearest(q[None]))
+        link, k = self.pairs[pair]
+        solid, some = self.cell.objects[k], self.balls.link == link
+        pose = self.arm.frames(q)[link + 1]
+        centres = self.balls.centre[some] @ pose[:3, :3].T + pose[:3, 3]
+        away = solid.signed_distance(centres)
+        ball = int((away - self.balls.radius[some]).argmin())
+        point = centres[ball]
+        around = point + _STEP * np.concatenate([np.eye(3), -np.eye(3)])
+        rise = np.subtract(*np.split(solid.signed_distance(around), 2))
+        outward = rise / max(float(np.linalg.norm(rise)), 1e-300)
+        return Gap(
+            pair=int(pair),
+            distance=float(room + self.margins[pair]),
+            room=float(room),
+            on_arm=point - self.balls.radius[some][ball] * outward,
+            on_object=point - away[ball] * outward,
+        )
 
     def changes(self, low: Array, high: Array) -> Array:
         """(L K, n) bounds of how much the distance of each pair changes per rad and m of each joint within a box.

@@ -260,15 +260,14 @@ def _show_clearance(result: Assessment, out: Console) -> None:
     """How often the arm collides with itself."""
     from rich.markup import escape
 
-    from holdfast.clearance.clearance import too_close
-
     found, clearance = result.collisions, result.plan.clearance
     if found is None or clearance is None or not found.reached:
         return
     whole = found.reached
     text = f"the arm collides with itself in {found.found / whole:.1%} of the {whole} configurations found"
     if result.optimised is not None:
-        text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {too_close(found.margin)}"
+        close = clearance.too_close(found.margin)
+        text += f"; at the best configuration of {found.blocked / whole:.1%} of the reached poses it {close}"
         text += ", so one that is clear was chosen instead" if found.blocked else ""
         if found.hopeless:
             text += f", but {found.hopeless} ({found.hopeless / whole:.1%}) have no clear one and count as failed"

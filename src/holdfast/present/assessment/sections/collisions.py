@@ -6,7 +6,7 @@ from collections import Counter
 
 import numpy as np
 
-from holdfast.clearance.clearance import Clearance, too_close
+from holdfast.clearance.clearance import Clearance
 from holdfast.present.assessment.facts import Facts
 from holdfast.report.page import Block, Callout, Table, Text
 from holdfast.words import counted, percent, share
@@ -34,7 +34,7 @@ def blocks(f: Facts) -> list[Block]:
         blocks.append(Callout(text))
     facts = [("Configurations found that bring the arm into collision with itself", share(found.found, found.reached))]
     if f.a.optimised is not None:
-        close = too_close(found.margin)
+        close = clearance.too_close(found.margin)
         facts += [
             (f"Poses at whose best configuration the arm {close}", share(found.blocked, found.reached)),
             ("… and one that is clear was chosen instead", share(found.blocked - found.hopeless, found.reached)),
