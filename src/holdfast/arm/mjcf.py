@@ -99,7 +99,7 @@ def load(
         arm = _arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
         return replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
     except ArmError as error:
-        raise ArmError(f"{path.name}: {error}") from error
+        raise ArmError(f"{path.name}: {error}", tip=error.tip) from error
 
 
 def compiled_tree(path: Path) -> tuple[Any, Tree]:
