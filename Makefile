@@ -41,7 +41,7 @@ $(VENV)/test.stamp $(VENV)/docs.stamp: $(VENV)/%.stamp: requirements-%.lock $(VE
 
 # Where the system has no Chromium and Playwright's cannot be had, the tests say so at their end.
 $(VENV)/browser.stamp: $(VENV)/test.stamp
-	@command -v chromium > /dev/null || command -v google-chrome > /dev/null || $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
+	@for name in chromium-headless-shell chromium google-chrome; do command -v $$name > /dev/null && exit; done; $(BIN)/playwright install --only-shell chromium > /dev/null 2>&1 || true
 	@touch $@
 
 demo: $(VENV)/run.stamp  ## Set up, then assess the arm of the paper over its region and write demo/report.html.

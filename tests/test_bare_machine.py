@@ -15,7 +15,7 @@ from packaging.utils import canonicalize_name
 import slow
 
 ROOT = Path(__file__).parents[1]
-LOCKS = {"run": ["requirements.lock"]}
+LOCKS = {"run": ["requirements.lock"], "uv": ["requirements-uv.lock"]}
 LOCKS |= {group: ["requirements.lock", f"requirements-{group}.lock"] for group in ("test", "docs")}
 PROBE = """
 import chromium
