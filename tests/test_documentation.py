@@ -14,7 +14,8 @@ import typer
 
 from holdfast.cli.program import COMMANDS
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "docs" / "_ext"))
+DOCS = Path(__file__).parents[1] / "docs"
+sys.path.insert(0, str(DOCS / "_ext"))
 commands, equations = pytest.importorskip("commands"), pytest.importorskip("equations")
 
 
@@ -83,3 +84,15 @@ def test_an_equation_is_found_by_its_number_in_any_spelling():
     assert ":py:obj:`holdfast.control.Deviations.peak_velocity_error`" in of_a_module
     spelled = {text.lower() for text in equations.spellings("English1998", 12)}
     assert spelled >= {"english 1998 eq. 12", "english 1998 eq. (12)", "english and maciejewski 1998 equation 12", "eq. (12)"}
+
+
+def test_the_how_to_pages_name_the_page_that_a_command_writes():
+    said = "\n\n".join(p.read_text() for p in sorted((DOCS / "how-to").glob("*.md"))).split("\n\n")
+    silent = []
+    for name in COMMANDS:
+        for called, function in functions(name).items():
+            told = get_type_hints(function, include_extras=True).get("out")
+            text = next((x.help or "" for x in get_args(told)[1:] if isinstance(x, typer.models.OptionInfo)), "")
+            if "report" in text and not any("--out" in part and re.search(rf"holdfast {called}\b(?!-)", part) for part in said):
+                silent.append(called)
+    assert not silent, f"say in docs/how-to what the page of --out shows: {', '.join(silent)}"

@@ -90,6 +90,7 @@ _ALIASES = {
     "LockedValues": "Mapping",
     "Limits": "ArrayLike | Mapping[str | int, ArrayLike]",
     "TaskSpec": "str | Task | Sequence[str]",
+    "CellLike": "Cell | str | Path",
     "Array": "ArrayLike",
     "Progress": "Callable",
     **dict.fromkeys(("JointType", "Method", "MetricName", "Over", "RelativeTo", "Sampling"), "str"),

@@ -97,8 +97,8 @@ def on_one_line(text: str, most: int = 60) -> str:
 
 
 def counted(count: int, noun: str) -> str:
-    """``1 pose``, ``2 poses``."""
-    return f"{count:,} {noun}" + ("" if count == 1 else "s")
+    """``1 pose``, ``2 poses``, ``2 boxes``."""
+    return f"{count:,} {noun}" + ("" if count == 1 else "es" if noun.endswith(("x", "sh")) else "s")
 
 
 def duration(seconds: float) -> str:

@@ -86,3 +86,49 @@ def test_the_command_follows_the_rest_of_a_path(cli, tmp_path):
 )
 def test_the_command_refuses_in_one_sentence(refused, call, sentence):
     assert sentence in refused(*call)
+
+
+CELL = """
+name: bench
+objects:
+  post: {sphere: 0.2, pose: {xyz: [0.62, 2.32, 0]}}
+  far: {box: [0.2, 0.2, 0.2], pose: {xyz: [-2, -2, 0]}}
+"""
+
+
+def test_the_command_keeps_clear_of_a_cell_and_a_replay_sees_it(cli, tmp_path):
+    cell, ways = tmp_path / "bench.yaml", [tmp_path / "through.csv", tmp_path / "round.csv"]
+    cell.write_text(CELL)
+    call = ["recover", "planar-3r", "--lock", "2", "--at", "10 30 40", "--degrees", "--goal", "q:70 30 40", "--samples", "0"]
+    assert cli(*call, "--csv", ways[0])[0] == 0
+    locked = (
+        "recover",
+        "planar-3r",
+        "--lock",
+        "2=30",
+        "--degrees",
+        "--cell",
+        cell,
+        "--radius",
+        0.03,
+        "--no-clearance",
+        "--check",
+    )
+    code, text, _ = cli(*locked, ways[0])
+    assert code == 3
+    assert "& post, margin 0 m): NOT KEPT" in text
+    code, text, err = cli(*call, "--cell", cell, "--radius", 0.03, "--no-clearance", "--csv", ways[1], "--json")
+    assert (code, err) == (0, "")
+    data = json.loads(text)
+    assert data["clearance"]["cell"] == {
+        "name": "bench",
+        "sha256": hf.Cell.load(cell).digest,
+        "objects": ["post", "far"],
+        "margin_m": 0.0,
+        "distances": "bound",
+    }
+    assert data["check"]["closest"].endswith("& post")
+    assert data["check"]["least_room_m"] >= 0
+    code, text, _ = cli(*locked, ways[1])
+    assert (code, "kept" in text) == (0, True)
+    assert len(read_waypoints(hf.arms.load("planar-3r"), ways[1])) > 2

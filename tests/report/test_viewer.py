@@ -27,7 +27,7 @@ def data(html):
 def test_the_page_is_whole_and_asks_no_other_host():
     shown = arms.load("panda").show(locked=["panda_joint4"])
     html = shown.to_html()
-    check(html)
+    check(html, 1)
     assert not re.search(r"(?:https?:)?//[a-z0-9-]+\.[a-z]{2,}", html)
     assert len(html) < 45_000
     assert "</script" not in json.dumps(data(html))
@@ -68,6 +68,30 @@ def test_a_file_is_written_whole(tmp_path):
 def test_bad_input_gets_a_sentence(options, sentence):
     with pytest.raises(InputError, match=sentence):
         scene(arms.load("panda"), **options)
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.2])
+def test_objects_of_a_cell_are_drawn_where_they_are(turn):
+    pose = np.eye(4)
+    pose[:3, 3] = 0.6, -0.2, 0.4
+    base = np.eye(4)
+    base[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    base[:3, 3] = 0.1, 0.2, 0.3
+    solids = [
+        hf.cell.Box("box", [0.2, 0.3, 0.4], pose=pose),
+        hf.cell.Cylinder("cylinder", 0.1, 0.4, pose=pose),
+        hf.cell.Capsule("capsule", 0.1, 0.4, pose=pose),
+        hf.cell.Sphere("sphere", 0.2, pose=pose),
+    ]
+    shown = scene(arms.load("panda").with_base(base), cell=hf.Cell(solids))
+    assert [x["name"] for x in shown.data["objects"]] == ["box", "cylinder", "capsule", "sphere"]
+    for solid, corners in zip(solids, shown.around, strict=True):
+        outside = solid.signed_distance(corners)
+        assert np.abs(outside).min() < 1e-9  # its corners are on its surface
+        assert outside.max() < 1e-9
+        np.testing.assert_allclose((corners.min(axis=0) + corners.max(axis=0)) / 2, pose[:3, 3], atol=0.002)
+    drawn = viewer.drawing(shown, "a cell")
+    assert drawn.count("<polygon") == len(solids)
 
 
 def test_meshes_are_thinned_and_packed(rng):
@@ -246,3 +270,51 @@ def test_without_a_script_or_webgl_there_is_a_drawing(opened, off):
     assert not found.locator("canvas").is_visible()
     sentence = "if the browser had WebGL" if off == "webgl" else "Where JavaScript is on"
     assert sentence in found.locator(".view3d-hint").inner_text()
+
+
+def framed(shown, ground, ink, wide):
+    """A notebook or a column of the documentation that holds a view."""
+    style = f"margin: 0 auto; width: {wide}px; background: {ground}; color: {ink}"
+    return f'<!DOCTYPE html><html lang="en"><title>n</title><body style="{style}">{shown._repr_html_()}</body></html>'
+
+
+def inside(found, script):
+    return found.frames[1].evaluate(script)
+
+
+GROUND = "getComputedStyle(document.documentElement).backgroundColor"
+
+
+@pytest.mark.parametrize(("ground", "ink", "scheme", "shade"), [("#111", "#eee", "light", 20), ("#fff", "#222", "dark", 255)])
+def test_in_a_notebook_a_view_is_dark_as_the_notebook_is_whatever_the_system_is(opened, ground, ink, scheme, shade):
+    shown = arms.load("planar-3r").show()
+    found = opened(framed(shown, ground, ink, 640), color_scheme=scheme)
+    found.wait_for_function("document.querySelector('iframe').contentWindow")
+    found.frames[1].wait_for_function(f"{GROUND}.startsWith('rgb({shade},')")
+    found.evaluate(f"document.body.style.color = '{ground}'")  # another theme is chosen
+    found.frames[1].wait_for_function(f"{GROUND}.startsWith('rgb({275 - shade},')")
+
+
+@pytest.mark.parametrize("wide", [390, 690, 1000])
+def test_the_frame_of_a_view_cuts_nothing_off(opened, wide):
+    arm = arms.load("panda")
+    q = generic_configuration(arm)
+    shown = arm.show([q, q + 0.1], labels=["as it is", "best found"], locked=["panda_joint2", "panda_joint4"])
+    found = opened(framed(shown, "#fff", "#222", wide))
+    found.frames[1].wait_for_selector(".view3d-drawn")
+    tall, room = inside(found, "[document.documentElement.scrollHeight, innerHeight]")
+    assert tall <= room == shown.height
+    assert inside(found, "document.querySelector('.view3d-stage').clientHeight") > 300
+    inside(found, "document.querySelector('details').open = true")
+    assert inside(found, "document.querySelector('.view3d-stage').clientHeight") >= 258  # the arm stays beside its sliders
+
+
+def test_the_drawing_stays_until_the_view_is_drawn(opened):
+    html = arms.load("planar-3r").show().to_html().replace("<main>", '<main style="margin-top: 3000px">')
+    found = opened(html)
+    seen = "getComputedStyle(document.querySelector('.view3d-stage svg')).visibility"
+    found.wait_for_selector(".view3d-live", state="attached")
+    assert found.evaluate(seen) == "visible"  # nothing was drawn: it is out of sight
+    found.locator(".view3d-stage").scroll_into_view_if_needed()
+    found.wait_for_function(f"{seen} === 'hidden'")
+    assert painted(found)[0] > 50

@@ -462,7 +462,7 @@ def test_the_share_of_agreeing_starts_after_a_start_of_infinite_value(flat4):
     ascent = objective_ascent(index)
     reach = replace(ascent.engine.solve(poses, np.random.SeedSequence(1), 100, TOLERANCE), q=folded)
     owner, q = ascent._started(poses, reach, np.random.SeedSequence(2), 8, TOLERANCE)
-    owner, q, _ = ascent._followed(ascent._step, owner, q, poses, TOLERANCE, clear=False)
+    owner, q, _ = ascent._followed(owner, q, poses, TOLERANCE, clear=False)
     close = index(q) <= found.value[owner] * (1 + 1e-3)
     np.testing.assert_array_equal(found.agreeing, [close[owner == k].mean() for k in range(2)])
     assert (found.agreeing < 1).any()

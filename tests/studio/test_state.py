@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 import socket
+from pathlib import Path
 from urllib.request import urlopen
 
 import numpy as np
@@ -15,6 +16,8 @@ import holdfast as hf
 from holdfast.cli.program import assembled
 from holdfast.studio import State, serve, server
 from holdfast.studio.motions import read_motion
+
+BENCH = Path(__file__).parents[2] / "examples" / "cells" / "bench.yaml"
 
 
 @pytest.fixture
@@ -32,8 +35,8 @@ def opened(monkeypatch):
         def wait(self):
             return None
 
-    def fake(arm, state, host, port, task, ready):
-        calls.append((arm, state, host, port, task))
+    def fake(arm, state, host, port, task, cell, ready):
+        calls.append((arm, state, host, port, task, cell))
         ready("http://127.0.0.1:1")
         return Page()
 
@@ -66,6 +69,8 @@ def test_a_state_comes_back_from_its_command_line(opened, tmp_path, rng):
         show="laws",
         region=str(folder),
         time=1.25,
+        cell=str(BENCH),
+        moved=(("lamp", (0.1, 0.2, 0.3, 0.0, 0.0, 0.0, 1.0)),),
     )
     run(state.to_command())
     found = opened[0][1]
@@ -75,7 +80,7 @@ def test_a_state_comes_back_from_its_command_line(opened, tmp_path, rng):
 
 def test_defaults_are_the_home_of_the_arm_and_this_machine(opened):
     output = run("holdfast studio pa10-9dof")
-    arm, state, host, port, task = opened[0]
+    _, state, host, port, task, cell = opened[0]
     assert host == "127.0.0.1"
     assert port == 8123
     assert state.q == hf.arms.about("pa10-9dof").home
@@ -84,7 +89,7 @@ def test_defaults_are_the_home_of_the_arm_and_this_machine(opened):
     assert re.search(r"Open http://\S+ in a browser", output)
     run(state.to_command())
     assert opened[1][1] == state
-    del arm
+    assert cell is None
 
 
 @pytest.mark.parametrize(

@@ -65,6 +65,8 @@ export interface Scene extends Chain {
   boxes: { low: Vector; high: Vector }[];
   points: Vector[];
   colors: Vector[];
+  /** What the objects around the arm are called, and where. */
+  objects: { name: string; at: Vector }[];
   lost: Lost[];
   sliders: boolean;
   camera: { azimuth: number; elevation: number; center: Vector; radius: number };

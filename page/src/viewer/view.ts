@@ -105,9 +105,9 @@ export class View {
       this.waiting = 0;
       if (!this.visible) return;
       try {
-        this.paint();
+        if (this.paint()) this.box.classList.add("view3d-drawn"); // the drawing goes once there is something in its place
       } catch {
-        this.box.classList.remove("view3d-live"); // the graphics card is gone: the drawing is there
+        this.box.classList.remove("view3d-live", "view3d-drawn"); // the graphics card is gone: the drawing is there
       }
     });
   }
@@ -124,12 +124,13 @@ export class View {
     return !time.length || between(time.map((t) => [t]), this.at)[0] >= from - 1e-9 ? "locked" : null;
   }
 
-  private paint(): void {
+  /** Whether there was room and something to draw on. */
+  private paint(): boolean {
     const { canvas, scene, camera } = this;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
     const onto = canvas.getContext("2d");
-    if (!width || !height || !onto) return;
+    if (!width || !height || !onto) return false;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     if (this.names === null) {
       // Several arms, or a phone, leave too little room; how wide it is a page knows only now.
@@ -205,11 +206,13 @@ export class View {
       });
     }
     labels.push(...this.jointLabels(places[0], paint.ink, failed));
+    if (this.names) labels.push(...scene.objects.map(({ name, at }) => ({ text: name, at, color: paint.soft })));
     this.write(onto, labels, matrix, ratio, paint.paper);
     onto.font = `${12 * ratio}px Arial, Helvetica, "Liberation Sans", sans-serif`;
     onto.fillStyle = css(paint.soft);
     onto.textAlign = "left";
     onto.fillText(`grid ${Number(cell(2 * scene.size).toPrecision(1))} m`, 8 * ratio, height - 9 * ratio);
+    return true;
   }
 
   /** Names of joints; those at one place share a label. */
@@ -259,7 +262,7 @@ export class View {
       const free = tries.find((place) => {
         const [a, b, c, d] = box(place);
         const inside = a >= 0 && c <= width && b >= 0 && d <= height;
-        return inside && taken.every(([x, y, z, w]) => c < x || a > z || d < y || b > w);
+        return inside && taken.every(([x, y, z, w]) => c + tall < x || a > z + tall || d < y || b > w); // side by side two would read as one
       });
       const chosen = free ?? (label.strong ? [Math.min(Math.max(tries[0][0], 0), width - long), tries[0][1]] : null);
       if (!chosen) continue;

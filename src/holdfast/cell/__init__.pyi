@@ -1,4 +1,8 @@
 from holdfast.cell.cell import Cell as Cell
+from holdfast.cell.cell import as_cell as as_cell
+from holdfast.cell.meshes import Mesh as Mesh
+from holdfast.cell.meshes import Points as Points
+from holdfast.cell.meshes import Source as Source
 from holdfast.cell.solids import Box as Box
 from holdfast.cell.solids import Capsule as Capsule
 from holdfast.cell.solids import Cylinder as Cylinder

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import KW_ONLY, dataclass
+import hashlib
+import json
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
+from pathlib import Path
+from typing import Any
 
-from holdfast.arguments import checked_class
+import numpy as np
+from numpy.typing import ArrayLike
+
+from holdfast.arguments import checked, checked_class
+from holdfast.arms.catalogue import outermost
+from holdfast.caching import cached_property
+from holdfast.cell.meshes import Mesh, Points, Source
 from holdfast.cell.solids import Solid
-from holdfast.errors import InputError
+from holdfast.errors import ArmError, InputError
+from holdfast.words import counted
 
 
 @checked_class
@@ -20,9 +33,15 @@ class Cell:
         name: For people and files.
         margin: What an arm keeps from each of them at least, m.
         may_touch: Pairs of an object and a link, by the joint that moves it or ``base``, that are not checked.
+        held: What moves with the tool, as a part in the gripper: boxes, cylinders, capsules and spheres with their poses in the
+            tool's frame.
+        shape: Of the arm in this cell: ``meshes`` of its own file, ``assumed`` capsules along its links, or a capsule file; the
+            best that there is if empty.
+        spheres_to: How far the spheres that cover the arm may reach beyond it, m; None for what is usual.
+        hold: Where joints outside the arm's chain are, rad or m, by name.
 
     Raises:
-        InputError: Two objects of one name, or a margin that is no length.
+        InputError: Two objects of one name, or a margin below 0 or not finite.
     """
 
     objects: Sequence[Solid]
@@ -30,10 +49,18 @@ class Cell:
     name: str = "cell"
     margin: float = 0.0
     may_touch: Sequence[tuple[str, str]] = ()
+    held: Sequence[Solid] = ()
+    shape: str = ""
+    spheres_to: float | None = None
+    hold: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))
         object.__setattr__(self, "may_touch", tuple((a, b) for a, b in self.may_touch))
+        object.__setattr__(self, "held", tuple(self.held))
+        object.__setattr__(self, "hold", dict(self.hold))
+        if not 0 <= self.margin < float("inf"):
+            raise InputError(f"the margin of cell '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
         names = [solid.name for solid in self.objects]
         double = next((name for k, name in enumerate(names) if name in names[:k]), None)
         if double is not None:
@@ -45,6 +72,242 @@ class Cell:
     def __len__(self) -> int:
         return len(self.objects)
 
+    def with_poses(self, poses: Mapping[str, ArrayLike]) -> Cell:
+        """The same cell with some of its objects elsewhere.
+
+        Args:
+            poses: (4, 4) in the world, m, by the name of the object.
+
+        Raises:
+            InputError: It has no such object.
+        """
+        names = [solid.name for solid in self.objects]
+        lost = next((name for name in poses if name not in names), None)
+        if lost is not None:
+            raise InputError(f"cell '{self.name}' has no object '{lost}'; it has {', '.join(names)}")
+        moved = [x.moved_to(poses[x.name]) if x.name in poses else x for x in self.objects]
+        return replace(self, objects=moved)
+
+    def __str__(self) -> str:
+        kinds = Counter(type(solid).__name__ for solid in self.objects)
+        said = ", ".join(counted(count, _KINDS.get(kind, kind)) for kind, count in kinds.items())
+        return f"cell '{self.name}': {said or 'no objects'}" + (f"; margin {self.margin:g} m" if self.margin else "")
+
     def margin_of(self, solid: Solid) -> float:
         """What is kept from an object, m: the larger of its own margin and the cell's."""
         return max(self.margin, solid.margin)
+
+    # ---- files -------------------------------------------------------------------------------------------------
+
+    @classmethod
+    @checked
+    def load(cls, path: str | Path) -> Cell:
+        """The cell in a file: YAML, see :mod:`holdfast.cell.cell_file`; or a URDF or MJCF file, which its content tells.
+
+        Of a URDF or MJCF file with several ends, :meth:`from_urdf` and :meth:`from_mjcf` take the one that is the arm's.
+
+        Raises:
+            InputError: The file cannot be read, or an entry is wrong; the sentence says where.
+            HoldfastError: It needs an extra that is not installed.
+        """
+        from holdfast.cell import cell_file
+
+        path = Path(path)
+        if path.suffix.lower() in _XML:
+            return cls.from_mjcf(path) if outermost(str(path)) == "mujoco" else cls.from_urdf(path)
+        try:
+            return cls.from_dict(cell_file.read(path), path.parent)
+        except (InputError, ArmError) as error:
+            raise cell_file.refused(path, error) from error
+
+    @classmethod
+    @checked
+    def from_urdf(
+        cls,
+        path: str | Path,
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        hold: Mapping[str, float] | None = None,
+        meshes: str | Path | None = None,
+    ) -> Cell:
+        """What a URDF file holds beside an arm: the ``<collision>`` of every link that does not move with it.
+
+        The links from ``base`` to the first joint that moves are the arm's. Poses are in the frame of ``base``, as those of the
+        arm that :meth:`holdfast.Arm.from_urdf` reads with the same arguments. A mesh that is not closed becomes its hull. What
+        the base touches it may touch: neither moves.
+
+        Args:
+            path: The file.
+            base: Link on which the arm is mounted; the root if not given.
+            tip: Link whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_urdf`; not needed if nothing moves.
+            hold: Value, rad or m, at which joints are held that are not the arm's.
+            meshes: Folder with the files of meshes, if they are not where the file says.
+
+        Raises:
+            InputError: The file cannot be read, has no such links, or a shape that cannot be read.
+        """
+        from holdfast.cell import cell_file, surroundings
+
+        try:
+            folder = None if meshes is None else Path(meshes)
+            return cls(**surroundings.from_urdf(Path(path), base, tip, hold or {}, folder))
+        except (InputError, ArmError) as error:
+            raise cell_file.refused(Path(path), error) from error
+
+    @classmethod
+    @checked
+    def from_mjcf(
+        cls, path: str | Path, base: str | None = None, tip: str | None = None, *, hold: Mapping[str, float] | None = None
+    ) -> Cell:
+        """What an MJCF file holds beside an arm: the colliding geoms of the world and of bodies that do not move with it.
+
+        The bodies from ``base`` to the first joint that moves are the arm's, but for the world. A mesh is its hull, as MuJoCo
+        has it. What the base touches it may touch: neither moves. Needs ``holdfast[physics]``.
+
+        Args:
+            path: The file.
+            base: Body on which the arm is mounted; ``world`` if not given.
+            tip: Body whose frame is the arm's tool, as for :meth:`holdfast.Arm.from_mjcf`; not needed if nothing moves.
+            hold: Value, rad or m, at which joints are held that are not the arm's.
+
+        Raises:
+            InputError: MuJoCo cannot read the file, it has no such bodies, or a geom of which no distance is known.
+            HoldfastError: MuJoCo is not installed.
+        """
+        from holdfast.cell import cell_file, surroundings
+
+        try:
+            return cls(**surroundings.from_mjcf(Path(path), base, tip, hold or {}))
+        except (InputError, ArmError) as error:
+            raise cell_file.refused(Path(path), error) from error
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any], folder: str | Path = ".") -> Cell:
+        """The cell that :meth:`to_dict` wrote, or that of a file's keys and values.
+
+        Args:
+            data: The keys and values.
+            folder: Where the files are that it names.
+
+        Raises:
+            InputError: An entry is wrong; the sentence says where.
+        """
+        from holdfast.cell import cell_file
+
+        return cls(**cell_file.parse(data, Path(folder)))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as JSON types: a file's keys and values, files by their whole paths.
+
+        Raises:
+            InputError: An object of a kind of your own, which no file can hold.
+        """
+        from holdfast.cell import cell_file
+
+        data: dict[str, Any] = {"name": self.name} | ({"margin": float(self.margin)} if self.margin else {})
+        data["objects"] = {solid.name: cell_file.entry_of(solid) for solid in self.objects}
+        data |= {"held": [cell_file.entry_of(solid) for solid in self.held]} if self.held else {}
+        data |= {"may_touch": [list(pair) for pair in self.may_touch]} if self.may_touch else {}
+        arm: dict[str, Any] = {"shape": self.shape} if self.shape else {}
+        arm |= {"spheres_to": float(self.spheres_to)} if self.spheres_to is not None else {}
+        arm |= {"hold": {name: float(value) for name, value in self.hold.items()}} if self.hold else {}
+        return data | ({"arm": arm} if arm else {})
+
+    @checked
+    def save(self, path: str | Path) -> list[Path]:
+        """Write the cell as a YAML file that :meth:`load` reads, with every digit.
+
+        Meshes and clouds that came from files stay there and are named as seen from the new file; others are written beside it.
+
+        Returns:
+            The YAML file and what was written beside it.
+
+        Raises:
+            StoreError: It cannot be written.
+            InputError: An object of a kind of your own, which no file can hold.
+        """
+        import io
+
+        import yaml
+
+        from holdfast.files import mesh, output
+
+        file, data, beside = Path(path), self.to_dict(), {}
+        here = file.absolute().parent
+        for number, solid in enumerate(self.objects):
+            if not isinstance(solid, (Mesh, Points)):
+                continue
+            key, entry = "mesh" if isinstance(solid, Mesh) else "points", data["objects"][solid.name]
+            if solid.source is not None:
+                entry[key] = os.path.relpath(solid.source.path, here)
+                continue
+            entry[key] = f"{file.stem}-{number + 1}.{'obj' if isinstance(solid, Mesh) else 'npy'}"
+            if isinstance(solid, Mesh):
+                beside[here / entry[key]] = mesh.text(solid.surface).encode()
+            else:
+                stream = io.BytesIO()
+                np.save(stream, solid.centres)
+                beside[here / entry[key]] = stream.getvalue()
+        for place, content in beside.items():
+            output.replaced(place, content, "cell to")
+        text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=128)
+        output.replaced(file, text, "cell to")
+        return [file, *beside]
+
+    # ---- what it is made of ------------------------------------------------------------------------------------
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of everything that counts, triangles and points included, and of nothing else, as the cell's name.
+
+        The same shape from a file of another kind, or from arrays, has the same one.
+        """
+        from holdfast.cell import cell_file
+
+        def said(solid: Solid) -> Any:
+            if not isinstance(solid, (Mesh, Points)):
+                return [solid.name, cell_file.entry_of(solid)]
+            radius = solid.radius if isinstance(solid, Points) else 0.0
+            return [solid.name, type(solid).__name__, solid.digest, radius, solid.pose.tolist(), solid.margin]
+
+        counted = [
+            sorted(map(said, self.objects), key=lambda row: row[0]),
+            [cell_file.entry_of(solid) for solid in self.held],
+            [float(self.margin), sorted(map(list, self.may_touch))],
+            [self.shape, self.spheres_to, sorted(self.hold.items())],
+        ]
+        return hashlib.sha256(json.dumps(counted).encode()).hexdigest()
+
+    @property
+    def sources(self) -> dict[str, Source]:
+        """The files that objects were read from, by the name of the object."""
+        return {x.name: x.source for x in self.objects if isinstance(x, (Mesh, Points)) and x.source is not None}
+
+    def require_unchanged(self) -> None:
+        """Nothing, if the files of meshes and clouds still are as they were read; a run asks before it writes.
+
+        Raises:
+            InputError: One is not; the sentence names it.
+        """
+        for name, source in self.sources.items():
+            if source.changed():
+                raise InputError(
+                    f"'{source.path.name}', the file of object '{name}', changed since the cell was read, so nothing was "
+                    f"written; run again"
+                )
+
+
+_XML = (".urdf", ".xml", ".mjcf")
+_KINDS = {"HalfSpace": "half space", "Points": "point cloud"} | {
+    kind: kind.lower() for kind in ("Box", "Cylinder", "Capsule", "Sphere", "Mesh")
+}
+
+
+def as_cell(cell: Cell | str | Path | None) -> Cell | None:
+    """A cell as callers give it: itself, or the path of its file.
+
+    Raises:
+        InputError: The file cannot be used.
+    """
+    return cell if cell is None or isinstance(cell, Cell) else Cell.load(cell)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +38,12 @@ class Solid:
         object.__setattr__(self, "pose", transform(self.pose, f"pose of object '{self.name}'"))
         if not (np.isfinite(self.margin) and self.margin >= 0):
             raise InputError(f"the margin of object '{self.name}' is {self.margin:g} m; it must be finite and 0 or more")
+
+    def moved_to(self, pose: ArrayLike) -> Self:
+        """The same object elsewhere; ``pose`` (4, 4) in the world, m. What was made of its shape is kept."""
+        other = copy(self)
+        object.__setattr__(other, "pose", transform(pose, f"pose of object '{self.name}'"))
+        return other
 
     def signed_distance(self, points: ArrayLike) -> Array:
         """Distance in m of points (..., 3) in the world from its surface, below 0 inside; never above the true one."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -17,7 +18,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
-from holdfast.clearance.capsules import Capsules, link_name
+from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.changes import changes_between
 from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
@@ -92,13 +93,22 @@ class Clearance:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
         self.pairs: list[Pair] = []
         self.ignored: list[IgnoredPair] = []
-        self.itself, self.cell = itself, cell
+        self.itself = itself
         if itself:
             self._choose_pairs()
-        self.obstacles = None if cell is None or not len(cell) else Obstacles(arm, self.capsules, cell)
-        seen = self.obstacles
+        self._meet(cell)
+
+    def _meet(self, cell: Cell | None) -> None:
+        seen = None if cell is None or not len(cell) else Obstacles(self.arm, self.capsules, cell)
+        self.cell, self.obstacles = cell, seen
         self.pair_names = [self._name(pair) for pair in self.pairs] + ([] if seen is None else seen.names)
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if seen is None else seen.margins])
+
+    def with_cell(self, cell: Cell | None) -> Clearance:
+        """The same clearance in another cell; the arm's own pairs are not chosen again."""
+        other = copy(self)
+        other._meet(cell)
+        return other
 
     @classmethod
     def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
@@ -125,7 +135,7 @@ class Clearance:
             low, high = links[a], links[b]
             if high - low == 1:
                 reasons[a, b] = "adjacent links"
-            elif (low, high) in self.capsules.ignore:
+            elif (low, high) in self.capsules.ignore or (min(a, b), max(a, b)) in self.capsules.apart:
                 reasons[a, b] = "to be ignored"
         open_pairs = [pair for pair in different if pair not in reasons]
         for pair, share in zip(open_pairs, self._overlaps(open_pairs), strict=True):
@@ -147,12 +157,7 @@ class Clearance:
         return np.asarray((values < 0).mean(axis=0))
 
     def _name(self, pair: Pair) -> str:
-        return " & ".join(self._label(part) for part in pair)
-
-    def _label(self, part: int) -> str:
-        links = self._links
-        name = link_name(self.arm, links[part])
-        return name if links.count(links[part]) == 1 else f"{name} ({links[: part + 1].count(links[part])})"
+        return " & ".join(self.capsules.label(self.arm, part) for part in pair)
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
@@ -223,6 +228,16 @@ class Clearance:
         return best, chosen
 
     @cached_property
+    def alone(self) -> Clearance:
+        """The same without the cell: what programs are made of, so that for a changed cell none is made anew."""
+        if self.cell is None:
+            return self
+        made = copy(self)
+        made.cell = made.obstacles = None
+        made.pair_names, made.margins = self.pair_names[: len(self.pairs)], self.margins[: len(self.pairs)]
+        return made
+
+    @cached_property
     @recalled
     def _value_kernel(self) -> Kernel:
         q = kinematics.joint_symbols(self.arm)
@@ -263,15 +278,15 @@ class Clearance:
             InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
         """
         rows, single = as_configurations(self.arm, q)
-        values = self._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
+        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
         if self.obstacles is not None:
-            values = np.minimum(values, self.obstacles.distances(rows).min(axis=1))
+            values = np.minimum(values, self.obstacles.least(rows))
         return values[0] if single else values
 
     def by_pair(self, q: ArrayLike) -> Array:
         """The distance of every pair in m, (N, P) or (P,), in the order of ``pair_names``."""
         rows, single = as_configurations(self.arm, q)
-        values = self._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
+        values = self.alone._pairs_kernel.rows(rows) if self.pairs else np.empty((len(rows), 0))
         if self.obstacles is not None:
             values = np.concatenate([values, self.obstacles.distances(rows)], axis=1)
         return values[0] if single else values
@@ -279,7 +294,9 @@ class Clearance:
     def room(self, q: ArrayLike) -> Array:
         """The smallest distance beyond what each pair keeps at least (``margins``), m, (N,) or a scalar."""
         rows, single = as_configurations(self.arm, q)
-        values = self.nearest(rows)[0] if self.margins.any() else self(rows)
+        values = self.alone._value_kernel.rows(rows)[:, 0] if self.pairs else _constant(rows, np.inf)
+        if self.obstacles is not None:
+            values = np.minimum(values, self.obstacles.room(rows))
         return values[0] if single else values
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
@@ -308,7 +325,7 @@ class Clearance:
         """Room (N,) m and its gradient (N, n) of configurations (N, n)."""
         room, slope = _constant(q, np.inf), np.repeat(_constant(q, 0.0)[:, None], self.arm.n, axis=1)
         if self.pairs:
-            room, slope = self._value_kernel.rows(q)[:, 0], self._gradient_kernel.rows(q)
+            room, slope = self.alone._value_kernel.rows(q)[:, 0], self.alone._gradient_kernel.rows(q)
         if self.obstacles is not None:
             other, _, theirs = self.obstacles.nearest(q)
             closer = ~(room <= other)
@@ -325,13 +342,41 @@ class Clearance:
         bounds = changes_between(self.arm, self.capsules, self.pairs, low, high)
         return bounds if self.obstacles is None else np.concatenate([bounds, self.obstacles.changes(low, high)])
 
+    # ---- words -------------------------------------------------------------------------------------------------
+
+    @property
+    def others(self) -> str:
+        """What the arm is kept clear of: ``itself``, ``the cell``, or ``itself or the cell``."""
+        named = (("itself", self.itself), ("the cell", self.obstacles is not None))
+        return " or ".join(name for name, there in named if there) or "nothing"
+
+    @property
+    def everything(self) -> str:
+        """The same with ``and``."""
+        return self.others.replace(" or ", " and ")
+
+    def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
+        """The phrase for an arm whose room is below the margin.
+
+        Args:
+            margin: m.
+            q: (n,) rad and m, to say what is too close there: the pair with the least room and its distance.
+        """
+        other, where, own = self.others, "", bool(self.margins.any())
+        if q is not None:
+            k = int(self.closest_pair(q))
+            other, own = ("itself", False) if k < len(self.pairs) else ("the cell", bool(self.margins[k]))
+            where = f" ({self.pair_names[k]}, {_apart(float(self.by_pair(q)[k]))})"
+        if own:
+            return f"comes closer to {other} than it may{where}"
+        return (f"comes closer than {margin:g} m to {other}" if margin else f"collides with {other}") + where
+
     def __repr__(self) -> str:
         return f"<clearance of {self.arm.name!r}: {len(self.capsules)} capsules, {len(self.pair_names)} pairs checked>"
 
 
-def too_close(margin: float) -> str:
-    """The phrase for an arm whose clearance is below the margin, m."""
-    return f"comes closer than {margin:g} m to itself" if margin else "collides with itself"
+def _apart(distance: float) -> str:
+    return f"{-distance:.3g} m deep" if distance < 0 else f"{distance:.3g} m apart"
 
 
 def _constant(rows: Array, value: float) -> Array:

@@ -1,12 +1,14 @@
 """Compiled distances between the spheres that cover an arm and a block of objects, whose numbers are inputs.
 
 A program is of an arm and its spheres; a cell that changed compiles nothing. The objects of a block share the positions of the
-spheres.
+spheres. Of the spheres of one radius on a link the nearest is found without a root: outside, the square of the distance from
+the object grows with it; inside, the depth is what it is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import groupby
 
 import casadi as ca
 import numpy as np
@@ -19,7 +21,7 @@ from holdfast.clearance.chains import Balls
 from holdfast.kernels.kernel import Kernel
 from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
-from holdfast.linalg import Vector
+from holdfast.linalg import Vector, smallest
 
 BLOCK = 4  # objects that one call takes
 NUMBERS = 18  # of an object: see Primitive.numbers
@@ -27,14 +29,14 @@ NUMBERS = 18  # of an object: see Primitive.numbers
 
 @recalled
 def distance_kernel(arm: Machine, balls: Balls) -> Kernel:
-    """The least distance of the spheres of each moving link from each object of a block, (L BLOCK,), link by link.
+    """The least distance from a block of objects, then that of each moving link from each object, (1 + L BLOCK,), link by link.
 
     Inputs: q (n,) and the block (BLOCK, 18 + L): the numbers of each object, and what is added to its distance from each link.
     """
     q, objects, where = _symbols(arm, balls)
     columns = [_by_link(balls, where, objects[k, :]) for k in range(BLOCK)]
     by_link = [column[at][0] for at in range(len(columns[0])) for column in columns]
-    return Kernel("distance from a block of objects", [q, objects], [ca.vertcat(*by_link)])
+    return Kernel("distance from a block of objects", [q, objects], [ca.vertcat(smallest(by_link), *by_link)])
 
 
 @recalled
@@ -43,12 +45,14 @@ def nearest_kernel(arm: Machine, balls: Balls) -> Kernel:
     q, objects, where = _symbols(arm, balls)
     best: Vector = []
     for k in range(BLOCK):
-        numbers = objects[k, :]
-        for at, (value, point) in enumerate(_by_link(balls, where, numbers)):
-            new = [value, ca.SX(at), ca.SX(k), *point, *ca.horzsplit(numbers[:, :NUMBERS])]
+        for at, (value, point) in enumerate(_by_link(balls, where, objects[k, :])):
+            new = [value, ca.SX(at), ca.SX(k), *point]
             best = _chosen(value < best[0], new, best) if best else new
-    distance, at, k, *rest = best
-    point, push = rest[:3], _outward(ca.horzcat(*rest[3:]), rest[:3])
+    distance, at, k, *point = best
+    numbers = ca.horzsplit(objects[0, :NUMBERS])
+    for other in range(1, BLOCK):
+        numbers = _chosen(k == other, ca.horzsplit(objects[other, :NUMBERS]), numbers)
+    push = _outward(ca.horzcat(*numbers), point)
     c = kinematics.chain(arm, q)
     link = sum(ca.if_else(at == i, int(link), 0) for i, link in enumerate(_links(balls)))
     slopes = []
@@ -80,20 +84,42 @@ def _by_link(balls: Balls, where: list[Vector], numbers: SX) -> list[tuple[SX, V
     out = []
     for at, link in enumerate(_links(balls)):
         best: Vector = []
-        for s in np.flatnonzero(links == link):
-            new = [_signed_distance(numbers, where[s]) - float(radii[s]), *where[s]]
+        alike = sorted(np.flatnonzero(links == link).tolist(), key=radii.__getitem__)
+        for radius, some in groupby(alike, radii.__getitem__):
+            nearest: Vector = []
+            for s in some:
+                new = [_square_or_depth(_terms(numbers, where[s])[2]), *where[s]]
+                nearest = _chosen(new[0] < nearest[0], new, nearest) if nearest else new
+            value, *point = nearest
+            root = ca.sqrt(_positive(value))
+            new = [ca.if_else(value > 0, root, value) - float(radius), *point]
             best = _chosen(new[0] < best[0], new, best) if best else new
-        out.append((best[0] + numbers[NUMBERS + at], best[1:]))
+        out.append((best[0] - numbers[15] + numbers[NUMBERS + at], best[1:]))
     return out
 
 
-def _terms(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Vector, Vector, SX, SX]:
-    """The point in the object's frame, its sizes there, those less the half sizes, and the two flags."""
+def _terms(numbers: SX, point: Sequence[SX]) -> tuple[Vector, Vector, Vector]:
+    """The point in the object's frame, how far out it is along each axis there, and that less the half sizes."""
     y: Vector = [numbers[9 + i] + sum(numbers[3 * i + j] * point[j] for j in range(3)) for i in range(3)]
-    round_, open_ = numbers[16] > 0.5, numbers[17] > 0.5
-    first = ca.sqrt(y[0] * y[0] + ca.if_else(round_, y[1] * y[1], 0.0))
-    size = [first, ca.sqrt(y[1] * y[1]), ca.if_else(open_, y[2], ca.sqrt(y[2] * y[2]))]
-    return y, size, [size[i] - numbers[12 + i] for i in range(3)], round_, open_
+    round_, closed = numbers[16], 1 - 2 * numbers[17]
+    below = -closed * y[2]  # y[2] again where the object is open
+    size = [ca.sqrt(y[0] * y[0] + round_ * (y[1] * y[1])), ca.fabs(y[1]), ca.if_else(y[2] > below, y[2], below)]
+    return y, size, [size[i] - numbers[12 + i] for i in range(3)]
+
+
+def _square_or_depth(d: Vector) -> SX:
+    """Square of the distance outside, the signed distance inside, of an object without rounding."""
+    most = _largest(d)
+    return ca.if_else(most > 0, _square(d), most)
+
+
+def _square(d: Vector) -> SX:
+    out = [_positive(x) for x in d]
+    return sum(x * x for x in out)
+
+
+def _positive(x: SX) -> SX:
+    return ca.if_else(x > 0, x, 0.0)
 
 
 def _largest(d: Vector) -> SX:
@@ -103,27 +129,18 @@ def _largest(d: Vector) -> SX:
     return most
 
 
-def _signed_distance(numbers: SX, point: Sequence[SX]) -> SX:
-    """As :meth:`Primitive.signed_distance`, of symbols."""
-    _, _, d, _, _ = _terms(numbers, point)
-    most = _largest(d)
-    out = [ca.if_else(x > 0, x, 0.0) for x in d]
-    return ca.sqrt(sum(x * x for x in out)) + ca.if_else(most < 0, most, 0.0) - numbers[15]
-
-
 def _outward(numbers: SX, point: Sequence[SX]) -> Vector:
-    """Gradient (3,) of :func:`_signed_distance` in the world, a unit vector; 0 in the middle of a sphere or an axis."""
-    y, size, d, round_, open_ = _terms(numbers, point)
-    most = _largest(d)
-    out = [ca.if_else(x > 0, x, 0.0) for x in d]
-    length = ca.sqrt(sum(x * x for x in out))
+    """Gradient (3,) in the world of the signed distance, a unit vector; 0 in the middle of a sphere or an axis."""
+    y, size, d = _terms(numbers, point)
+    most, length = _largest(d), ca.sqrt(_square(d))
     outside = most > 0
     taken: SX = 0.0  # inside, the first of the faces that are nearest
     share: Vector = []
-    for x, o in zip(d, out, strict=True):
+    for x in d:
         face = ca.if_else(ca.logic_and(x >= most, taken < 0.5), 1.0, 0.0)
         taken = taken + face
-        share.append(ca.if_else(outside, o / ca.if_else(outside, length, 1.0), face))
+        share.append(ca.if_else(outside, _positive(x) / ca.if_else(outside, length, 1.0), face))
+    round_, open_ = numbers[16] > 0.5, numbers[17] > 0.5
     unit = [y[i] / ca.if_else(size[i] == 0, 1.0, size[i]) for i in range(3)]
     own = [
         share[0] * unit[0],

@@ -1,4 +1,4 @@
-"""--capsules, --radius, --margin, --clearance: the shape of an arm, so that it is kept from colliding with itself."""
+"""--capsules, --radius, --margin, --clearance, --cell: what an arm is kept clear of, itself and the objects around it."""
 
 from __future__ import annotations
 
@@ -38,16 +38,26 @@ ClearanceOption = Annotated[
         show_default=False,
     ),
 ]
+CellOption = Annotated[
+    Path | None,
+    typer.Option("--cell", help="Cell file (YAML): objects around the arm, which it is kept clear of.", show_default=False),
+]
+TouchedCellOption = Annotated[
+    Path | None,
+    typer.Option("--cell", help="Cell file (YAML): objects around the arm; what it touches is said.", show_default=False),
+]
 
 
-def check_clearance(wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None) -> None:
+def check_clearance(
+    wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, cell: Path | None = None
+) -> None:
     """Refuse options that contradict each other, before any work is done.
 
     Raises:
         InputError: Which ones, or an invalid radius or margin.
     """
     given = [name for name, x in (("--capsules", capsules), ("--radius", radius), ("--margin", margin)) if x is not None]
-    if wanted is False and given:
+    if wanted is False and given and cell is None:
         raise InputError(
             f"{given[0]} asks for a clearance of the arm from itself and --no-clearance asks for none; give one of them"
         )
@@ -60,9 +70,15 @@ def check_clearance(wanted: bool | None, capsules: Path | None, radius: float | 
 
 
 def read_clearance(
-    arm: Arm, wanted: bool | None, capsules: Path | None, radius: float | None, margin: float | None, chooses: bool
+    arm: Arm,
+    wanted: bool | None,
+    capsules: Path | None,
+    radius: float | None,
+    margin: float | None,
+    chooses: bool,
+    cell: Path | None = None,
 ) -> Clearance | None:
-    """The clearance of an arm that the options ask for, or None.
+    """What the options ask an arm to be kept clear of, or None for nothing. With ``--no-clearance`` the cell alone counts.
 
     Args:
         arm: The arm.
@@ -71,26 +87,41 @@ def read_clearance(
         radius: ``--radius``, m.
         margin: ``--margin``, m.
         chooses: The command chooses configurations, so that a clearance can be kept.
+        cell: ``--cell``.
 
     Raises:
-        InputError: A margin where nothing keeps it.
+        InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
         ArmError: A capsule file or radius that does not fit the arm.
     """
     from holdfast.clearance.capsules import Capsules
+    from holdfast.clearance.choice import chosen_clearance
     from holdfast.clearance.clearance import Clearance
 
     if margin is not None and not chooses:
         raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
-    if capsules is not None:
-        return Clearance(arm, Capsules.load(capsules, arm))
-    if radius is not None:
-        return Clearance(arm, Capsules.along(arm, radius))
-    if wanted:
-        return Clearance(arm)
-    found = Clearance.by_default(arm) if wanted is None and chooses else None
+    if capsules is not None or radius is not None:
+        shape = Capsules.load(capsules, arm) if capsules is not None else Capsules.along(arm, radius)
+        return chosen_clearance(arm, Clearance(arm, shape, itself=wanted is not False), cell)
+    found = chosen_clearance(arm, wanted, cell, looks=chooses)
     if margin is not None and found is None:
         raise InputError(
             f"--margin has no effect: the links of '{arm.name}' lie beside each other, so its clearance is not checked "
             f"unless you ask for it; add --clearance or --capsules"
         )
     return found
+
+
+def read_contact_shape(arm: Arm, capsules: Path | None, radius: float | None, cell: Path | None) -> Clearance | None:
+    """What an arm may touch in a cell, where a command says what it does touch; None without a cell.
+
+    Raises:
+        InputError: A shape with nothing to touch, or a cell that cannot be read or does not fit the arm.
+        ArmError: A capsule file or radius that does not fit the arm.
+    """
+    check_clearance(None, capsules, radius, None, cell)
+    if cell is None:
+        for name, given in (("--capsules", capsules), ("--radius", radius)):
+            if given is not None:
+                raise InputError(f"{name} is the shape of the arm that may touch a cell, and there is none; add --cell")
+        return None
+    return read_clearance(arm, False, capsules, radius, None, chooses=False, cell=cell)

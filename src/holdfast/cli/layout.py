@@ -12,7 +12,7 @@ from holdfast.cli.completion import offer
 
 _FEW = 8  # options that stay in one panel
 _PANELS = {
-    "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance",
+    "The arm": "base tip hold name tool mount gravity payload capsules radius margin clearance cell",
     "How it is computed": "seed poses samples sampling restarts starts tries configurations points method time-limit threads "
     "climbs fresh designs chunk rotation spacing metric",
     "Output": "out json csv parquet plot at-least",

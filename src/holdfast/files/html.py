@@ -8,6 +8,18 @@ from pathlib import Path
 
 from holdfast.files.output import replaced
 
+# A page in a frame cannot see where it lies: it is told whether the text around it is light, now and when that changes.
+_GROUND = """
+const told = () => {
+  const [r, g, b] = getComputedStyle(this).color.match(/[\\d.]+/g).map(Number);
+  this.contentWindow?.postMessage({ dark: r + g + b > 384 }, '*');
+};
+const changed = new MutationObserver(told);
+for (const node of [document.documentElement, document.body]) changed.observe(node, { attributes: true });
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', told);
+told();
+""".replace("\n", " ").strip()
+
 
 @dataclass(frozen=True)
 class Html:
@@ -36,9 +48,10 @@ class Html:
         return path
 
     def _repr_html_(self) -> str:
-        """The page in a frame of its own, so that it takes nothing from a notebook and gives nothing to it."""
+        """The page in a frame of its own, so that it takes nothing from a notebook but whether it is dark."""
         return (
             f'<iframe srcdoc="{escape(self.text, quote=True)}" title="holdfast" sandbox="allow-scripts" '
+            f'onload="{escape(_GROUND, quote=True)}" '
             f'style="width:100%;height:{self.height}px;border:0"></iframe>'
         )
 

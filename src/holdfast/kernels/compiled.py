@@ -70,11 +70,18 @@ class Compiled:
         self.level = 0 if best is None else 1
         self._code = best or self._stored(0) or self._make(0)
 
-    def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
-        """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes."""
-        width = inputs.shape[1]
+    def bound(self, inputs: Array, outputs: Array, used: int | None = None) -> Callable[[], None]:
+        """What evaluates ``inputs (n_in, W)`` into ``outputs (n_out, W)``: contiguous, W a multiple of the lanes.
+
+        Args:
+            inputs: Read at each call.
+            outputs: Overwritten.
+            used: A multiple of the lanes: only so many of the columns, the first ones.
+        """
+        width = inputs.shape[1] if used is None else used
         # Made once: a step of few rows takes less than ctypes takes to convert four numbers.
-        given: tuple[Any, ...] = (c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data), c_int64(width), c_int64(width))
+        at = c_void_p(inputs.ctypes.data), c_void_p(outputs.ctypes.data)
+        given: tuple[Any, ...] = (*at, c_int64(inputs.shape[1]), c_int64(width))
 
         def call(kept: tuple[Array, Array] = (inputs, outputs)) -> None:
             code = self._code  # it may be replaced meanwhile, and lives as long as somebody has it

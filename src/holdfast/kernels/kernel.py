@@ -6,6 +6,7 @@ import math
 import os
 import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -119,13 +120,14 @@ class Kernel:
         count = 1 if rows is None else rows
         out = np.empty((count, self.program.n_out if first is None else first))
         if 0 < count <= self._chunk:
-            return out, self._run(arrays, out, 0, count)
+            return out, self._run(arrays, out, 0, count, object())
         marks: list[bool] = []
+        call = object()
         starts = iter(range(0, count, self._chunk))  # shared: each worker takes the next chunk when it is free
 
         def work(_: int) -> None:
             for start in starts:
-                marks.append(self._run(arrays, out, start, min(start + self._chunk, count)))
+                marks.append(self._run(arrays, out, start, min(start + self._chunk, count), call))
 
         if count <= 2 * self._chunk or thread_count() == 1 or in_pool():
             work(0)
@@ -165,53 +167,75 @@ class Kernel:
         """
         self.bound(inputs, outputs)()
 
-    def bound(self, inputs: Array, outputs: Array) -> Callable[[], None]:
-        """:meth:`evaluate_columns` of these arrays, to be called again and again: their contents may change."""
+    def bound(self, inputs: Array, outputs: Array, used: int | None = None) -> Callable[[], None]:
+        """:meth:`evaluate_columns` of these arrays, to be called again and again: their contents may change.
+
+        Args:
+            inputs: (n_in, W).
+            outputs: (n_out, W).
+            used: A multiple of ``lanes``: only so many of the columns, the first ones.
+        """
         if self._compiled is None:
-            return lambda: casadi_backend.call(self.program.function, inputs, outputs)
+            return lambda: casadi_backend.call(self.program.function, inputs[:, :used], outputs[:, :used])
         for a, rows in ((inputs, self.program.n_in), (outputs, self.program.n_out)):
             if a.dtype.char != "d" or not a.flags.c_contiguous or a.shape != (rows, inputs.shape[1]) or a.shape[1] % self.lanes:
                 raise KernelError(
                     f"kernel '{self.name}': columns have shape {a.shape} and type {a.dtype}; they must be contiguous doubles "
                     f"of shape ({rows}, W), W a multiple of {self.lanes}"
                 )
-        return self._compiled.bound(inputs, outputs)
+        return self._compiled.bound(inputs, outputs, used)
 
     def single(self) -> Single:
         """The kernel for one row at a time, as quick as it can be: for loops that control."""
         return Single(self)
 
-    def _buffers(self, width: int) -> tuple[Array, Array, Callable[[], None]]:
-        """Columns of inputs and of outputs, and what computes these from those; of this thread."""
-        made: dict[int, tuple[Array, Array, Callable[[], None]]] | None = getattr(self._scratch, "made", None)
+    def _buffers(self, width: int) -> _Buffers:
+        """Those of this thread."""
+        made: dict[int, _Buffers] | None = getattr(self._scratch, "made", None)
         if made is None:
             made = self._scratch.made = {}
         if width not in made:
-            inputs, outputs = np.empty((self.program.n_in, width)), np.empty((self.program.n_out, width))
-            made[width] = inputs, outputs, self.bound(inputs, outputs)
+            # Columns a power of two apart would fall on the same places of the cache.
+            apart = width if width == self.lanes else width + self.lanes
+            inputs, outputs = np.empty((self.program.n_in, apart)), np.empty((self.program.n_out, apart))
+            made[width] = _Buffers(inputs[:, :width], outputs[:, :width], self.bound(inputs, outputs, width))
         return made[width]
 
-    def _run(self, arrays: list[Array], out: Array, start: int, stop: int) -> bool:
+    def _run(self, arrays: list[Array], out: Array, start: int, stop: int, call: object) -> bool:
         used = stop - start
         # Few widths, so that few scratch arrays live on: the chunk, or powers of two down to the SIMD width.
         width = self.lanes
         while width < used:
             width *= 2
-        scratch_in, scratch_out, compute = self._buffers(width)
+        scratch = self._buffers(width)
         row = 0
         for a in arrays:
             rows = slice(row, row + a.shape[1])
-            scratch_in[rows, :used] = a.T if a.shape[0] == 1 else a[start:stop].T
+            if a.shape[0] > 1:
+                scratch.inputs[rows, :used] = a[start:stop].T
+            elif scratch.call is not call:
+                scratch.inputs[rows] = a.T
             row += a.shape[1]
+        scratch.call = call
         if used < width:
-            scratch_in[:, used:] = scratch_in[:, used - 1 : used]
-        compute()
-        out[start:stop] = scratch_out[: out.shape[1], :used].T
-        return math.isnan(scratch_out[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
+            scratch.inputs[:, used:] = scratch.inputs[:, used - 1 : used]
+        scratch.compute()
+        out[start:stop] = scratch.outputs[: out.shape[1], :used].T
+        return math.isnan(scratch.outputs[0, :used].min())  # NaN if any is: one pass, and one handing over of Python
 
     def __repr__(self) -> str:
         p = self.program
         return f"Kernel({self.name!r}, {p.n_in} -> {p.n_out}, {p.size} operations, {self.backend})"
+
+
+@dataclass
+class _Buffers:
+    """Columns of inputs and of outputs, what computes these from those, and the call whose numbers for every row are there."""
+
+    inputs: Array
+    outputs: Array
+    compute: Callable[[], None]
+    call: object = None
 
 
 class Single:

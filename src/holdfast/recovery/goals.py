@@ -149,7 +149,7 @@ def _polished(solver: RowSolver, space: Space, pose: Array, q: Array, lost: list
         e, slopes = errors(x), solver.slopes(x, pose)
         values, rows = e[kept], slopes[kept]
         if clearance is not None:
-            values, rows = np.append(values, clearance(x) - space.margin), np.vstack([rows, clearance.gradient(x)])
+            values, rows = np.append(values, clearance.room(x) - space.margin), np.vstack([rows, clearance.gradient(x)])
         return float(e[lost] @ e[lost]), 2 * e[lost] @ slopes[lost], values, rows
 
     low, high = np.where(space.free, arm.lower, q), np.where(space.free, arm.upper, q)

@@ -61,7 +61,7 @@ _SENTENCES = {
     "is none: give more starts",
     Ending.PROVED_UNREACHABLE: "the goal is PROVED out of reach, and no configuration was found with rows given up",
     Ending.START_OUTSIDE_LIMITS: "no motion: the arm is outside its limits",
-    Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself than the clearance that must be kept",
+    Ending.START_TOO_CLOSE: "no motion: the arm is already closer to itself or its cell than the clearance that must be kept",
     Ending.LOCK_ELSEWHERE: "no motion: a joint is not where it is said to be locked",
 }
 
@@ -110,7 +110,7 @@ class Recovery(Result):
         found: Configurations of the goal that were found and are clear.
         metric: ``travel`` or ``time``.
         unit: Of lengths: ``rad`` (1 m of a slide counts as 1 rad) or ``s``.
-        clearance: What was kept at least at ``margin``, or None.
+        clearance: Whose room was kept at least at ``margin``, of the arm from itself and its cell, or None.
         margin: m.
         seed: The same seed gives the same result.
     """

@@ -78,7 +78,7 @@ def what_is_left(
         solver: Of the rows that count.
         at: (n,) where the joints that are not free are.
         free: (n,) joints that move.
-        clearance: Kept, if given.
+        clearance: Whose room is kept at least at ``margin``, if given.
         margin: m.
         region: Of targets; without one they are the poses of random configurations of the healthy arm.
         samples: How many.
@@ -130,7 +130,7 @@ def _healthy(solver: RowSolver, clearance: Clearance | None, margin: float, samp
     found = np.zeros((0, solver.arm.n))
     for _ in range(20):
         q = solver.starts(samples, np.zeros(solver.arm.n), everything, rng)
-        found = np.concatenate([found, q if clearance is None else q[clearance(q) >= margin]])
+        found = np.concatenate([found, q if clearance is None else q[clearance.room(q) >= margin]])
         if len(found) >= samples:
             break
     return found[:samples]
@@ -167,7 +167,7 @@ def _reached(
             good = solver.meets(q, poses[many], kept, free)
             if clearance is not None:
                 some = np.flatnonzero(good)
-                good[some] = clearance(q[some]) >= margin
+                good[some] = clearance.room(q[some]) >= margin
             done[many[good]] = True
             used += wave
             tell(wave)

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 MetricName = Literal["travel", "time"]
 
-FINEST = 5e-4  # m of possible motion between the capsules: what cannot be told clear at this is taken as blocked
+FINEST = 5e-4  # m of possible motion between what could collide: what cannot be told clear at this is taken as blocked
 _BATCH = 48  # samples a round
 _ROUNDS = 200
 _NODES = 12_000  # of both trees together
@@ -79,12 +79,12 @@ class Metric:
 
 
 class Space:
-    """Where the failed arm may be: within the limits, and no closer to itself than asked.
+    """Where the failed arm may be: within the limits, and no closer to itself and its cell than asked.
 
     Args:
         arm: The arm.
         free: (n,) joints that move.
-        clearance: Kept at least at ``margin``, m; None: nothing is in the way but the limits.
+        clearance: Whose room is kept at least at ``margin``, m; None: nothing is in the way but the limits.
         margin: m.
         around: (K, n) configurations that the box of samples must hold.
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,8 @@ from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arm.tree import listed
-from holdfast.clearance.clearance import Clearance, too_close
+from holdfast.clearance.choice import CellLike, chosen_clearance
+from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Locked, locks_at
 from holdfast.notice import says
@@ -65,7 +66,8 @@ def recover(
     goal: ArrayLike | str | None = "home",
     task: str | Task | Sequence[str] | None = None,
     path: Path | None = None,
-    clearance: Clearance | Literal[False] | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
     margin: float = 0.0,
     metric: MetricName = "travel",
     weights: ArrayLike | None = None,
@@ -94,9 +96,10 @@ def recover(
         task: Rows of the end effector's pose that matter; if not given, the pose, or position for an arm that moves in a plane
             or for a path without orientations.
         path: The rest of a tool path, to be finished before going to the goal.
-        clearance: Kept between links; None: capsules of an assumed radius, but not for an arm that moves in a plane; False:
-            none.
-        margin: m, smallest clearance.
+        clearance: Kept between links; None: capsules of an assumed radius, but not for an arm that moves in a plane; True:
+            for that too; False: none.
+        cell: Objects around the arm, or their file; every motion is proved clear of them, whatever ``clearance`` says.
+        margin: m, smallest clearance; from an object beyond what the cell keeps from it.
         metric: Of the shortest route: ``travel`` (Euclidean length of the joints' motion, 1 m as 1 rad) or ``time`` (at the
             velocity limits).
         weights: (n,) of the joints in ``travel``; 1 if not given.
@@ -129,7 +132,7 @@ def recover(
         raise InputError(f"all {arm.n} joints of '{arm.name}' are locked, so nothing can move; leave one free")
     free = np.ones(arm.n, dtype=bool)
     free[list(stands)] = False
-    kept = Clearance.by_default(arm) if clearance is None else clearance or None
+    kept = chosen_clearance(arm, clearance, cell)
     if margin and kept is None:
         raise InputError("margin has nothing to keep: no clearance is looked at; give one")
     length = Metric.of(arm, metric, None if weights is None else np.asarray(weights, dtype=np.float64), free)
@@ -223,8 +226,10 @@ def _goal(
     pose = arm.forward_kinematics(q)
     if by_hand:
         return _Goal(f"the end effector where it is at {text}", pose)
-    if clearance is not None and float(clearance(q)) < margin:
-        raise InputError(f"goal: at that configuration the arm {too_close(margin)}; give a clear one, or no clearance")
+    if clearance is not None and float(clearance.room(q)) < margin:
+        raise InputError(
+            f"goal: at that configuration the arm {clearance.too_close(margin, q)}; give a clear one, or no clearance"
+        )
     away = np.abs(joint_space.difference(arm, q, standing))
     lost = np.flatnonzero(~free & (away > SAME))
     if not lost.size:
@@ -250,11 +255,9 @@ def _trouble(
                 f"{joint.name} is at {x:.6g} {joint.unit}, its limits are {joint.lower:.6g} to {joint.upper:.6g}; if it "
                 "can move there, widen the limits of the arm"
             )
-    if clearance is not None and clearance.pairs and float(clearance(at)) < margin:
-        name = clearance.pair_names[int(clearance.closest_pair(at))]
+    if clearance is not None and clearance.pair_names and float(clearance.room(at)) < margin:
         return Ending.START_TOO_CLOSE, (
-            f"the clearance is {float(clearance(at)):.4g} m ({name}) and {margin:g} m must be kept; "
-            "give the arm's real capsules, or no clearance"
+            f"the arm {clearance.too_close(margin, at)}; give the arm's real capsules, or no clearance"
         )
     return None
 

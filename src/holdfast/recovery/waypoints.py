@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arm.model import Arm
+from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError
 from holdfast.failures import Locked, locks_at
@@ -80,6 +81,8 @@ class WaypointCheck(Result):
         beyond_limits: Joints that leave their limits, by name, with the most by which they do, rad or m.
         locks_moved: Locked joints that move, by name, with the farthest from their angle, rad or m.
         least_clearance: m; None if the clearance was not looked at.
+        least_room: m, what is least left beyond the margins of the objects of a cell; None if that was not looked at.
+        closest: Names of the pair that attains it, ``panda_joint4 & table``; empty where there is none.
         margin: m, that was asked for.
     """
 
@@ -89,13 +92,18 @@ class WaypointCheck(Result):
     beyond_limits: dict[str, float]
     locks_moved: dict[str, float]
     least_clearance: float | None
+    least_room: float | None
+    closest: str
     margin: float
 
     @property
     def ok(self) -> bool:
         """True if limits, locks and clearance are kept."""
-        clear = self.least_clearance is None or self.least_clearance >= self.margin
-        return clear and not self.beyond_limits and not self.locks_moved
+        return self._clear and not self.beyond_limits and not self.locks_moved
+
+    @property
+    def _clear(self) -> bool:
+        return self.least_room is None or self.least_room >= self.margin
 
     def describe(self) -> list[str]:
         """A few sentences for people."""
@@ -105,8 +113,9 @@ class WaypointCheck(Result):
         if self.least_clearance is None:
             lines.append("clearance was not looked at")
         else:
-            verdict = "kept" if self.least_clearance >= self.margin else "NOT KEPT"
-            lines.append(f"least clearance {self.least_clearance:.4g} m (margin {self.margin:g} m): {verdict}")
+            where = f"{self.closest}, " if self.closest else ""
+            verdict = "kept" if self._clear else "NOT KEPT"
+            lines.append(f"least clearance {self.least_clearance:.4g} m ({where}margin {self.margin:g} m): {verdict}")
         if not self.beyond_limits and not self.locks_moved:
             lines.append("limits and locks are kept")
         return lines
@@ -117,7 +126,8 @@ def check_waypoints(
     q: ArrayLike,
     locked: Locked = (),
     *,
-    clearance: Clearance | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
     margin: float = 0.0,
 ) -> WaypointCheck:
     """Replay waypoints in steps of at most 2 mrad or 2 mm of a joint, by code that shares nothing with the planner.
@@ -127,10 +137,11 @@ def check_waypoints(
         q: (K, n) waypoints, rad and m.
         locked: ``{joint: value}``, rad or m, of the joints that are locked; None for where the first waypoint has it.
         clearance: Looked at if given.
-        margin: m that it should keep.
+        cell: Objects around the arm, or their file; looked at if given.
+        margin: m that should be kept; from an object beyond what the cell keeps from it.
 
     Raises:
-        InputError: Invalid waypoints, or an unknown joint.
+        InputError: Invalid waypoints, an unknown joint, or a cell that cannot be read or does not fit.
     """
     a = np.atleast_2d(arm.check_configurations(q))
     if not len(a) or not np.isfinite(a).all():
@@ -138,9 +149,15 @@ def check_waypoints(
     fine = _between(a)
     beyond = np.maximum(np.maximum(arm.lower - fine, fine - arm.upper).max(axis=0), 0.0)
     moved = {k: float(np.abs(fine[:, k] - value).max()) for k, value in locks_at(arm, locked, a[0]).items()}
-    least = None
-    if clearance is not None:
-        least = min(float(clearance(fine[i : i + _CHUNK]).min()) for i in range(0, len(fine), _CHUNK))
+    seen = chosen_clearance(arm, clearance, cell, looks=False)
+    least = room = None
+    closest = ""
+    if seen is not None:
+        parts = [fine[i : i + _CHUNK] for i in range(0, len(fine), _CHUNK)]
+        least = min(float(seen(part).min()) for part in parts)
+        rooms = np.concatenate([seen.room(part) for part in parts])
+        k = int(seen.closest_pair(fine[rooms.argmin()]))
+        room, closest = float(rooms.min()), seen.pair_names[k] if k >= 0 else ""
     return WaypointCheck(
         q=a,
         poses=arm.forward_kinematics(a),
@@ -148,6 +165,8 @@ def check_waypoints(
         beyond_limits={arm.joint_names[k]: float(beyond[k]) for k in np.flatnonzero(beyond > 1e-12)},
         locks_moved={arm.joint_names[k]: miss for k, miss in moved.items() if miss > 1e-12},
         least_clearance=least,
+        least_room=room,
+        closest=closest,
         margin=margin,
     )
 

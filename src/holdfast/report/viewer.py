@@ -38,11 +38,13 @@ class Scene:
         data: As ``page/src/viewer/scene.ts`` describes it.
         frames: (A, F, K, 4, 4) poses over the frames of a motion of each arm: base, joints, end effector.
         notes: Sentences under the view, such as what could not be shown.
+        around: Corners (V, 3) in the world of each object around the arms, of which the drawing has the outline.
     """
 
     data: Mapping[str, Any]
     frames: Array
     notes: tuple[str, ...] = ()
+    around: tuple[Array, ...] = ()
 
     def html(self, name: str, about: str) -> Markup:
         """The view as part of a page; :func:`with_library` makes it move.
@@ -102,11 +104,21 @@ def with_library(html: str) -> str:
     return f"{before}<script>{template('viewer.js').strip()}</script>\n</body>{after}"
 
 
+# In a notebook: light or dark as the notebook is, which the frame around the page says.
+_GROUND = """<script>
+addEventListener("message", ({ data, source }) => {
+  if (source !== parent || typeof data?.dark !== "boolean") return;
+  document.documentElement.style.colorScheme = data.dark ? "dark" : "light";
+});
+</script>"""
+
+
 def page(view: Markup, title: str) -> str:
-    """A page that holds a view and nothing else, as wide as its window, light or dark as the reader has it."""
+    """A page that holds a view and nothing else, as large as its window, light or dark as the reader or the notebook has it."""
     return with_library(
         '<!DOCTYPE html>\n<html lang="en" class="view3d-page">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n</head>\n'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{escape(title)}</title>\n{_GROUND}\n</head>\n"
         f"<body>\n<main>\n<h1>{escape(title)}</h1>\n{view}\n</main>\n</body>\n</html>\n"
     )
 
@@ -211,6 +223,7 @@ def drawing(scene: Scene, about: str) -> str:
     size, origin = data["size"], scene.frames[0, 0, 0, :3, 3]
     east = right - np.array(data["up"]) * (right @ data["up"])
     out.append(line([origin - 0.4 * size * east, origin + 0.4 * size * east], FAINT, 3))
+    out += [_outline(flat(corners)) for corners in scene.around]
     for box in data["boxes"]:
         low, high = np.array(box["low"]), np.array(box["high"])
         corners = [np.where([k & 1, k & 2, k & 4], high, low) for k in range(8)]
@@ -240,3 +253,12 @@ def drawing(scene: Scene, about: str) -> str:
         if locked[k]:
             out.append(word(f"{joint['name']} locked", scene.frames[0, -1, k + 1, :3, 3]))
     return "".join([*out, "</svg>"])
+
+
+def _outline(points: Array) -> str:
+    """What bodies without dents cover of a drawing; (V, 2) their corners there."""
+    from scipy.spatial import ConvexHull
+
+    hull = points[ConvexHull(points).vertices]
+    text = " ".join(f"{x:.1f},{y:.1f}" for x, y in hull)
+    return f'<polygon points="{text}" fill="#cdb27e" fill-opacity="0.35" stroke="#8a7446" stroke-width="1"/>'

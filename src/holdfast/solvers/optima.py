@@ -14,6 +14,7 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task
+from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.errors import HoldfastError, InputError
 from holdfast.indices.objective import Objective
 from holdfast.kernels.threads import in_pool, pool, thread_count
@@ -40,7 +41,7 @@ class Optima(Optimum, Result):
         task: The rows of the pose that are kept.
         poses: (N, 4, 4) in the world.
         initial: (N, n) configurations of the poses that were given to compare with, or None.
-        clearance: What keeps the links apart, or None.
+        clearance: What the arm is kept clear of, itself and its cell, or None.
         margin: Smallest clearance, m.
         seed: Of the starts.
     """
@@ -78,15 +79,26 @@ class Optima(Optimum, Result):
         return self.start_value if self.initial is None else self.objective(self.initial)
 
     def apart(self, q: Array) -> Array:
-        """(N,) clearance of the arm from itself, m, at q (N, n); NaN where it is not looked at."""
+        """(N,) clearance of the arm from itself and its cell, m, at q (N, n); NaN where it is not looked at."""
         return np.full(q.shape[:-1], np.nan) if self.clearance is None else self.clearance(q)
+
+    def close(self, q: Array) -> NDArray[np.bool_]:
+        """(N,) True where less room is left than the margin at q (N, n); False where it is not looked at."""
+        return np.zeros(q.shape[:-1], dtype=bool) if self.clearance is None else self.clearance.room(q) < self.margin
+
+    @property
+    def obstacles(self) -> list[str]:
+        """Of each pose the pair, ``panda_joint4 & table``, that bars the best configuration without regard, or nothing."""
+        rows = self.rows
+        names = [] if self.clearance is None else self.clearance.pair_names
+        return [names[k] if k >= 0 else "" for k in rows.blocked_by]
 
     @property
     def worse(self) -> NDArray[np.bool_]:
         """(N,) True where the configuration given is better than the one found, and as clear."""
         lost = (self.value_before - self.value) * (1 if self.objective.better == "larger" else -1)
         better = lost > 1e-9 * np.abs(self.value)
-        return np.asarray(better & ~(self.apart(self.before) < self.margin))
+        return np.asarray(better & ~self.close(self.before))
 
     def describe(self) -> list[str]:
         """Where the best configurations bring the objective; of several poses the median of those reached."""
@@ -108,12 +120,12 @@ class Optima(Optimum, Result):
         first = Status(int(self.status.flat[0])) if self.status.size else Status.NOT_FOUND
         advice = first.sentence
         if first == Status.INFEASIBLE and self.clearance is not None:
-            from holdfast.clearance.clearance import too_close
-
+            k, shape = int(self.rows.blocked_by[0]), self.clearance.capsules.describe(self.arm)
+            ours = k < len(self.clearance.pairs)
             advice = (
-                f"the arm {too_close(self.margin)} in each that was found (capsules: "
-                f"{self.clearance.capsules.describe(self.arm)}): choose another pose, give the real shape by --capsules or a "
-                "smaller --margin, or let it by --no-clearance"
+                f"the arm {self.clearance.too_close(self.margin)} in each that was found (capsules: {shape}), at the best by "
+                f"{self.clearance.pair_names[k]}: choose another pose, give the real shape by --capsules or a smaller "
+                "--margin, " + ("or let it by --no-clearance" if ours else "or move the object")
             )
         raise HoldfastError(f"no configuration of {'the pose' if self.status.size == 1 else 'any pose'}: {advice}")
 
@@ -139,7 +151,8 @@ def optimise(
     restarts: int = 100,
     tolerance: float = 1e-6,
     task: str | Task | Sequence[str] | None = None,
-    clearance: Clearance | None = None,
+    clearance: Clearance | bool | None = None,
+    cell: CellLike | None = None,
     margin: float = 0.0,
     initial: ArrayLike | None = None,
 ) -> Optima:
@@ -155,17 +168,20 @@ def optimise(
         restarts: Random starts of inverse kinematics before a pose counts as not found.
         tolerance: Largest pose error, m and rad.
         task: Rows of the pose to keep. Default: those of the objective, or ``pose`` if it is not of a task.
-        clearance: Keep the links of the arm apart; not looked at if not given.
-        margin: Smallest clearance, m.
+        clearance: Keep the links of the arm apart; not looked at if not given. True: capsules of an assumed radius.
+        cell: Objects around the arm, or their file, to keep clear of; the links are then kept apart as well, but for an arm
+            that moves in a plane and with ``clearance=False``.
+        margin: Smallest clearance, m; from an object beyond what the cell keeps from it.
         initial: (n,) or (N, n), rad and m: configurations that the arm has at these poses, to compare with; they change no
             result. Default: the first that inverse kinematics finds.
 
     Returns:
         :class:`Optima`. Their value is never worse than that of the first configuration found, unless that one runs the
-        arm through itself.
+        arm through itself or an object.
 
     Raises:
-        InputError: Poses that are not 4x4 transforms, options out of range, or an objective or clearance of another arm.
+        InputError: Poses that are not 4x4 transforms, options out of range, an objective or clearance of another arm, or a
+            cell that cannot be read or does not fit the arm.
         TaskError: A task other than the objective's, or an objective that cannot be optimised.
 
     Source: Abdi et al. 2012, eq. (11), (12).
@@ -174,9 +190,9 @@ def optimise(
     given = None if initial is None else arm.check_configurations(initial)
     if given is not None and given.shape[:-1] != np.shape(poses)[:-2]:
         raise InputError(f"initial has shape {given.shape}, poses have {np.shape(poses)}; give one configuration of each pose")
-    for what, other in (("objective", objective.arm), ("clearance", arm if clearance is None else clearance.arm)):
-        if other.fingerprint != arm.fingerprint:
-            raise InputError(f"the {what} belongs to '{other.name}', not to '{arm.name}'; make it with the same arm")
+    if objective.arm.fingerprint != arm.fingerprint:
+        raise InputError(f"the objective belongs to '{objective.arm.name}', not to '{arm.name}'; make it with the same arm")
+    kept = chosen_clearance(arm, clearance, cell, looks=False)
     for name, value in (("starts", starts), ("restarts", restarts)):
         if value is not None and value < 1:
             raise InputError(f"{name} is {value}; it must be 1 or more")
@@ -184,7 +200,7 @@ def optimise(
         raise InputError(f"tolerance is {tolerance:g}; it must be above 0 and at most 1, m and rad")
     if not np.isfinite(margin):
         raise InputError(f"margin is {margin:g}; it must be a finite number of metres")
-    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), clearance, margin)
+    ascent = objective_ascent(objective, None if task is None else as_task(arm, task), kept, margin)
     within = ascent.engine.within(tolerance)
     most = default_starts(arm, ascent.task) if starts is None else starts
     blocks = [slice(a, a + _BLOCK) for a in range(0, len(targets), _BLOCK)] or [slice(0, 0)]
@@ -210,7 +226,7 @@ def optimise(
         task=ascent.task,
         poses=targets[0] if single else targets,
         initial=given,
-        clearance=clearance,
+        clearance=kept,
         margin=margin,
         seed=seed,
     )

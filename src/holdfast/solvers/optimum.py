@@ -53,14 +53,15 @@ class Optimum:
         start_value: (N,) of the first configuration that inverse kinematics found: the non-optimised sample.
         start_q: (N, n) that configuration, or the nearest miss.
         status: (N,) ``OK``, ``NOT_FOUND``, ``SINGULAR`` (nothing better than a singular configuration), ``INFEASIBLE`` (every
-            configuration found has the arm collide with itself), ``UNDEFINED`` (a formula of the user's own has no value at
-            any configuration found) or ``BAD_INPUT``.
+            configuration found has the arm collide with itself or the cell), ``UNDEFINED`` (a formula of the user's own has no
+            value at any configuration found) or ``BAD_INPUT``.
         position_error: (N,) m.
         rotation_error: (N,) rad.
         starts: (N,) starts from which a configuration of the pose was found.
         agreeing: (N,) share of the starts followed to the end that reached the best value to 1e-3 of the scale of values.
         blocked: (N,) True where a clearance was asked for and the best configuration without it has the arm collide with
-            itself.
+            itself or the cell.
+        blocked_by: (N,) there the position in ``clearance.pair_names`` of the pair with the least room; else -1.
     """
 
     q: Array
@@ -73,6 +74,7 @@ class Optimum:
     starts: NDArray[np.int64]
     agreeing: Array
     blocked: NDArray[np.bool_]
+    blocked_by: NDArray[np.int64]
 
     @property
     def success(self) -> NDArray[np.bool_]:
@@ -86,13 +88,20 @@ class Optimum:
 
 
 def ascent_step(
-    objective: Objective, task: Task, clearance: Clearance | None = None, margin: float = 0.0
+    objective: Objective, task: Task, clearance: Clearance | None = None, margin: float = 0.0, around: bool = False
 ) -> tuple[list[SX], SX]:
     """One step of the ascent, of an arm whose geometry may be symbols.
 
+    Args:
+        objective: What to raise.
+        task: The rows of the pose that are kept.
+        clearance: Of the arm from itself.
+        margin: Smallest clearance, m.
+        around: There are objects too. What room they leave is an input, so that no step is compiled for a cell.
+
     Returns:
         Symbols of the configuration (n,), the trust radius, the last step (n,) and the pose, position (3,) and rotation
-        (3, 3); the next three of them as one column.
+        (3, 3), and of the objects around the room, m, and its gradient (n,); the next three of them as one column.
     """
     arm = objective.arm
     q = kinematics.joint_symbols(arm)
@@ -116,8 +125,14 @@ def ascent_step(
             above = high - q[k] - back[k] if kinematics.limited(high) else ca.SX(big)
             rows_kept.append(rows[k])
             room.append((below, above))
-    if clearance is not None and clearance.pairs:
-        gap, slope = clearance.smallest_with_slopes(q, directions)
+    outside = [ca.SX.sym("gap"), ca.SX.sym("slope", arm.n)] if around else []
+    near = [] if clearance is None or not clearance.pairs else [clearance.smallest_with_slopes(q, directions)]
+    near += [(outside[0], [ca.dot(outside[1], v) for v in directions])] if outside else []
+    if near:
+        gap, slope = near[0]
+        for other, slopes in near[1:]:
+            slope = [ca.if_else(other < gap, x, y) for x, y in zip(slopes, slope, strict=True)]
+            gap = ca.if_else(other < gap, other, gap)
         rows_kept.append(slope)
         room.append((margin - gap, ca.SX(big)))
     z = maximin_step(parts, rows_kept, [below for below, _ in room], [above for _, above in room], radius)
@@ -128,7 +143,15 @@ def ascent_step(
     turn = ca.dot(d, last) / (ca.sqrt(ca.sumsqr(d) * ca.sumsqr(last)) + 1e-30)
     next_radius = radius * ca.if_else(turn < 0, 0.5, ca.if_else(turn > 0.5, 1.3, 0.85))
     next_radius = ca.if_else(next_radius > _WIDEST, _WIDEST, next_radius)
-    return [q, radius, last, p, r], ca.vertcat(moved, next_radius, d)
+    return [q, radius, last, p, r, *outside], ca.vertcat(moved, next_radius, d)
+
+
+@recalled
+def step_kernel(objective: Objective, task: Task, clearance: Clearance | None, margin: float, around: bool) -> Kernel:
+    """:func:`ascent_step`, compiled; what an objective measures comes last."""
+    inputs, step = ascent_step(objective, task, clearance, margin, around)
+    measured = objective.measured
+    return Kernel(f"ascent of {objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
 
 
 class Ascent:
@@ -141,32 +164,30 @@ class Ascent:
         self.objective, self.task, self.arm = objective, task, objective.arm
         self.clearance, self.margin = clearance, margin
         self.engine: InverseKinematics = solver(self.arm, task)
-        self._step = self._compiled(None) if self.arm.n > task.m else None
-
-    @recalled
-    def _compiled(self, clearance: Clearance | None) -> Kernel:
-        inputs, step = ascent_step(self.objective, self.task, clearance, self.margin)
-        measured = self.objective.measured
-        return Kernel(f"ascent of {self.objective.name}", [*inputs, *([] if measured is None else [measured])], [step])
+        self._step = step_kernel(objective, task, None, 0.0, False) if self.arm.n > task.m else None
 
     @cached_property
-    def _clear_step(self) -> Kernel | None:
-        """The step that also keeps the arm clear of itself: compiled once it is needed."""
-        return self._compiled(self.clearance) if self.arm.n > self.task.m else None
+    def _clear_step(self) -> Kernel:
+        """The step that also keeps the arm clear: compiled once it is needed, and for a changed cell not again."""
+        assert self.clearance is not None
+        return step_kernel(self.objective, self.task, self.clearance.alone, self.margin, self.clearance.obstacles is not None)
 
-    def _climb(
-        self, step: Kernel | None, q: Array, poses: Array, steps: int, radius: Array | None = None
-    ) -> tuple[Array, Array]:
+    def _climb(self, clear: bool, q: Array, poses: Array, steps: int, radius: Array | None = None) -> tuple[Array, Array]:
         """Steps from q (N, n); returns where they led and the last trust radius."""
         n = self.arm.n
         trust = np.full(len(q), RADIUS) if radius is None else radius
-        if step is None:
+        if self._step is None:
             return q, trust
+        step = self._clear_step if clear else self._step
+        around = self.clearance.obstacles if clear and self.clearance is not None else None
         state = np.concatenate([q, trust[:, None], np.zeros_like(q)], axis=1)
         p, r = np.ascontiguousarray(poses[:, :3, 3]), np.ascontiguousarray(poses[:, :3, :3])
         for _ in each("steps of the ascent", range(steps)):
             before = state
             more = [] if self.objective.measured is None else [self.objective.measure(state[:, :n])]
+            if around is not None:
+                room, _, slope = around.nearest(state[:, :n])
+                more = [room, slope, *more]
             state = step.rows(state[:, :n], state[:, n], state[:, n + 1 :], p, r, *more)
             # A step that divided by zero (a singular configuration) is not taken.
             bad = ~np.isfinite(state).all(axis=1)
@@ -179,16 +200,17 @@ class Ascent:
         return value if self.objective.better == "larger" else -value
 
     def _followed(
-        self, step: Kernel | None, owner: NDArray[np.int64], q: Array, poses: Array, tolerance: float, clear: bool
+        self, owner: NDArray[np.int64], q: Array, poses: Array, tolerance: float, clear: bool
     ) -> tuple[NDArray[np.int64], Array, Array]:
         """Starts q of poses ``owner``, climbed, the poor ones dropped: owners, where they ended, oriented values.
 
         The value is -inf where the end is not on its pose or, if asked, not clear.
         """
-        q, radius = self._climb(step, q, poses[owner], FIRST_STEPS)
-        keep = best_of_each(owner, self._oriented(q), _KEPT)
+        q, radius = self._climb(clear, q, poses[owner], FIRST_STEPS)
+        value = self._oriented(q)
+        keep = best_of_each(owner, np.where(self._is_clear(q), value, -np.inf) if clear else value, _KEPT)
         owner, q, radius = owner[keep], q[keep], radius[keep]
-        q, _ = self._climb(step, q, poses[owner], LAST_STEPS, radius)
+        q, _ = self._climb(clear, q, poses[owner], LAST_STEPS, radius)
         # Far below the tolerance, so that the pose does not pay for the value.
         q, _ = self.engine.attempt(q, poses[owner], 1e-3 * tolerance)
         q = joint_space.wrapped(self.engine.arm, q)
@@ -199,7 +221,7 @@ class Ascent:
 
     def _is_clear(self, q: Array) -> NDArray[np.bool_]:
         assert self.clearance is not None
-        return np.asarray(self.clearance(q) >= self.margin)
+        return np.asarray(self.clearance.room(q) >= self.margin)
 
     def _started(
         self, poses: Array, first: Reach, seed: np.random.SeedSequence, starts: int, tolerance: float
@@ -243,6 +265,7 @@ class Ascent:
         best_q = np.where(first.success[:, None], first.q, np.nan)
         best, agreeing = np.full(count, np.nan), np.full(count, np.nan)
         found, blocked = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
+        blocked_by = np.full(count, -1, dtype=np.int64)
         status = first.status.copy()
         if reached.size:
             best[reached] = self._oriented(first.q[reached])
@@ -265,17 +288,19 @@ class Ascent:
                     np.bincount(owner, minlength=count)[chosen], 1
                 )
 
-            choose(*self._followed(self._step, owner, q, poses, tolerance, clear=False), reached)
+            choose(*self._followed(owner, q, poses, tolerance, clear=False), reached)
             if self.clearance is not None:
                 blocked[reached] = ~self._is_clear(best_q[reached])
                 again = np.flatnonzero(blocked)
                 if again.size:
-                    # Only the poses whose best configuration has the arm collide with itself are climbed once more.
+                    blocked_by[again] = self.clearance.closest_pair(best_q[again])
+                    # Only the poses whose best configuration is not clear are climbed once more.
                     best[again], best_q[again], agreeing[again] = -np.inf, np.nan, 0.0
                     mine = blocked[owner]
                     mine[mine] = self._is_clear(q[mine])
                     if mine.any():
-                        choose(*self._followed(self._clear_step, owner[mine], q[mine], poses, tolerance, clear=True), again)
+                        choose(owner[mine], q[mine], self._oriented(q[mine]), again)
+                        choose(*self._followed(owner[mine], q[mine], poses, tolerance, clear=True), again)
                     status[again[best[again] == -np.inf]] = Status.INFEASIBLE
                     best[best == -np.inf] = np.nan
             kept = reached[status[reached] != Status.INFEASIBLE]
@@ -294,6 +319,7 @@ class Ascent:
             starts=found,
             agreeing=agreeing,
             blocked=blocked,
+            blocked_by=blocked_by,
         )
 
 

@@ -17,6 +17,7 @@ from typing import IO, Any
 
 from holdfast.arm.model import Arm
 from holdfast.arm.task import Task
+from holdfast.cell.cell import Cell
 from holdfast.errors import HoldfastError
 from holdfast.studio.state import State
 from holdfast.studio.work import Cancelled
@@ -29,8 +30,8 @@ _POLL = 0.02  # s
 class Aside:
     """The process, started when it is first needed, ended and started again where a request does not give up in time."""
 
-    def __init__(self, arm: Arm, task: Task) -> None:
-        self._arm, self._task = replace(arm), task  # without what has been compiled
+    def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
+        self._of = replace(arm), task, cell  # without what has been compiled
         self._process: subprocess.Popen[bytes] | None = None
         self._answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._turn = threading.Lock()
@@ -87,7 +88,7 @@ class Aside:
         answers: queue.Queue[tuple[str, Any]] = queue.Queue()
         self._process, self._answers = process, answers
         threading.Thread(target=_listen, args=(process.stdout, answers), daemon=True, name="studio answers").start()
-        self._send((self._arm, self._task))
+        self._send(self._of)
 
     def _send(self, message: Any) -> None:
         if self._process is None or self._process.stdin is None:
@@ -142,12 +143,12 @@ def main() -> None:
     """Answer requests until the parent is gone."""
     requests, answers = sys.stdin.buffer, sys.stdout.buffer
     sys.stdout = sys.stderr  # what a library prints must not get between the answers
-    arm, task = pickle.load(requests)
+    arm, task, cell = pickle.load(requests)
 
     from holdfast.studio.compute import JOBS
     from holdfast.studio.scene.machine import Machine, sentence
 
-    machine, waiting = Machine(arm, task), queue.SimpleQueue[Any]()
+    machine, waiting = Machine(arm, task, cell), queue.SimpleQueue[Any]()
     given_up = [0]  # the newest request that is of no interest any more
 
     def read() -> None:

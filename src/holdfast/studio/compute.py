@@ -43,11 +43,11 @@ def best_worst(machine: Machine, state: State, progress: Progress) -> Extremes:
     both = machine.objectives(state.objective)
     if isinstance(both, str):
         raise InputError(both)
-    q = np.array(state.q)
+    q, clear = np.array(state.q), machine.clearance(state.moved)
     found = []
     for k, wanted in enumerate(both):
         progress(k, 2)
-        found.append(optimise(machine.arm, machine.hand(q), wanted, task=machine.task, starts=STARTS))
+        found.append(optimise(machine.arm, machine.hand(q), wanted, task=machine.task, starts=STARTS, clearance=clear))
     if not all(bool(f.success) for f in found):
         raise InputError("no configuration of this pose was found; move the end effector and try again")
     # The searches are local: where the arm is may beat what they found.

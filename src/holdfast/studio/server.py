@@ -16,6 +16,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task
 from holdfast.arms.spec import default_task
+from holdfast.cell.cell import Cell
 from holdfast.errors import HoldfastError, InputError
 from holdfast.present.arm.body import Part
 from holdfast.present.arm.visuals import body_of
@@ -50,7 +51,7 @@ class Studio:
         self.url = address(server)
         self.windows: dict[int, Window] = {}
         self.machine = machine
-        self._aside = Aside(machine.arm, machine.task)
+        self._aside = Aside(machine.arm, machine.task, machine.cell)
         self._own: dict[int, Aside] = {}  # of windows with an arm of their own
         self._stopped = threading.Event()
 
@@ -89,7 +90,7 @@ class Studio:
         client.gui.reset()
         client.scene.reset()
         client.camera.position, client.camera.look_at = _camera(machine, q, _is_tall(client))
-        aside = self._own[client.client_id] = Aside(machine.arm, machine.task)
+        aside = self._own[client.client_id] = Aside(machine.arm, machine.task, machine.cell)
         self._open(client, machine, aside, state, parts, note)
 
     def wait(self) -> None:
@@ -119,6 +120,7 @@ def serve(
     *,
     port: int = PORT,
     task: Task | None = None,
+    cell: Cell | None = None,
     ready: Callable[[str], None] = lambda url: None,
 ) -> Studio:
     """Open the studio of an arm; it is served until :meth:`Studio.stop`.
@@ -132,11 +134,12 @@ def serve(
             page: other than the loopback address only in a network where all are trusted.
         port: The port; 0: any that is free.
         task: The task, where its name in ``state`` does not say it all.
+        cell: The objects around the arm, which can be dragged.
         ready: Told the address as soon as a browser may open it; the arm comes while the browser loads the page.
 
     Raises:
         HoldfastError: Viser is not installed; it comes with ``holdfast[view]``.
-        InputError: The port is in use, or the host is not an address of this machine.
+        InputError: The port is in use, the host is not an address of this machine, or the arm's base touches an object.
         TaskError: A task that does not fit the arm.
     """
     if find_spec("viser") is None:
@@ -144,7 +147,8 @@ def serve(
     if state is None:
         q = tuple(float(x) for x in generic_configuration(arm))
         state = State(arm.name, arm.joint_names, q, task=default_task(arm.name, arm))
-    machine = Machine(arm, task or as_task(arm, state.task))
+    machine = Machine(arm, task or as_task(arm, state.task), cell)
+    machine.clearance(state.moved)  # what is wrong with it is said before anybody comes
     free = free_port(host, port)
     # Before anybody can come: a page that is open already keeps the view that it began with.
     eye, centre = _camera(machine, np.array(state.q))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import Literal
 
 from holdfast.errors import InputError
@@ -36,6 +36,8 @@ class State:
         file: A motion that ``follow``, ``simulate`` or ``recover`` wrote, or None.
         region: A results folder of ``assess``, or None: then a region around the end effector.
         time: Where a motion is shown, s (or whatever its first column counts).
+        cell: A cell file, or None: no objects.
+        moved: Objects of the cell that were dragged, each with its name and x, y, z (m) and quaternion x, y, z, w.
     """
 
     arm: str
@@ -56,6 +58,8 @@ class State:
     file: str | None = None
     region: str | None = None
     time: float = 0.0
+    cell: str | None = None
+    moved: tuple[tuple[str, tuple[float, ...]], ...] = ()
 
     def __post_init__(self) -> None:
         n = len(self.names)
@@ -80,6 +84,10 @@ class State:
         """Indices from 0 of the joints that swing freely."""
         return tuple(k for k, c in enumerate(self.conditions) if c == "free")
 
+    def with_object(self, name: str, numbers: tuple[float, ...]) -> State:
+        """The same view with an object of the cell elsewhere."""
+        return replace(self, moved=(*(other for other in self.moved if other[0] != name), (name, numbers)))
+
     def arguments(self) -> list[str]:
         """The arguments of ``holdfast`` that bring this state back; only what differs from the defaults, and q."""
         plain = State(self.arm, self.names, self.q)
@@ -96,8 +104,9 @@ class State:
             out += [f"--law={law}" for law in self.laws]
         if self.target is not None:
             out.append(f"--target={','.join(repr(float(x)) for x in self.target)}")
-        for option, text in (("file", self.file), ("region", self.region)):
+        for option, text in (("file", self.file), ("region", self.region), ("cell", self.cell)):
             out += [] if text is None else [f"--{option}={text}"]
+        out += [f"--move={name}={','.join(repr(float(x)) for x in numbers)}" for name, numbers in self.moved]
         if self.time:
             out.append(f"--time={self.time!r}")
         return out

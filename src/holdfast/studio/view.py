@@ -17,6 +17,7 @@ from holdfast.studio.page.panel import Panel
 from holdfast.studio.player import Player
 from holdfast.studio.scene.cloud import Cloud
 from holdfast.studio.scene.machine import TOLERANCE, Machine, Reading, sentence
+from holdfast.studio.scene.objects import Objects
 from holdfast.studio.scene.stage import Stage
 from holdfast.studio.state import State
 from holdfast.studio.work import TICK, Clock, Latest
@@ -49,6 +50,7 @@ class View:
             self.stage = Stage(client.scene, machine, parts)
             self.stage.move(machine.arm.frames(self.q), gizmo=True)
             self.panel = Panel(client.gui, machine, state, ask)
+            self.objects = None if machine.cell is None else Objects(client.scene, machine, state.moved, ask)
         self.player = Player(self.stage, self.panel, self._clock, self._moved)
         self._guide = Guide(ask, self.panel.guide)
 
@@ -73,6 +75,8 @@ class View:
             self.stage.read(reading, frames[-1])
             self.panel.read(reading, state)
             self.panel.enable(self._possible(reading))
+            if self.objects is not None:
+                self.panel.tell_nearest(*self.objects.read(q))
             self._guide.tell(reading, state.names, self._busy)
         self.updates += 1
 
@@ -115,6 +119,17 @@ class View:
         if self._busy:
             self._busy = False
             self.live.put("refresh", self._refresh)
+
+    def _on_pick(self, name: str) -> None:
+        if self.objects is not None:
+            self.objects.pick(name)
+            self.panel.say(f"Drag {name} by its handle; click it again to leave it there.")
+
+    def _on_object(self, value: tuple[str, tuple[float, ...]]) -> None:
+        if self.objects is not None:
+            self.objects.move(*value, self.state.moved)
+            self.state = self.state.with_object(*value)
+            self._refresh()
 
     def _moved(self, time: float, q: Array | None) -> None:
         self.state = replace(self.state, time=time)

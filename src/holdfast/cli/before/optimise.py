@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
-from holdfast.cli.clearance import CapsulesOption, ClearanceOption, MarginOption, RadiusOption, check_clearance, read_clearance
+from holdfast.cli.clearance import (
+    CapsulesOption,
+    CellOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_clearance,
+)
 from holdfast.cli.measure_options import OBJECTIVES
 from holdfast.cli.options import (
     ArmArgument,
@@ -90,6 +98,7 @@ def command(
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
     margin: MarginOption = None,
+    cell: CellOption = None,
     mount: MountOption = "floor",
     gravity: GravityOption = None,
     payload: PayloadOption = None,
@@ -109,7 +118,7 @@ def command(
     from holdfast.arm.task import as_task
     from holdfast.solvers.optima import optimise
 
-    check_clearance(clearance, capsules, radius, margin)
+    check_clearance(clearance, capsules, radius, margin, cell)
     model = placed(read_arm(arm, base, tip, hold), mount, gravity, payload)
     chosen = as_task(model, read_task(task, arm, model))
     if (minimise is None) == (maximise is None):
@@ -126,7 +135,7 @@ def command(
         seed=seed,
         starts=starts,
         task=chosen,
-        clearance=read_clearance(model, clearance, capsules, radius, margin, chooses=True),
+        clearance=read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell),
         margin=margin or 0.0,
         initial=given,
     ).require_any()

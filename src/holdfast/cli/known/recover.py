@@ -9,7 +9,15 @@ import numpy as np
 import typer
 
 import holdfast as hf
-from holdfast.cli.clearance import CapsulesOption, ClearanceOption, MarginOption, RadiusOption, check_clearance, read_clearance
+from holdfast.cli.clearance import (
+    CapsulesOption,
+    CellOption,
+    ClearanceOption,
+    MarginOption,
+    RadiusOption,
+    check_clearance,
+    read_clearance,
+)
 from holdfast.cli.options import (
     TASK_HELP,
     ArmArgument,
@@ -19,8 +27,8 @@ from holdfast.cli.options import (
     TipOption,
     check_unit_of_places,
     read_arm,
-    read_by_joint,
     read_configuration,
+    read_locks,
     read_pose,
     read_task,
 )
@@ -85,6 +93,7 @@ def command(
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
     margin: MarginOption = None,
+    cell: CellOption = None,
     check: Annotated[
         Path | None, typer.Option("--check", help="Plan nothing; check these waypoints (CSV) by a replay.", show_default=False)
     ] = None,
@@ -104,11 +113,11 @@ def command(
 
     Example: holdfast recover panda --lock 4=-2 --at "2 0.6 0 -2 0 2.5 0.8" --task position --out home
     """
-    check_clearance(clearance, capsules, radius, margin)
+    check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
-    shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True)
+    shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell)
     if check is not None:
-        locked = read_by_joint(model, lock, "--lock", degrees, alone=True)
+        locked = read_locks(model, lock, degrees, alone=True)
         replay = hf.recovery.check_waypoints(
             model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0
         )
@@ -127,7 +136,7 @@ def command(
         check_unit_of_places(model, hand_path.pose(np.linspace(0, 1, 21))[:, :3, 3], "--path")
     result = hf.recover(
         model,
-        read_by_joint(model, lock, "--lock", degrees, alone=True),
+        read_locks(model, lock, degrees, alone=True),
         read_configuration(model, at, degrees, "--at"),
         goal=aim,
         task=_position_task(model, chosen) if positions else chosen,

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
+import numpy as np
 import typer
 
+from holdfast.cli.clearance import CellOption
 from holdfast.cli.options import (
     TARGET_HELP,
     ArmArgument,
@@ -17,6 +19,7 @@ from holdfast.cli.options import (
     read_arm,
     read_configuration,
     read_joint,
+    read_numbers,
     read_target,
     read_task,
 )
@@ -71,6 +74,15 @@ def command(
     region: Annotated[
         str | None, typer.Option("--region", help="A results folder that assess wrote.", show_default=False)
     ] = None,
+    cell: CellOption = None,
+    move: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--move",
+            help="An object of the cell elsewhere: name=x,y,z[,qx,qy,qz,qw], m. May be given again.",
+            show_default=False,
+        ),
+    ] = None,
     time: Annotated[float, typer.Option("--time", help="Time at which the motion is shown, s.")] = 0.0,
     show: Annotated[
         str | None,
@@ -95,6 +107,7 @@ def command(
     from holdfast.arm.poses import pose_numbers
     from holdfast.arm.postures import generic_configuration
     from holdfast.arm.task import as_task, target_pose
+    from holdfast.cell.cell import Cell
     from holdfast.cli.laws import read_law
     from holdfast.studio.server import serve
     from holdfast.studio.state import SHOWS, State
@@ -140,12 +153,17 @@ def command(
         file=file,
         region=region,
         time=time,
+        cell=None if cell is None else str(cell),
+        moved=_moved(move or []),
     )
 
     def ready(url: str) -> None:
         typer.echo(f"Open {url} in a browser; Ctrl-C stops.")
 
-    with serve(model, state, host, port=port, task=rows, ready=ready) as page:
+    if move and cell is None:
+        raise InputError("--move takes an object of a cell elsewhere, and there is no cell; add --cell FILE")
+    around = None if cell is None else Cell.load(cell)
+    with serve(model, state, host, port=port, task=rows, cell=around, ready=ready) as page:
         page.wait()
 
 
@@ -159,3 +177,16 @@ def _conditions(model: Arm, lock: list[str], free: list[str]) -> tuple[Condition
                 raise InputError(f"joint '{model.joint_names[k]}' is given twice among --lock and --free; give it once")
             conditions[k] = condition
     return tuple(conditions)
+
+
+def _moved(given: list[str]) -> tuple[tuple[str, tuple[float, ...]], ...]:
+    out: list[tuple[str, tuple[float, ...]]] = []
+    for text in given:
+        name, _, numbers = text.partition("=")
+        values = read_numbers("--move", numbers, "numbers")
+        if values.size == 3:
+            values = np.concatenate([values, [0.0, 0.0, 0.0, 1.0]])
+        if values.size != 7 or not np.isfinite(values).all() or not np.linalg.norm(values[3:]) > 1e-9:
+            raise InputError(f"--move '{text}': give name=x,y,z in m, or name=x,y,z,qx,qy,qz,qw, not all q 0")
+        out.append((name, tuple(values.tolist())))
+    return tuple(out)

@@ -13,11 +13,13 @@ from holdfast.arm.model import Arm
 from holdfast.arm.postures import generic_configuration
 from holdfast.arm.task import Task, as_task, plane_normal
 from holdfast.arms.spec import default_task
+from holdfast.cell.cell import Cell
 from holdfast.errors import InputError
 from holdfast.files.html import Html
 from holdfast.indices.lost_directions import losses
 from holdfast.present.arm.body import LINK, Part, stick_parts, stretched
 from holdfast.present.arm.visuals import body_of
+from holdfast.present.cell import bodies
 from holdfast.regions.region import Region
 from holdfast.report import viewer
 from holdfast.report.viewer import Scene, numbers
@@ -49,6 +51,7 @@ def scene(
     readings: Sequence[str] = (),
     joints: bool = False,
     meshes: bool = True,
+    cell: Cell | None = None,
 ) -> Scene:
     """What a view shows of an arm.
 
@@ -70,6 +73,7 @@ def scene(
         readings: (F,) a short text for each frame.
         joints: Sliders that move the joints of the first arm.
         meshes: Take the shapes of a URDF file.
+        cell: The objects around the arm.
 
     Raises:
         InputError: Shapes that do not fit.
@@ -96,13 +100,17 @@ def scene(
         raise InputError(f"colors are {len(paints)} and points {len(places)}; give as many")
     size = stretched(arm)
     body, note = body_of(arm, size) if meshes else (stick_parts(arm, size), "")
-    parts, notes = _parts(arm, size, body)
-    notes += [note[:1].upper() + note[1:] + "."] if note else []
     up = _up(arm)
     taken = [] if moving or not lost else _lost(arm, rows[0, 0], [k for k, t in enumerate(since) if t is not None], task)
     seen = [frames[..., :3, 3].reshape(-1, 3), path_, places, *(pose[None, :3, 3] for pose in poses), *boxes]
     seen += [frames[0, 0, -1, :3, 3] + 0.26 * size * s * np.array(loss["twist"][:3]) for loss in taken for s in (-1, 1)]
     seen += [_swept(p, frames[:, :: max(len(few) // 8, 1), p.frame]) for p in body if p.frame]
+    objects = [] if cell is None else bodies.parts(cell, arm.base, size)
+    around = tuple(part.vertices @ arm.base[:3, :3].T + arm.base[:3, 3] for part in objects)
+    # A floor or a wall goes on where nothing is to be seen.
+    seen += [x[np.linalg.norm(x - arm.base[:3, 3], axis=1) < size] for x in around]
+    parts, notes = _parts(arm, size, [*body, *objects])
+    notes += [note[:1].upper() + note[1:] + "."] if note else []
     data = {
         "up": numbers(up),
         "size": numbers([size])[0],
@@ -131,11 +139,12 @@ def scene(
         "boxes": [{"low": numbers(low), "high": numbers(high)} for low, high in boxes],
         "points": numbers(places),
         "colors": [[round(x) for x in row] for row in paints.tolist()],
+        "objects": [] if cell is None else [{"name": x.name, "at": numbers(x.pose[:3, 3])} for x in cell],
         "lost": taken,
         "sliders": joints and not moving,
         "camera": _camera(arm, up, np.vstack(seen), frames, 0.45 * size),
     }
-    return Scene(data, frames, tuple(notes))
+    return Scene(data, frames, tuple(notes), around)
 
 
 def picture(arm: Arm, about: str, region: Region | None = None) -> str:

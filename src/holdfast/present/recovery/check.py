@@ -22,6 +22,8 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
         "beyond_limits": check.beyond_limits,
         "locks_moved": check.locks_moved,
         "least_clearance_m": check.least_clearance,
+        "least_room_m": check.least_room,
+        "closest": check.closest or None,
         "margin_m": check.margin,
         "tool_at_end": check.poses[-1],
     }
@@ -29,7 +31,7 @@ def to_dict(check: WaypointCheck) -> dict[str, Any]:
 
 def key_table(check: WaypointCheck) -> Rows:
     """What is kept and what is not."""
-    clearance = "not looked at" if check.least_clearance is None else f"{number(check.least_clearance)} m"
+    clearance = "not looked at" if check.least_clearance is None else f"{number(check.least_clearance)} m {check.closest}"
     rows = [
         ["waypoints", str(len(check.q))],
         ["limits", ", ".join(check.beyond_limits) or "kept"],

@@ -54,6 +54,7 @@ def to_dict(optima: Optima, asked: str = "") -> dict[str, Any]:
             "clearance_before_m": apart[k],
             "clearance_m": apart_after[k],
             "blocked": found.blocked[k] if found.clearance is not None else None,
+            "blocked_by": found.obstacles[k] or None,
             "starts": found.starts[k],
             "agreeing": found.agreeing[k],
             "position_error_m": found.position_error[k],
@@ -249,18 +250,16 @@ def _show_clearance(found: Optima, out: Console) -> None:
     """What keeps the arm from colliding with itself, and where it would have."""
     from rich.markup import escape
 
-    from holdfast.clearance.clearance import too_close
-
     if found.clearance is None:
         return
     before, after = found.apart(found.before), found.apart(found.q)
-    close, blocked = too_close(found.margin), int(found.blocked.sum())
+    close, blocked = found.clearance.too_close(found.margin), int(found.blocked.sum())
     if len(before) == 1:
         apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
-        text = f"clearance of the arm from itself: {apart}"
-        text += f"; a better configuration {close} and was not taken" if blocked else ""
+        text = f"clearance of the arm from {found.clearance.everything}: {apart}"
+        text += f"; a better configuration {close} and was not taken: {found.obstacles[0]}" if blocked else ""
     else:
-        counts = [int((x < found.margin).sum()) for x in (before, after)]
+        counts = [int(found.close(x).sum()) for x in (found.before, found.q)]
         text = f"the arm {close} in {counts[0]} of {len(before)} configurations before, in {counts[1] or 'none'} after"
         text += f"; at {blocked} poses a better configuration does and was not taken" if blocked else ""
     out.print(escape(f"{text} ({shape_text(found.clearance, found.margin)})"), soft_wrap=True)

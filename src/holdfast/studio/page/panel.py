@@ -45,6 +45,7 @@ class Panel:
         self._button("Take the 60-second tour", "tour")
         self._button("Next", "next", visible=False)
         self._button("End the tour", "skip", visible=False, color="gray")
+        self.near = gui.add_html("", visible=machine.cell is not None)
         self.bars = gui.add_html("")
         self.losses = gui.add_html("")
         tabs = gui.add_tab_group()
@@ -165,6 +166,12 @@ class Panel:
         content = _line(text, bad)
         if self.message.content != content:
             self.message.content = content
+
+    def tell_nearest(self, text: str, bad: bool) -> None:
+        """What of the cell is nearest to the arm."""
+        content = _line(text, bad)
+        if self.near.content != content:
+            self.near.content = content
 
     def read(self, reading: Reading, state: State) -> None:
         """The live numbers."""

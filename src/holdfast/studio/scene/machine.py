@@ -15,8 +15,11 @@ from numpy.typing import NDArray
 
 from holdfast.arm import kinematics
 from holdfast.arm.model import Arm
+from holdfast.arm.poses import pose_of
 from holdfast.arm.task import Task
 from holdfast.caching import cached_property
+from holdfast.cell.cell import Cell
+from holdfast.clearance.clearance import Clearance
 from holdfast.control.law import Law
 from holdfast.errors import ArmError, HoldfastError, InputError, TaskError
 from holdfast.indices import susceptibility
@@ -78,12 +81,13 @@ class Reading:
 class Machine:
     """What all windows of an arm share; safe for several threads."""
 
-    def __init__(self, arm: Arm, task: Task) -> None:
-        self.arm, self.task = arm, task
+    def __init__(self, arm: Arm, task: Task, cell: Cell | None = None) -> None:
+        self.arm, self.task, self.cell = arm, task, cell
         self._indices: dict[str, Index | str] = {}
         self._susceptibilities: dict[str, susceptibility.Susceptibility | str] = {}
         self._objectives: dict[str, tuple[Objective, Objective] | str] = {}
         self._laws: dict[str, Law] = {}
+        self._clear: Clearance | None = None
         self._making = threading.RLock()
 
     # ---- where things are ------------------------------------------------------------------------------------------
@@ -102,6 +106,21 @@ class Machine:
     def size(self) -> float:
         """Length of the stretched arm, m: what things are drawn in proportion to."""
         return stretched(self.arm)
+
+    def clearance(self, moved: Sequence[tuple[str, Sequence[float]]]) -> Clearance | None:
+        """What the arm keeps clear of, with objects where they were moved to; None without a cell.
+
+        Raises:
+            InputError: The arm's base touches an object.
+        """
+        if self.cell is None:
+            return None
+        with self._making:
+            if self._clear is None:
+                self._clear = Clearance.by_default(self.arm, self.cell)
+            assert self._clear is not None
+            poses = {name: pose_of(numbers[:3], numbers[3:]) for name, numbers in moved}
+            return self._clear.with_cell(self.cell.with_poses(poses)) if poses else self._clear
 
     # ---- what a failure takes --------------------------------------------------------------------------------------
 

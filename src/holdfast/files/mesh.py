@@ -1,0 +1,178 @@
+"""Triangle meshes from STL files, and from OBJ, GLB, PLY and DAE files with the extra ``cell``; what makes one sound."""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from holdfast.arguments import real_numbers
+from holdfast.errors import HoldfastError, InputError
+from holdfast.files import reading
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+FORMATS = ("stl", "obj", "glb", "ply", "dae")
+_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """A surface.
+
+    Attributes:
+        vertices: (V, 3), each once.
+        faces: (F, 3) positions of their corners in ``vertices``; those without an area are left out.
+    """
+
+    vertices: Array
+    faces: Indices
+
+    @property
+    def closed(self) -> bool:
+        """True if every edge belongs to two triangles that pass it in opposite directions: the surface has an inside."""
+        start, end = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
+        one, other = start * len(self.vertices) + end, end * len(self.vertices) + start
+        one.sort()
+        other.sort()
+        return bool(len(one)) and bool((one == other).all()) and bool((one[1:] != one[:-1]).all())
+
+    @property
+    def volume(self) -> float:
+        """Of what it encloses, in cubes of the unit of the vertices; below 0 where the triangles face inward."""
+        a, b, c = (self.vertices[self.faces[:, k]] - self.vertices.mean(axis=0) for k in range(3))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+
+def import_trimesh() -> ModuleType:
+    """The package that reads meshes, which is not one of those that holdfast always brings.
+
+    Raises:
+        HoldfastError: It is not installed.
+    """
+    try:
+        import trimesh
+    except ImportError as error:
+        raise HoldfastError(
+            "meshes are read by trimesh, which is not installed; install holdfast[cell] (pip install 'holdfast[cell]')"
+        ) from error
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # what is wrong is said once, by us
+    return trimesh  # type: ignore[no-any-return, unused-ignore]
+
+
+def read(path: Path) -> tuple[Triangles, bytes]:
+    """The triangles in a file, in its own unit, and the bytes of the file.
+
+    Raises:
+        InputError: It is missing, empty, cut off, of no known kind, or holds NaN.
+        HoldfastError: It is no STL file and the extra ``cell`` is not installed.
+    """
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in FORMATS:
+        raise InputError(f"'{path.name}' is no kind of mesh that is known; use {', '.join(FORMATS).upper()}")
+    with reading.guarded(f"'{path.name}'", "give the path of a mesh that exists"):
+        content = reading.raw(path)
+    if not content:
+        raise InputError(f"'{path.name}' is empty; give a mesh with triangles")
+    _whole(content, kind, path.name)
+    if kind == "stl":
+        return triangles(*_stl(content, path.name), f"'{path.name}'"), content
+    if kind == "dae" and find_spec("collada") is None:
+        raise HoldfastError(f"'{path.name}' is read by pycollada, which is not installed; pip install pycollada, or convert it")
+    trimesh = import_trimesh()
+    try:
+        # From memory: nothing that the file names, as a picture, is opened.
+        found = trimesh.load_mesh(io.BytesIO(content), file_type=kind, process=False)
+        vertices, faces = np.array(found.vertices, dtype=np.float64), np.array(found.faces, dtype=np.int64)
+    except Exception as error:  # its readers fail in every way that Python knows
+        raise InputError(f"'{path.name}' is damaged or not a mesh in the format {kind.upper()}; write it anew") from error
+    return triangles(vertices, faces, f"'{path.name}'"), content
+
+
+def _whole(content: bytes, kind: str, name: str) -> None:
+    """Refuse a file that was cut off where its reader would take what is left."""
+    text = kind == "stl" and _as_text(content)
+    if kind == "stl" and not text:
+        said = int.from_bytes(content[80:84], "little") if len(content) >= 84 else 1
+        cut = len(content) < 84 + 50 * said
+    elif kind == "stl":
+        cut = b"endsolid" not in content[-1000:]
+    elif kind == "glb":
+        cut = len(content) < 12 or len(content) < int.from_bytes(content[8:12], "little")
+    else:
+        return
+    if cut:
+        raise InputError(f"'{name}' is cut off or damaged: it is shorter than it says; write it anew")
+
+
+def _as_text(content: bytes) -> bool:
+    """Whether an STL file is one of words."""
+    return content[:5].lower() == b"solid" and b"facet" in content[:1000]
+
+
+def _stl(content: bytes, name: str) -> tuple[Array, Indices]:
+    """The corners (3 F, 3) of the triangles of a whole STL file, and their numbers (F, 3)."""
+    if _as_text(content):
+        try:
+            corners = np.array(_VERTEX.findall(content), dtype=np.float64).reshape(-1, 3)
+        except ValueError as error:
+            raise InputError(f"'{name}' is damaged: a vertex in it is not three numbers; write it anew") from error
+        if len(corners) % 3:
+            raise InputError(f"'{name}' is damaged: a triangle in it has not three vertices; write it anew")
+    else:
+        count = int.from_bytes(content[80:84], "little")
+        corners = np.frombuffer(content, _RECORD, count, 84)["corners"].reshape(-1, 3).astype(np.float64)
+    return corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
+
+
+def triangles(vertices: ArrayLike, faces: ArrayLike, what: str) -> Triangles:
+    """Checked triangles with every vertex once.
+
+    Args:
+        vertices: (V, 3).
+        faces: (F, 3) whole numbers.
+        what: What an error calls them.
+
+    Raises:
+        InputError: They are no triangles, none, or not finite.
+    """
+    points, corners = np.array(real_numbers(vertices, f"{what}: vertices")), real_numbers(faces, f"{what}: faces")
+    if points.ndim != 2 or points.shape[-1] != 3 or corners.ndim != 2 or corners.shape[-1] != 3 or not corners.size:
+        raise InputError(f"{what} has no triangles; give vertices (V, 3) and faces (F, 3)")
+    if not np.isfinite(points).all():
+        raise InputError(f"{what} holds NaN or infinity; all its vertices must be finite")
+    numbers = corners.astype(np.int64)
+    if (numbers != corners).any() or numbers.min() < 0 or numbers.max() >= len(points):
+        raise InputError(f"{what} is damaged: a face names a vertex that is not there; write it anew")
+    used, where = _once(points[numbers.ravel()] + 0.0)
+    sound = where.reshape(-1, 3)
+    sound = sound[(sound != np.roll(sound, 1, axis=1)).all(axis=1)]
+    if not len(sound):
+        raise InputError(f"{what} has no triangle with an area; write it anew")
+    return Triangles(used, sound)
+
+
+def _once(points: Array) -> tuple[Array, Indices]:
+    """Different rows, and where each row is among them."""
+    order = np.lexsort(points.T)
+    rows = points[order]
+    new = np.concatenate([[True], (rows[1:] != rows[:-1]).any(axis=1)])
+    where = np.empty(len(points), dtype=np.int64)
+    where[order] = np.cumsum(new) - 1
+    return rows[new], where
+
+
+def text(surface: Triangles) -> str:
+    """A surface as an OBJ file with every digit."""
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in surface.vertices.tolist()]
+    lines += [f"f {a} {b} {c}" for a, b, c in (surface.faces + 1).tolist()]
+    return "\n".join(lines) + "\n"
