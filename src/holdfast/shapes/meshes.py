@@ -1,0 +1,47 @@
+"""Where the files of meshes are that the file of an arm names."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+
+def find_mesh(name: str, file: Path, folder: Path | None = None) -> Path | None:
+    """The file of a mesh that a URDF file names, or None.
+
+    A path is taken from the folder of the URDF file. For ``package://NAME/...``, NAME is a folder beside the URDF file or
+    above it, or one in ``ROS_PACKAGE_PATH``, or the last folder of one of its entries.
+
+    Args:
+        name: As the URDF file has it.
+        file: The URDF file.
+        folder: Where the meshes are; looked into first, for the name and for ever fewer of its last parts.
+    """
+    scheme, mark, inside = name.partition("://")
+    if not mark:
+        scheme, inside = "", name
+    if scheme not in ("", "file", "package") or "\0" in name:
+        return None
+    for place in [*_inside(inside, folder), *_usual(scheme, inside, file)]:
+        if place.is_file():
+            return place
+    return None
+
+
+def _inside(name: str, folder: Path | None) -> Iterator[Path]:
+    if folder is not None:
+        parts = [part for part in PurePosixPath(name).parts if part not in ("/", "..")]
+        yield from (folder.joinpath(*parts[k:]) for k in range(len(parts)))
+
+
+def _usual(scheme: str, inside: str, file: Path) -> Iterator[Path]:
+    if scheme != "package":
+        yield file.parent / inside  # an absolute path stays one
+        return
+    package, _, rest = inside.partition("/")
+    listed = [Path(entry) for entry in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if entry]
+    for above in [*file.resolve().parents, *listed]:
+        yield above / package / rest
+        if above.name == package:
+            yield above / rest
