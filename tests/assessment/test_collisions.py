@@ -174,7 +174,9 @@ def test_where_capsules_come_from():
     assert Capsules(()).describe(arm) == "0 capsules, as given"
     assert Capsules(own.parts, ((0, 3),)).radius_along(arm) is None
     assert Clearance.by_default(arms.load("planar-3r")) is None
-    assert Clearance.by_default(arm).capsules == assumed
+    assert Clearance.by_default(arm).capsules.describe(arm).startswith("cover of the collision shapes of panda.urdf: ")
+    other = arms.load("xarm7")  # its file gives none
+    assert Clearance.by_default(other).capsules == Capsules.along(other)
 
 
 def test_the_report_says_what_was_counted(run, thick, tmp_path):

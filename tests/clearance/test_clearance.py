@@ -64,7 +64,8 @@ def clearance(request, generator):
 
 @pytest.fixture(scope="module")
 def panda():
-    return Clearance(arms.load("panda"))
+    arm = arms.load("panda")
+    return Clearance(arm, Capsules.along(arm))
 
 
 def test_pinocchio_and_coal_agree_on_random_arms(clearance, rng):
