@@ -44,6 +44,9 @@ Point = tuple[float, float, float]
 BASE = -1
 """The link that is still, in ``Capsule.link``."""
 
+COVER = "cover of the collision shapes of "
+"""How ``source`` begins of capsules that were made to contain the shapes of a file."""
+
 _SHARE = 1 / 20  # default radius over the sum of the link lengths: an assumption
 _NUMBERED = re.compile(r" \(\d+\)$")
 _POINT = 1e-9  # m: a link shorter than this has no length
@@ -156,6 +159,11 @@ class Capsules:
         radius = self.parts[0].radius if self.parts else None
         same = radius is not None and np.linalg.norm(_ends(arm)) >= _POINT and self.own == Capsules.along(arm, radius)
         return radius if same else None
+
+    @property
+    def covers(self) -> bool:
+        """True if they were made to contain the collision shapes of a file; see :func:`holdfast.clearance.cover.cover_of`."""
+        return self.source.startswith(COVER)
 
     def assumed(self, arm: Arm) -> bool:
         """True if the radius along the links is the one that :meth:`along` assumes."""

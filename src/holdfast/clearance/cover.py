@@ -22,7 +22,7 @@ from holdfast.arm.model import Arm
 from holdfast.cell import solids
 from holdfast.cell.cell import Cell
 from holdfast.cell.solids import Solid
-from holdfast.clearance.capsules import Capsule, Capsules, along_link, assumed_radius, link_name
+from holdfast.clearance.capsules import COVER, Capsule, Capsules, along_link, assumed_radius, link_name
 from holdfast.clearance.enclosing import capsule_about, directions, main_axes
 from holdfast.clearance.shape import Shape, corners, hull_of
 from holdfast.errors import ArmError, InputError
@@ -80,7 +80,7 @@ def _unchecked(shape: Shape, owners: list[str], others: list[str]) -> bool:
 def _told(shape: Shape, arm: Arm, count: int, mean: float, most: float) -> str:
     capsules = f"{count} capsule{'' if count == 1 else 's'}"
     text = (
-        f"cover of the collision shapes of {shape.source}: {capsules}, "
+        f"{COVER}{shape.source}: {capsules}, "
         f"{1e3 * mean:.0f} mm beyond their hulls in the mean, {1e3 * most:.0f} mm at most"
     )
     if shape.missing:

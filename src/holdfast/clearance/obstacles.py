@@ -210,17 +210,11 @@ class Obstacles:
         links, count = len(self.links), len(self.cell)
         out = np.empty((len(q), links, count))
         for number, rows in enumerate(self._by_block(self._distance_kernel, q, self._bare)):
-<<<<<<< HEAD
-            some = out[:, :, number * BLOCK : (number + 1) * BLOCK]
-            some[...] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : some.shape[2]]
-        return out.reshape(len(q), links * count)
-=======
             some = self._formulas[number * BLOCK : (number + 1) * BLOCK]
             out[:, :, some] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : len(some)]
         if self._gridded is not None:
             out[:, :, self._grids] = self._gridded.distances(q)
         return out.reshape(len(q), -1)
->>>>>>> s5-plan
 
     def _by_block(self, kernel: Kernel, q: Array, blocks: Array, first: int | None = None) -> list[Array]:
         """(N, outputs) of each block."""

@@ -1,8 +1,9 @@
-"""--capsules, --radius, --margin, --clearance, --cell: what an arm is kept clear of, itself and the objects around it."""
+"""--capsules, --radius, --meshes, --margin, --clearance, --cell: what an arm is kept clear of, itself and what is around it."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,8 +22,15 @@ RadiusOption = Annotated[
     float | None,
     typer.Option(
         "--radius",
-        help="Radius, m, of capsules along the links. Default: 1/20 of the sum of the link lengths, an assumption.",
+        help="Radius, m, of capsules along the links. Default: the collision shapes of the arm's file; where there are none, "
+        "1/20 of the sum of the link lengths, an assumption.",
         show_default=False,
+    ),
+]
+MeshesOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--meshes", help="Folder in which the meshes that the arm's URDF file names are looked for first.", show_default=False
     ),
 ]
 MarginOption = Annotated[
@@ -77,6 +85,7 @@ def read_clearance(
     margin: float | None,
     chooses: bool,
     cell: Path | None = None,
+    meshes: Path | None = None,
 ) -> Clearance | None:
     """What the options ask an arm to be kept clear of, or None for nothing. With ``--no-clearance`` the cell alone counts.
 
@@ -88,6 +97,7 @@ def read_clearance(
         margin: ``--margin``, m.
         chooses: The command chooses configurations, so that a clearance can be kept.
         cell: ``--cell``.
+        meshes: ``--meshes``.
 
     Raises:
         InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
@@ -99,6 +109,12 @@ def read_clearance(
 
     if margin is not None and not chooses:
         raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
+    if meshes is not None:
+        if not meshes.is_dir():
+            raise InputError(f"--meshes is '{meshes}', which cannot be found or is not a folder; give the folder of the meshes")
+        if arm.chain is None or not arm.chain.file:
+            raise InputError(f"--meshes: '{arm.name}' is from no URDF file, so no mesh belongs to it; leave it out")
+        arm = replace(arm, chain=replace(arm.chain, meshes=str(meshes.absolute())))
     if capsules is not None or radius is not None:
         shape = Capsules.load(capsules, arm) if capsules is not None else Capsules.along(arm, radius)
         return chosen_clearance(arm, Clearance(arm, shape, itself=wanted is not False), cell)
