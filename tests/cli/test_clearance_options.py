@@ -196,7 +196,8 @@ def test_meshes_are_looked_for_in_the_folder_that_is_named(tmp_path):
     arm = arms.resolve(str(file))
     options = (arm, True, None, None, None, True)
     assert read_clearance(*options).capsules.describe(arm).endswith(" along each link (package://gone/link0.stl was not read)")
-    assert read_clearance(*options, meshes=meshes).capsules.describe(arm).startswith("cover of the collision shapes of own.urdf: ")
+    found = read_clearance(*options, meshes=meshes)
+    assert found.capsules.describe(arm).startswith("cover of the collision shapes of own.urdf: ")
     with pytest.raises(InputError, match="cannot be found or is not a folder"):
         read_clearance(*options, meshes=tmp_path / "none")
     with pytest.raises(InputError, match="'planar-3r' is from no URDF file"):

@@ -59,9 +59,10 @@ class Clearance:
 
     Not checked are capsules of one link, of adjacent links and of links under ``ignore`` (what is held is checked against all
     links but the last), and capsules that touch by construction: those that overlap in at least 95 % of 512 configurations
-    within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These are pairs with nothing but short links
-    between them, such as the two sides of an elbow: that they meet says nothing. The default collision matrix of the
-    MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software Eng. Robotics 5(1)).
+    within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These
+    are pairs with nothing but short links between them, such as the two sides of an elbow: that they meet says nothing. The
+    default collision matrix of the MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software
+    Eng. Robotics 5(1)).
 
     Args:
         arm: The arm.
@@ -89,7 +90,11 @@ class Clearance:
     @checked
     def __init__(self, arm: Arm, capsules: Capsules | None = None, cell: Cell | None = None, *, itself: bool = True) -> None:
         self.arm = arm
-        self.capsules = _shape(arm, capsules, cell)
+        if capsules is None or (cell is not None and cell.held):
+            from holdfast.clearance.cover import shape_in  # takes long to import
+
+            capsules = shape_in(arm, cell, capsules)
+        self.capsules = capsules.own if cell is None or not cell.held else capsules
         highest = max((link for link in self._links + [x for p in self.capsules.ignore for x in p]), default=-1)
         if highest >= arm.n:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
@@ -385,18 +390,6 @@ class Clearance:
 
 def _apart(distance: float) -> str:
     return f"{-distance:.3g} m deep" if distance < 0 else f"{distance:.3g} m apart"
-
-
-def _shape(arm: Arm, capsules: Capsules | None, cell: Cell | None) -> Capsules:
-    """What is looked at of an arm and of what it holds in the cell."""
-    held = () if cell is None else cell.held
-    if capsules is not None and not held:
-        return capsules.own
-    # It takes long to import, and is not needed where capsules are given.
-    from holdfast.clearance.cover import holding, shape_of
-
-    own = shape_of(arm, cell) if capsules is None else capsules
-    return holding(own, arm, held, None if cell is None else cell.spheres_to)
 
 
 def _constant(rows: Array, value: float) -> Array:

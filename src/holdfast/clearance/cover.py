@@ -79,10 +79,7 @@ def _unchecked(shape: Shape, owners: list[str], others: list[str]) -> bool:
 
 def _told(shape: Shape, arm: Arm, count: int, mean: float, most: float) -> str:
     capsules = f"{count} capsule{'' if count == 1 else 's'}"
-    text = (
-        f"{COVER}{shape.source}: {capsules}, "
-        f"{1e3 * mean:.0f} mm beyond their hulls in the mean, {1e3 * most:.0f} mm at most"
-    )
+    text = f"{COVER}{shape.source}: {capsules}, {1e3 * mean:.0f} mm beyond their hulls in the mean, {1e3 * most:.0f} mm at most"
     if shape.missing:
         links = ", ".join(link_name(arm, link) for link in sorted({item.link for item in shape.missing}))
         what = shape.missing[0].what
@@ -290,6 +287,12 @@ def shape_of(arm: Arm, cell: Cell | None = None) -> Capsules:
         )
     assumed = Capsules.along(arm)
     return replace(assumed, source=f"{assumed.describe(arm)} ({why})") if why else assumed
+
+
+def shape_in(arm: Arm, cell: Cell | None, capsules: Capsules | None = None) -> Capsules:
+    """What is looked at of an arm and of what it holds in a cell: given capsules, else those of :func:`shape_of`."""
+    own = shape_of(arm, cell) if capsules is None else capsules
+    return own.own if cell is None else holding(own, arm, cell.held, cell.spheres_to)
 
 
 def holding(capsules: Capsules, arm: Arm, held: Sequence[Solid], spheres_to: float | None = None) -> Capsules:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,17 +20,12 @@ CapsulesOption = Annotated[
 RadiusOption = Annotated[
     float | None,
     typer.Option(
-        "--radius",
-        help="Radius, m, of capsules along the links. Default: the collision shapes of the arm's file; where there are none, "
-        "1/20 of the sum of the link lengths, an assumption.",
-        show_default=False,
+        "--radius", help="Radius, m, along the links. Default: the collision shapes, else assumed.", show_default=False
     ),
 ]
 MeshesOption = Annotated[
     Path | None,
-    typer.Option(
-        "--meshes", help="Folder in which the meshes that the arm's URDF file names are looked for first.", show_default=False
-    ),
+    typer.Option("--meshes", help="Folder in which meshes that the arm's file names are looked for first.", show_default=False),
 ]
 MarginOption = Annotated[
     float | None,
@@ -106,15 +100,11 @@ def read_clearance(
     from holdfast.clearance.capsules import Capsules
     from holdfast.clearance.choice import chosen_clearance
     from holdfast.clearance.clearance import Clearance
+    from holdfast.shapes.reading import with_meshes
 
     if margin is not None and not chooses:
         raise InputError("--margin is kept by the best configurations and none are asked for; add --optimise")
-    if meshes is not None:
-        if not meshes.is_dir():
-            raise InputError(f"--meshes is '{meshes}', which cannot be found or is not a folder; give the folder of the meshes")
-        if arm.chain is None or not arm.chain.file:
-            raise InputError(f"--meshes: '{arm.name}' is from no URDF file, so no mesh belongs to it; leave it out")
-        arm = replace(arm, chain=replace(arm.chain, meshes=str(meshes.absolute())))
+    arm = arm if meshes is None else with_meshes(arm, meshes)
     if capsules is not None or radius is not None:
         shape = Capsules.load(capsules, arm) if capsules is not None else Capsules.along(arm, radius)
         return chosen_clearance(arm, Clearance(arm, shape, itself=wanted is not False), cell)
