@@ -176,7 +176,7 @@ def test_the_smallest_pair_is_the_clearance(clearance, rng):
 
 def test_where_the_arm_stands_and_how_thick_it_is(panda, rng):
     q = oracles.inside(panda.arm, rng, 30)
-    elsewhere = Clearance(panda.arm.with_base(oracles.random_pose(rng)))
+    elsewhere = Clearance(panda.arm.with_base(oracles.random_pose(rng)), panda.capsules)
     np.testing.assert_array_equal(elsewhere(q), panda(q))
     radius = panda.capsules.parts[0].radius
     thin = Clearance(panda.arm, Capsules.along(panda.arm, radius / 2))
