@@ -13,6 +13,7 @@ from holdfast.cli.clearance import (
     CellOption,
     ClearanceOption,
     MarginOption,
+    MeshesOption,
     RadiusOption,
     check_clearance,
     read_clearance,
@@ -90,6 +91,7 @@ def command(
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     margin: MarginOption = None,
     cell: CellOption = None,
     at_least: Annotated[
@@ -155,7 +157,7 @@ def command(
             "after_lock": after_lock,
             "locked": read_by_joint(c.arm, lock, "--lock"),
             "clearance": read_clearance(
-                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell
+                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell, meshes=meshes
             )
             or False,
             "margin": margin or 0.0,
