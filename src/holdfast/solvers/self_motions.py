@@ -19,6 +19,7 @@ from holdfast.arguments import checked
 from holdfast.arm.model import Arm
 from holdfast.arm.poses import check_poses
 from holdfast.arm.task import Task, as_task, target_pose
+from holdfast.cell.cell import Cell
 from holdfast.clearance.choice import CellLike, chosen_clearance
 from holdfast.clearance.clearance import Clearance
 from holdfast.errors import InputError, TaskError
@@ -66,6 +67,11 @@ class SelfMotion(Result):
     clearance: Clearance | None = None
     margin: float = 0.0
     bounds: Sequence[Sequence[tuple[float, float]]] | None = None
+
+    @property
+    def cell(self) -> Cell | None:
+        """The objects around the arm."""
+        return None if self.clearance is None else self.clearance.cell
 
     def describe(self) -> list[str]:
         """A few sentences for people."""

@@ -189,13 +189,13 @@ def _moving(motion: SelfMotion) -> list[tuple[str, list[Any]]]:
     if not motion.components:
         few = motion.q[np.linspace(0, len(motion.q) - 1, min(4, len(motion.q))).astype(int)]
         words = "The arm in a few of the configurations; the tool is at the target in each."
-        return [("The arm at the target", [Picture(scene(motion.arm, few).html("motion", words), words)])]
+        return [("The arm at the target", [Picture(scene(motion.arm, few, cell=motion.cell).html("motion", words), words)])]
     longest = max(motion.components, key=lambda c: c.length)
     time = np.linspace(0.0, 8.0, len(longest.q))
     words = f"The arm on its {'only' if len(motion.components) == 1 else 'longest'} self-motion: the tool keeps its target."
     if len(time) < 2:
         return []
-    shown = scene(motion.arm, longest.q, time=time, targets=[motion.pose])
+    shown = scene(motion.arm, longest.q, time=time, targets=[motion.pose], cell=motion.cell)
     return [("The self-motion", [Picture(shown.html("motion", words), words)])]
 
 
