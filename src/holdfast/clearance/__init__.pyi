@@ -6,3 +6,4 @@ from holdfast.clearance.cell_check import check_cell as check_cell
 from holdfast.clearance.choice import chosen_clearance as chosen_clearance
 from holdfast.clearance.clearance import Clearance as Clearance
 from holdfast.clearance.clearance import IgnoredPair as IgnoredPair
+from holdfast.clearance.contacts import Contact as Contact

@@ -350,6 +350,11 @@ class Clearance:
         named = (("itself", self.itself), ("the cell", self.obstacles is not None))
         return " or ".join(name for name, there in named if there) or "nothing"
 
+    @property
+    def everything(self) -> str:
+        """The same with ``and``."""
+        return self.others.replace(" or ", " and ")
+
     def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
         """The phrase for an arm whose room is below the margin.
 
