@@ -2,7 +2,7 @@
 
 The arm is covered by spheres (:mod:`holdfast.clearance.chains`), so what is said to be clear is clear. Objects are taken in
 blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are looked
-up in their grids (:mod:`holdfast.clearance.gridded`).
+up in their grids (:mod:`holdfast.clearance.objects.gridded`).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.gridded import GriddedObjects
 from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
+from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 

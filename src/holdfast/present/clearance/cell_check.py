@@ -35,7 +35,7 @@ def to_dict(check: CellCheck) -> dict[str, Any]:
 
 def tables(check: CellCheck) -> list[Rows]:
     """A row for each object."""
-    head = ["object", "kind", "margin, m", "grid, mm", "seems nearer by at most, mm", *(["touched in"] if check.arm else [])]
+    head = ["object", "margin, m", "grid, mm", "seems nearer by at most, mm", *(["touched in"] if check.arm else [])]
     return [Rows(head, [_row(each, bool(check.arm)) for each in check.objects], "Objects")]
 
 
@@ -47,19 +47,19 @@ def _row(each: CheckedObject, touched: bool) -> list[str]:
     )
     seen = [number(1000 * x, 3) if each.width else "exact" for x in (each.width, each.excess)]
     shown = "none" if np.isnan(each.touching) else percent(each.touching)
-    return [each.name, kind, number(each.margin), *seen, *([shown] if touched else [])]
+    return [f"{each.name}: {kind}", number(each.margin), *seen, *([shown] if touched else [])]
 
 
 def story(check: CellCheck) -> Story:
     """What touches, and each object."""
     first, *others = map(capitalised, check.describe())
     about = f"Cell '{check.cell}'" + (f", arm '{check.arm}'" if check.arm else "")
-    touch = [("touch an object", percent(check.colliding))] if check.arm else []
+    touch = [(percent(check.colliding), "of the configurations touch an object")] if check.arm else []
     return Story(
         "Check of a cell",
         first if not others else others[-2] if check.ok and check.arm else others[0],
         about=about,
-        facts=[*touch, ("objects", str(len(check.objects)))],
+        facts=[*touch, (str(len(check.objects)), "objects")],
         lines=[first, *others],
         method=[
             (
