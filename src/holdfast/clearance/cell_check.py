@@ -140,7 +140,7 @@ def check_cell(cell: Cell | str | Path, arm: Arm | None = None, *, clearance: Cl
         arm=arm.name,
         objects=tuple(seen),
         base=tuple(base),
-        always=tuple(name for name, each in zip(obstacles.names, touches.all(axis=0).tolist(), strict=True) if each),
+        always=tuple(name for name, each in zip(obstacles.names, np.asarray(touches.all(axis=0)), strict=True) if each),
         colliding=float(touches.any(axis=1).mean()),
         samples=SAMPLES,
         spheres=int(moving.sum()),
