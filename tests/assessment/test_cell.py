@@ -128,7 +128,7 @@ def test_a_folder_holds_the_cell_and_no_other_resumes_it(arm, cell, call, run, t
     with pytest.raises(KeyboardInterrupt):
         hf.assess(arm, **call, optimise=True, after_lock=True, store=folder, progress=stop)
     other = hf.Cell([Sphere("near", 0.2, pose=cells.placed(0.9, 0.9, 0))], name="discs")
-    with pytest.raises(StoreError, match="holds another run: its cell is .*discs.*, asked for is"):
+    with pytest.raises(StoreError, match=r"holds another run: its cell is .*discs.*, asked for is"):
         hf.assess(arm, **{**call, "cell": other}, optimise=True, after_lock=True, store=folder)
     whole = hf.assess(arm, **call, optimise=True, after_lock=True, store=folder)
     back = hf.load(folder)
@@ -148,7 +148,7 @@ def test_a_mesh_that_changes_during_a_run_or_behind_it_is_seen(arm, call, tmp_pa
     def change(done, total):
         np.save(points, np.array([[0.9, 0.9, 0.1], [0.95, 0.9, 0.0]]))
 
-    with pytest.raises(InputError, match="scan.npy.*changed"):
+    with pytest.raises(InputError, match=r"scan\.npy.*changed"):
         hf.assess(arm, **{**call, "poses": 20, "cell": cell}, progress=change)
 
 

@@ -209,7 +209,7 @@ class Obstacles:
             out[:, :, some] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : len(some)]
         if self._gridded is not None:
             out[:, :, self._grids] = self._gridded.distances(q)
-        return out.reshape(len(q), -1)
+        return out.reshape(len(q), len(self.pairs))
 
     def _by_block(self, kernel: Kernel, q: Array, blocks: Array, first: int | None = None) -> list[Array]:
         """(N, outputs) of each block."""
