@@ -48,7 +48,7 @@ VALUES = named(
         "arms": "Builtin DHTable",
         "assessment": "Structure Upgrade",
         "control": "Deviations",
-        "clearance": "CheckedObject",
+        "clearance": "CheckedObject Contact",
         "convergence": "Case HealthyCost Measures",
         "designs": "Check Checked Evaluated Radial Sensitivity",
         "engine": "CellStatus Damage Result",
