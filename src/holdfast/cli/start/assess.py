@@ -148,7 +148,7 @@ def command(
             "after_lock": after_lock,
             "locked": read_by_joint(c.arm, lock, "--lock"),
             "clearance": apart.read_clearance(
-                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell
+                c.arm, clearance, capsules, radius, margin, chooses=optimise or cell is not None, cell=cell, meshes=meshes
             )
             or False,
             "margin": margin or 0.0,
