@@ -92,7 +92,8 @@ def read_clearance(
         radius: ``--radius``, m.
         margin: ``--margin``, m.
         chooses: The command chooses configurations, so that a clearance can be kept.
-        cell, meshes: ``--cell`` and ``--meshes``.
+        cell: ``--cell``.
+        meshes: ``--meshes``.
 
     Raises:
         InputError: A margin where nothing keeps it, or a cell that cannot be read or does not fit the arm.
