@@ -237,6 +237,7 @@ class _RunReport:
             path=[seen.x[0], self.goal],
             targets=[self.goal],
             readings=readings,
+            cell=None if self.runs.clearance is None else self.runs.clearance.cell,
         )
         caption = "The arm moving; joints turn orange when they lock. Orange line: the straight way to the target."
         if seen.time[-1] < 0.99 * float(self._of("time")):
