@@ -57,15 +57,18 @@ class Clearance:
     Between two capsules a negative value is minus the depth: the distance between the axes less the two radii. The distance
     from an object of the cell is a lower bound: that of the spheres that cover the capsules of a link.
 
-    Not checked are capsules of one link or of adjacent links, links under ``ignore``, and capsules that touch by
-    construction: those that overlap in at least 95 % of 512 configurations within the limits (the first 512 points of the
-    unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These are pairs with nothing but short links
-    between them, such as the two sides of an elbow: that they meet says nothing. The default collision matrix of the
-    MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software Eng. Robotics 5(1)).
+    Not checked are capsules of one link, of adjacent links and of links under ``ignore`` (what is held is checked against all
+    links but the last), and capsules that touch by construction: those that overlap in at least 95 % of 512 configurations
+    within the limits (the first 512 points of the unscrambled Sobol sequence; +-pi rad or +-1 m where there is no limit). These
+    are pairs with nothing but short links between them, such as the two sides of an elbow: that they meet says nothing. The
+    default collision matrix of the MoveIt Setup Assistant draws the same line in the same way (Coleman et al. 2014, J. Software
+    Eng. Robotics 5(1)).
 
     Args:
         arm: The arm.
-        capsules: Its shape; :meth:`Capsules.along` if not given, whose radius is an assumption.
+        capsules: Its shape; if not given, a cover of the collision shapes of the arm's file
+            (:func:`holdfast.clearance.cover.shape_of`), and :meth:`Capsules.along`, whose radius is an assumption, where there
+            are none. What the cell says to be held is added to the last link.
         cell: The objects around it; none if not given. Objects are never adjacent to a link and never left out: only
             ``may_touch`` of the cell takes a pair away.
         itself: Look at the arm's own links as well, one against the other.
@@ -87,7 +90,11 @@ class Clearance:
     @checked
     def __init__(self, arm: Arm, capsules: Capsules | None = None, cell: Cell | None = None, *, itself: bool = True) -> None:
         self.arm = arm
-        self.capsules = Capsules.along(arm) if capsules is None else capsules
+        if capsules is None or (cell is not None and cell.held):
+            from holdfast.clearance.cover import shape_in  # takes long to import
+
+            capsules = shape_in(arm, cell, capsules)
+        self.capsules = capsules.own if cell is None or not cell.held else capsules
         highest = max((link for link in self._links + [x for p in self.capsules.ignore for x in p]), default=-1)
         if highest >= arm.n:
             raise ArmError(f"a capsule names link {highest}, but '{arm.name}' has links -1 (base) to {arm.n - 1}")
@@ -105,14 +112,17 @@ class Clearance:
         self.margins = np.concatenate([np.zeros(len(self.pairs)), np.zeros(0) if seen is None else seen.margins])
 
     def with_cell(self, cell: Cell | None) -> Clearance:
-        """The same clearance in another cell; the arm's own pairs are not chosen again."""
+        """The same clearance in another cell; the arm's own pairs are chosen again only where it holds something else."""
+        before, after = (() if x is None else x.held for x in (self.cell, cell))
+        if before != after:
+            return Clearance(self.arm, self.capsules, cell, itself=self.itself)
         other = copy(self)
         other._meet(cell)
         return other
 
     @classmethod
     def by_default(cls, arm: Arm, cell: Cell | None = None) -> Clearance | None:
-        """What is kept where nothing else is said: capsules of an assumed radius, :meth:`Capsules.along`.
+        """What is kept where nothing else is said: the arm's own shape, as ``capsules`` has it where they are not given.
 
         The links of an arm that moves in a plane lie beside each other, not in one plane: they are not checked against each
         other, and without a cell there is nothing to keep: None.
@@ -131,7 +141,10 @@ class Clearance:
         links = self._links
         by_link = sorted(range(len(links)), key=links.__getitem__)
         different = [(a, b) for a, b in combinations(by_link, 2) if links[a] != links[b]]
+        held = len(links) - self.capsules.held  # from there on; what is said about links was not said about that
         for a, b in different:
+            if b >= held:
+                continue
             low, high = links[a], links[b]
             if high - low == 1:
                 reasons[a, b] = "adjacent links"
@@ -349,6 +362,11 @@ class Clearance:
         """What the arm is kept clear of: ``itself``, ``the cell``, or ``itself or the cell``."""
         named = (("itself", self.itself), ("the cell", self.obstacles is not None))
         return " or ".join(name for name, there in named if there) or "nothing"
+
+    @property
+    def everything(self) -> str:
+        """The same with ``and``."""
+        return self.others.replace(" or ", " and ")
 
     def too_close(self, margin: float = 0.0, q: ArrayLike | None = None) -> str:
         """The phrase for an arm whose room is below the margin.

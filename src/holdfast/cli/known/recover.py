@@ -14,6 +14,7 @@ from holdfast.cli.clearance import (
     CellOption,
     ClearanceOption,
     MarginOption,
+    MeshesOption,
     RadiusOption,
     check_clearance,
     read_clearance,
@@ -92,6 +93,7 @@ def command(
     clearance: ClearanceOption = None,
     capsules: CapsulesOption = None,
     radius: RadiusOption = None,
+    meshes: MeshesOption = None,
     margin: MarginOption = None,
     cell: CellOption = None,
     check: Annotated[
@@ -115,7 +117,7 @@ def command(
     """
     check_clearance(clearance, capsules, radius, margin, cell)
     model = read_arm(arm, base, tip, hold)
-    shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell)
+    shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell, meshes=meshes)
     if check is not None:
         locked = read_locks(model, lock, degrees, alone=True)
         replay = hf.recovery.check_waypoints(

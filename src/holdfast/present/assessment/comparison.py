@@ -19,6 +19,7 @@ from holdfast.notice import says
 from holdfast.present.assessment import thresholds
 from holdfast.present.assessment.facts import Facts
 from holdfast.present.assessment.sections.upgrades import paired
+from holdfast.present.clearance.shape import cell_text
 from holdfast.present.commands import capsule_files, command_line, region_files
 from holdfast.report import figures as drawing
 from holdfast.report import page
@@ -335,9 +336,17 @@ def _method(c: Comparison, f: Facts) -> list[Block]:
     shapes = [
         (n, x.plan.clearance.capsules.describe(x.arm)) for n, x in zip(c.names, c.assessments, strict=True) if x.plan.clearance
     ]
+    around = {x.plan.cell.digest: cell_text(x.plan.cell) for x in c.assessments if x.plan.cell is not None}
+    if around:
+        facts.append(("Cell", "; ".join(around.values())))
     if shapes and any(x.optimised is not None for x in c.assessments):
         what = "; ".join(f"{name}: {shape}" for name, shape in shapes)
-        facts.append(("Clearance", f"best configurations keep the arm clear of itself, by capsules ({what})"))
+        facts.append(
+            (
+                "Clearance",
+                f"best configurations keep the arm clear of itself{' and the cell' * bool(around)}, by capsules ({what})",
+            )
+        )
     return [Table([[k, v] for k, v in facts])]
 
 

@@ -39,12 +39,16 @@ def to_dict(run: PhysicalRun) -> dict[str, Any]:
     return run.kinematic.to_dict() | {"physics": physics}
 
 
+def _error_unit(run: PhysicalRun) -> str:
+    return "m and rad" if run.law.task.angular else "m"
+
+
 def key_table(run: PhysicalRun) -> Rows:
     """Both outcomes beside each other."""
     told = run.kinematic
     rows = [
         ["outcome", str(told.outcome), run.outcome],
-        ["error at the end", number(float(told.error)), number(run.error[-1])],
+        [f"error at the end, {_error_unit(run)}", number(float(told.error)), number(run.error[-1])],
         ["took, s", number(float(told.time)), number(run.time[-1])],
         ["tool paths apart, at most, mm", "", number(1000 * run.path_distance, 3)],
     ]
@@ -72,11 +76,10 @@ def show(run: PhysicalRun, out: Console) -> None:
     told = run.kinematic
     simulation.show(told, out)
     out.print(f"\nThe same in MuJoCo, {escape(run.servos.describe())}", soft_wrap=True)
-    size = "m and rad" if run.law.task.angular else "m"
     table = Grid("", "kinematic", "in MuJoCo", "")
     reason = "" if run.reason == "none" else f" ({run.reason})"
     table.add_row("outcome", str(told.outcome), f"[bold]{run.outcome}[/]{reason}", "")
-    table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), size)
+    table.add_row("error at the end", number(float(told.error)), number(run.error[-1]), _error_unit(run))
     table.add_row("took", number(float(told.time)), number(run.time[-1]), "s")
     out.print(table)
     facts = Grid()

@@ -171,7 +171,8 @@ def _beside(found: Optima, first: str) -> list[tuple[str, list[Any]]]:
     k = int(found.success.argmax())
     words = f"The arm at its best configuration and, see-through, at {first}; the tool is in the same place."
     both = np.array([found.q[k], found.before[k]])
-    shown = scene(found.arm, both, labels=("best", "before"), targets=[found.poses[k]])
+    cell = None if found.clearance is None else found.clearance.cell
+    shown = scene(found.arm, both, labels=("best", "before"), targets=[found.poses[k]], cell=cell)
     return [
         ("Before and best", [Picture(shown.html("both", words), words + (f" Pose {k + 1}." if len(found.poses) > 1 else ""))])
     ]
@@ -256,7 +257,7 @@ def _show_clearance(found: Optima, out: Console) -> None:
     close, blocked = found.clearance.too_close(found.margin), int(found.blocked.sum())
     if len(before) == 1:
         apart = ", ".join(f"{number(x[0], 3)} m {when}" for x, when in ((before, "before"), (after, "after")) if x[0] == x[0])
-        text = f"clearance of the arm from {found.clearance.others}: {apart}"
+        text = f"clearance of the arm from {found.clearance.everything}: {apart}"
         text += f"; a better configuration {close} and was not taken: {found.obstacles[0]}" if blocked else ""
     else:
         counts = [int(found.close(x).sum()) for x in (found.before, found.q)]
