@@ -198,7 +198,8 @@ class Resolution(Steps):
                 rates = particular + share * self_motion
             if rows:
                 across = [g * free - pinv(j @ (g * free)) for g, _ in rows]
-                rates = particular + turned_away(rows, particular, rates - particular, across, self.rate_cap)
+                turned, capped, changed = turned_away(rows, particular, rates - particular, across, self.rate_cap)
+                rates, share = particular + turned, ca.if_else(changed, capped, share)
             if number < passes - 1:
                 worst, which, bound = ca.SX(1 + 1e-9), ca.SX(-1), ca.SX(0)
                 for k in bounded:

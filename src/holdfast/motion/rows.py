@@ -13,7 +13,7 @@ Row = tuple[SX, SX]
 _STEEP = 1e-4  # of the square of a row: where less than that of it lies in the self-motion, it is not fully kept by that
 
 
-def turned_away(rows: Sequence[Row], particular: SX, wanted: SX, across: list[SX], rate_cap: float | None) -> SX:
+def turned_away(rows: Sequence[Row], particular: SX, wanted: SX, across: list[SX], rate_cap: float | None) -> tuple[SX, SX, SX]:
     """The self-motion (n,) nearest to the one wanted that keeps the rows, where one does: a quadratic program of two rows.
 
     Args:
@@ -22,6 +22,9 @@ def turned_away(rows: Sequence[Row], particular: SX, wanted: SX, across: list[SX
         wanted: (n,) self-motion wanted beside it.
         across: Of each row g less what the task would feel of it, (n,).
         rate_cap: Largest norm of the rates, rad/s, or None.
+
+    Returns:
+        The self-motion, the share of it that the cap lets pass, and whether a row changed it.
     """
     square, missing = [], []
     for (g, b), a in zip(rows, across, strict=True):
@@ -48,9 +51,10 @@ def turned_away(rows: Sequence[Row], particular: SX, wanted: SX, across: list[SX
             enough = ca.dot(across[1 - k], pushes[k]) >= missing[1 - k] - 1e-12
             turned = ca.if_else(ca.logic_and(missing[k] > 0, enough), pushes[k], turned)
         turned = ca.if_else(ca.logic_and(missing[0] <= 0, missing[1] <= 0), 0, turned)
-    chosen = wanted + turned
+    chosen, changed = wanted + turned, ca.sumsqr(turned) > 0
     if rate_cap is None:
-        return chosen
+        return chosen, ca.SX(1), changed
     room, length = rate_cap**2 - ca.sumsqr(particular), ca.sumsqr(chosen)
     room = ca.if_else(room > 0, room, 0)
-    return chosen * ca.if_else(length > room, ca.sqrt(room / ca.if_else(length > room, length, 1)), 1)
+    share = ca.if_else(length > room, ca.sqrt(room / ca.if_else(length > room, length, 1)), 1)
+    return chosen * share, share, changed
