@@ -31,8 +31,13 @@ def path(panda):
 @pytest.fixture(scope="module")
 def wish(panda):
     """Least-norm rates from a configuration of the first pose: all self-motion there is comes of the cell."""
-    index = hf.indices.relative_manipulability(panda, "position")
-    return {"maximise": index, "method": "none", "task": "position", "samples": 101, "q": START}
+    return {
+        "minimise": hf.susceptibility.acceleration(panda, np.eye(7)[3]),
+        "method": "none",
+        "task": "position",
+        "samples": 101,
+        "q": START,
+    }
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +102,7 @@ def test_where_the_self_motion_has_no_way_out_the_end_effector_stops_before_the_
     tip = Capsules((Capsule(2, (1, 0, 0), (1, 0, 0), radius=0.05),))
     wall = Cell([Box("wall", [1, 6, 1], pose=cells.placed(2.3, 0, 0))], margin=0.02)  # its face is at 1.8 m
     line = hf.paths.TimedPath(hf.paths.line([1.2, 0.3, 0], [2.2, 0.3, 0]), hf.paths.Trapezoid(4.0))
-    wish = {"maximise": hf.indices.relative_manipulability(arm, "planar"), "task": "planar", "samples": 101}
+    wish = {"minimise": hf.susceptibility.torque(arm, "worst-case"), "task": "planar", "samples": 101}
     motion = hf.follow(arm, line, clearance=Clearance(arm, tip, wall, itself=False), margin=0.01, **wish)
     x = arm.forward_kinematics(motion.q)[:, 0, 3]
     assert x.max() == pytest.approx(1.8 - 0.05 - 0.02 - 0.01, abs=1e-3)
@@ -113,7 +118,7 @@ def test_the_best_motion_drops_configurations_that_are_not_clear():
     arm = hf.arms.load("planar-3r")
     line = hf.paths.TimedPath(hf.paths.line([1.4, 0.2, 0], [1.4, 0.8, 0]), hf.paths.Trapezoid(4.0))
     wish = {
-        "maximise": hf.indices.relative_manipulability(arm, "planar"),
+        "minimise": hf.susceptibility.torque(arm, "worst-case"),
         "task": "planar",
         "samples": 31,
         "best": True,
@@ -127,9 +132,8 @@ def test_the_best_motion_drops_configurations_that_are_not_clear():
     assert clearance.room(free.best_path).min() < 0
     found = np.isfinite(told.best_path).all(axis=1)
     assert found.any()
-    ends = np.unique(np.linspace(0, 30, 31).astype(int))
-    assert clearance.room(told.best_path[ends][found[ends]]).min() >= -1e-12
-    assert (told.best_value <= free.best_value + 1e-9).all()
+    assert clearance.room(told.best_path[found]).min() >= -1e-12  # every sample is a pose of the grid
+    assert (told.best_value >= free.best_value - 1e-9).all()
 
 
 def test_starts_and_margins_that_keep_nothing_are_refused(panda, path, wish, plain, clearance):
