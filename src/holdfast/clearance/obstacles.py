@@ -2,7 +2,7 @@
 
 The arm is covered by spheres (:mod:`holdfast.clearance.chains`), so what is said to be clear is clear. Objects are taken in
 blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are looked
-up in their grids (:mod:`holdfast.clearance.gridded`).
+up in their grids (:mod:`holdfast.clearance.objects.gridded`).
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.gridded import GriddedObjects
 from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
+from holdfast.clearance.objects.gridded import GriddedObjects
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 
@@ -115,13 +115,8 @@ class Obstacles:
         Raises:
             InputError: It touches an object that it may not touch.
         """
-        still = self.balls.link == BASE
-        centre = self.balls.centre[still] @ self.arm.base[:3, :3].T + self.arm.base[:3, 3]
-        for k, solid in enumerate(self.cell):
-            if self._apart[0, k] or not still.any():
-                continue
-            gap = float((solid.signed_distance(centre) - self.balls.radius[still]).min())
-            if gap < self.cell.margin_of(solid):
+        for k, (solid, gap) in enumerate(zip(self.cell, base_gaps(self.arm, self.balls, self.cell), strict=True)):
+            if not self._apart[0, k] and gap < self.cell.margin_of(solid):
                 near = f"{-gap:.3g} m inside" if gap < 0 else f"{gap:.3g} m and so nearer than the margin to"
                 raise InputError(
                     f"the base of '{self.arm.name}' is {near} object '{solid.name}' of the cell, always; "
@@ -255,3 +250,10 @@ class Obstacles:
         reach = np.linalg.norm(self.balls.centre, axis=1)
         far = np.array([reach[self.balls.link == link].max() for link in self.links])
         return np.repeat(changes_from_outside(self.arm, self.links, far, low, high), len(self.cell), axis=0)
+
+
+def base_gaps(arm: Arm, balls: Balls, cell: Cell) -> list[float]:
+    """A lower bound of the distance of the base from each object, m; infinite if no sphere covers the base."""
+    still = balls.link == BASE
+    centre = balls.centre[still] @ arm.base[:3, :3].T + arm.base[:3, 3]
+    return [float((solid.signed_distance(centre) - balls.radius[still]).min(initial=np.inf)) for solid in cell]

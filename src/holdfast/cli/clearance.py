@@ -29,7 +29,9 @@ MeshesOption = Annotated[
 ]
 MarginOption = Annotated[
     float | None,
-    typer.Option("--margin", help="Smallest clearance, m, of the best configurations. Default: 0.", show_default=False),
+    typer.Option(
+        "--margin", help="Smallest clearance kept, m; from objects beyond the cell's own. Default: 0.", show_default=False
+    ),
 ]
 ClearanceOption = Annotated[
     bool | None,
