@@ -20,6 +20,7 @@ from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
 from holdfast.clearance.capsules import Capsules, link_name
 from holdfast.clearance.changes import changes_between
+from holdfast.clearance.exactness import Exactness
 from holdfast.clearance.obstacles import Obstacles
 from holdfast.clearance.segments import Segment, distance, feet, wrench
 from holdfast.errors import ArmError
@@ -303,6 +304,44 @@ class Clearance:
         if self.obstacles is not None:
             values = np.minimum(values, self.obstacles.room(rows))
         return values[0] if single else values
+
+    @cached_property
+    def _exactness(self) -> Exactness:
+        return Exactness(self)
+
+    def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
+        """Whether the arm is clear: none of its checked links touches another or an object, (N,) or a scalar. Exact.
+
+        Asked are the bodies themselves, not the spheres of the bound; margins do not count. The bound comes first, then spheres
+        within the bodies, and a library (python-fcl; coal where only that is installed) for the pairs that are left. What is
+        nearer than 1e-6 m may count as touching. A row that is not finite is not clear.
+
+        Raises:
+            InputError: Wrong shape, or NaN or infinity in a single configuration.
+            HoldfastError: Neither library is installed.
+        """
+        rows, single = as_configurations(self.arm, q)
+        values = self._exactness.clear(rows)
+        return values[0] if single else values
+
+    def exact(self, q: ArrayLike) -> Array:
+        """The smallest distance of the bodies themselves, m, (N,) or a scalar; 0 where they touch, infinite without a pair.
+
+        By coal where it is installed, to 1e-6 m; else by python-fcl: :attr:`exact_by` says which. A depth is not given: that of
+        meshes is not reliable (coal issues 357 and 823).
+
+        Raises:
+            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
+            HoldfastError: Neither library is installed.
+        """
+        rows, single = as_configurations(self.arm, q)
+        values = self._exactness.distances(rows)
+        return values[0] if single else values
+
+    @property
+    def exact_by(self) -> str:
+        """The library that :meth:`exact` asks, and how right it is."""
+        return self._exactness.library
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:
         """Position in ``pair_names`` of the pair with the least room, the first of several, (N,) or a scalar.

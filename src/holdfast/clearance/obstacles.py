@@ -19,7 +19,7 @@ from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
+from holdfast.clearance.object_kernels import BLOCK, NOWHERE, distance_kernel, in_blocks, nearest_kernel
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 
@@ -27,8 +27,6 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _STEP = 1e-6  # m: for the direction away from an object
-_NOWHERE = 1e9  # m: how far away is what is not looked at
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Gap:
@@ -63,6 +61,7 @@ class Obstacles:
         pairs: (L K, 2) link and object of each pair: all objects of the first link, then of the next.
         margins: (L K,) what each pair keeps at least, m.
         names: Of the pairs, ``panda_joint4 & table``.
+        apart: (n + 1, K) whether a link, the base first, and an object may touch.
 
     Raises:
         InputError: The base touches an object, or ``may_touch`` names no object or link.
@@ -80,7 +79,7 @@ class Obstacles:
         self.margins: Array = np.tile(own, len(self.links))
         names = [solid.name for solid in cell]
         self.names = [f"{link_name(arm, int(link))} & {names[k]}" for link, k in self.pairs]
-        self._apart = self._switched_off()
+        self.apart = self._switched_off()
         self._check_base()
 
     # ---- what is looked at ---------------------------------------------------------------------------------------
@@ -107,7 +106,7 @@ class Obstacles:
         still = self.balls.link == BASE
         centre = self.balls.centre[still] @ self.arm.base[:3, :3].T + self.arm.base[:3, 3]
         for k, solid in enumerate(self.cell):
-            if self._apart[0, k] or not still.any():
+            if self.apart[0, k] or not still.any():
                 continue
             gap = float((solid.signed_distance(centre) - self.balls.radius[still]).min())
             if gap < self.cell.margin_of(solid):
@@ -123,15 +122,12 @@ class Obstacles:
         Args:
             margins: Every object is larger by what is kept from it.
         """
-        rows = []
+        numbers, added = [], []
         for k, solid in enumerate(self.cell):
             assert isinstance(solid, Primitive)
-            off = np.where(self._apart[self.links + 1, k], _NOWHERE, 0.0)
-            rows.append(np.concatenate([solid.numbers(self.cell.margin_of(solid) if margins else 0.0), off]))
-        nothing = np.zeros(NUMBERS + len(self.links))
-        nothing[-len(self.links) :] = _NOWHERE
-        rows += [nothing] * (-len(rows) % BLOCK)
-        return np.stack(rows).reshape(-1, BLOCK, len(nothing))
+            numbers.append(solid.numbers(self.cell.margin_of(solid) if margins else 0.0))
+            added.append(np.where(self.apart[self.links + 1, k], NOWHERE, 0.0))
+        return in_blocks(numbers, added, len(self.links))
 
     @cached_property
     def _bare(self) -> Array:

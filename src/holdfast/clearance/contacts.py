@@ -1,0 +1,153 @@
+"""Exact answers about collisions: the bound first, and a library only for the pairs that it leaves open, the nearest first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from holdfast.arm.model import Arm
+from holdfast.clearance.bodies import Body
+from holdfast.clearance.capsules import BASE
+from holdfast.clearance.chains import Balls
+from holdfast.clearance.engines import CONTACT, Engine
+from holdfast.clearance.obstacles import Obstacles
+from holdfast.clearance.opponents import Another, Opponent, Placed, of_object
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Truths = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A body of a link.
+
+    Attributes:
+        link: The joint that moves it, from 0; -1 for the base.
+        body: With its pose in the frame of the link.
+    """
+
+    link: int
+    body: Body
+
+
+class Contacts:
+    """The bodies of an arm and what they can touch.
+
+    Args:
+        arm: The arm.
+        parts: Its bodies.
+        links: (S, 2) pairs of links that are checked, the one nearer to the base first.
+        obstacles: The objects of its cell, or None.
+        engine: The library.
+    """
+
+    def __init__(
+        self, arm: Arm, parts: Sequence[Part], links: Sequence[tuple[int, int]], obstacles: Obstacles | None, engine: Engine
+    ) -> None:
+        self.arm, self.engine = arm, engine
+        self._parts = tuple(parts)
+        self._placed = [Placed(part.body, engine.make(part.body), np.eye(3), np.zeros(3)) for part in parts]
+        by_link = {link: [k for k, part in enumerate(parts) if part.link == link] for link in range(BASE, arm.n)}
+        # Of each pair: the bodies that are asked about, and what they can touch; an opponent on a link is placed as well.
+        self._pairs: list[tuple[list[int], list[tuple[int, Opponent]]]] = [
+            (by_link[b], [(k, Another(engine, self._placed[k])) for k in by_link[a]]) for a, b in links
+        ]
+        if obstacles is not None:
+            objects: list[tuple[int, Opponent]] = [(-1, of_object(engine, solid)) for solid in obstacles.cell]
+            self._pairs += [(by_link[int(link)], [objects[k]]) for link, k in obstacles.pairs]
+
+    def any(self, q: Array, bounds: Array) -> Truths:
+        """(N,) whether anything touches.
+
+        Args:
+            q: (N, n) finite.
+            bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
+        """
+        found = np.zeros(len(q), dtype=np.bool_)
+        rows, pairs = np.nonzero(bounds < CONTACT)
+        order = np.lexsort((bounds[rows, pairs], rows))
+        frames = self._frames(q)
+        now, there = -1, set[int]()
+        for row, pair in zip(rows[order].tolist(), pairs[order].tolist(), strict=True):
+            if found[row]:
+                continue
+            if row != now:
+                now, there = row, set()
+            found[row] = self._touch(pair, row, frames, there)
+        return found
+
+    def _touch(self, pair: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> bool:
+        mine, others = self._pairs[pair]
+        for k in mine:
+            self._place(k, row, frames, there)
+            for other, opponent in others:
+                if other >= 0:
+                    self._place(other, row, frames, there)
+                if opponent.hits(self._placed[k]):
+                    return True
+        return False
+
+    def distances(self, q: Array, bounds: Array) -> Array:
+        """(N,) the smallest distance, m; 0 where anything touches, infinite if there is nothing to touch.
+
+        Args:
+            q: (N, n) finite.
+            bounds: As for :meth:`any`.
+        """
+        out, frames = np.full(len(q), np.inf), self._frames(q)
+        for row, order in enumerate(np.argsort(bounds, axis=1).tolist()):
+            best, there = np.inf, set[int]()
+            for pair in order:
+                if bounds[row, pair] >= best or best == 0:
+                    break
+                best = min(best, self._apart(pair, row, frames, there))
+            out[row] = best
+        return out
+
+    def _apart(self, pair: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> float:
+        mine, others = self._pairs[pair]
+        best = np.inf
+        for k in mine:
+            self._place(k, row, frames, there)
+            for other, opponent in others:
+                if other >= 0:
+                    self._place(other, row, frames, there)
+                best = min(best, opponent.distance(self._placed[k]))
+        return best
+
+    def _place(self, k: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> None:
+        if k in there:
+            return
+        there.add(k)
+        placed, (rotations, positions) = self._placed[k], frames[k]
+        placed.rotation, placed.position = rotations[row], positions[row]
+        self.engine.place(placed.made, placed.rotation, placed.position)
+
+    def _frames(self, q: Array) -> list[tuple[Array, Array]]:
+        """Rotations (N, 3, 3) and positions (N, 3), m, of each part in the world."""
+        moving = self.arm.frames(q)
+        out = []
+        for part in self._parts:
+            frame = moving[:, part.link + 1] @ part.body.pose
+            out.append((np.ascontiguousarray(frame[:, :3, :3]), np.ascontiguousarray(frame[:, :3, 3])))
+        return out
+
+
+def spheres_within(parts: Sequence[Part]) -> Balls:
+    """Spheres that lie within the bodies of moving links: what they hit, the arm hits."""
+    rows = []
+    for number, part in sorted(enumerate(parts), key=lambda item: item[1].link):
+        if part.link > BASE:
+            centres, radii = part.body.inside
+            centres = centres @ part.body.pose[:3, :3].T + part.body.pose[:3, 3]
+            rows += [(part.link, centre, radius, number) for centre, radius in zip(centres, radii, strict=True)]
+    return Balls(
+        np.array([row[0] for row in rows], dtype=np.int64),
+        np.array([row[1] for row in rows]).reshape(-1, 3),
+        np.array([row[2] for row in rows]),
+        np.array([row[3] for row in rows], dtype=np.int64),
+    )
