@@ -46,15 +46,30 @@ def test_files_are_those_whose_provenance_is_told(name: str) -> None:
     assert entry["package"] in arms.about(name).source
     for text in entry["texts"]:
         assert len(DATA.joinpath("licenses", text).read_text()) > 500
-    for left_over in (b"<visual", b"<collision", b"<transmission", b"<gazebo", b"<mesh", b"ns0:"):
+    kept = () if "meshes" in entry else (b"<collision", b"<mesh")
+    for left_over in (b"<visual", b"<transmission", b"<gazebo", b"ns0:", *kept):
         assert left_over not in content
 
 
 def test_every_file_has_its_provenance() -> None:
     files = {x.name for x in DATA.iterdir() if x.name.endswith(".urdf")}
     assert files == {x["file"] for x in PROVENANCE.values()}
+    assert {x.name for x in DATA.iterdir() if x.name.endswith(".srdf")} == {
+        x["pairs"]["file"] for x in PROVENANCE.values() if "pairs" in x
+    }
     texts = {x.name for x in DATA.joinpath("licenses").iterdir()}
     assert texts == {text for x in PROVENANCE.values() for text in x["texts"]}
+
+
+def test_meshes_are_those_whose_provenance_is_told() -> None:
+    listed = {f"{x['meshes_in']}/{name}": h for x in PROVENANCE.values() for name, h in x.get("meshes", {}).items()}
+    root = Path(str(DATA))
+    found = {p.relative_to(root).as_posix(): p for p in root.rglob("*") if p.is_file() and p.suffix not in (".yaml", ".txt")}
+    meshes = {name: p for name, p in found.items() if "/" in name}
+    assert {name: hashlib.sha256(p.read_bytes()).hexdigest() for name, p in meshes.items()} == listed
+    pairs = PROVENANCE["panda"]["pairs"]
+    assert hashlib.sha256(found[pairs["file"]].read_bytes()).hexdigest() == pairs["sha256"]
+    assert sum(p.stat().st_size for p in meshes.values()) < 130_000
 
 
 def test_stripping_keeps_every_number_and_every_notice(tmp_path: Path) -> None:
@@ -77,6 +92,22 @@ def test_stripping_keeps_every_number_and_every_notice(tmp_path: Path) -> None:
     for gone in ("visual", "material", "transmission", "calibration", "9 9 9", "xacro"):
         assert gone not in out
     assert subprocess.run([sys.executable, tool], capture_output=True, check=False).returncode == 2
+
+
+def test_stripping_keeps_collisions_where_asked_and_the_pairs_of_an_srdf_file(tmp_path: Path) -> None:
+    tool = Path(__file__).parents[2] / "tools" / "strip_urdf.py"
+    source, out = tmp_path / "in.urdf", tmp_path / "out.urdf"
+    source.write_text(
+        "<robot name='r'><link name='a'><visual/>"
+        "<collision><geometry><sphere radius='0.10'/></geometry></collision></link></robot>"
+    )
+    subprocess.run([sys.executable, tool, source, out, "--collisions"], capture_output=True, check=True)
+    assert 'radius="0.10"' in out.read_text()
+    assert "visual" not in out.read_text()
+    source.write_text("<robot name='r'><group name='g'/><disable_collisions link1='a' link2='b' reason='Never'/></robot>")
+    subprocess.run([sys.executable, tool, source, out], capture_output=True, check=True)
+    assert '<disable_collisions link1="a" link2="b" reason="Never" />' in out.read_text()
+    assert "group" not in out.read_text()
 
 
 def test_pa10_9dof_stands_where_the_paper_says() -> None:

@@ -11,7 +11,8 @@ import holdfast as hf
 from holdfast import arms
 from holdfast.arm.task import as_task
 from holdfast.present.arm.body import ball, block, box, stick_parts, tube
-from holdfast.present.arm.visuals import body_of, find_mesh, urdf_parts
+from holdfast.present.arm.visuals import body_of, visual_parts
+from holdfast.shapes.meshes import find_mesh
 from holdfast.studio.scene.machine import Machine
 
 CRANE = Path(__file__).parent / "arms" / "inspection-crane.urdf"
@@ -50,8 +51,8 @@ def test_sticks_reach_from_joint_to_joint(mixed7, rng):
 def test_visuals_are_where_the_file_puts_them():
     arm = arms.resolve(str(CRANE))
     machine = Machine(arm, as_task(arm, "pose"))
-    parts, missing = urdf_parts(CRANE, arm)
-    assert missing == ["package://inspection_crane/meshes/camera.stl"]
+    parts, missing = visual_parts(arm)
+    assert missing == [(6, "package://inspection_crane/meshes/camera.stl")]
     assert sorted({p.frame for p in parts}) == list(range(7))
     rail = next(p for p in parts if p.frame == 0)
     np.testing.assert_allclose(rail.vertices.max(axis=0) - rail.vertices.min(axis=0), [0.3, 1.6, 0.08])
@@ -81,21 +82,21 @@ def test_meshes_are_read_and_missing_ones_named(tmp_path):
             "endfacet",
         ]
     (folder / "meshes" / "camera.stl").write_text("\n".join([*text, "endsolid camera"]))
-    parts, missing = urdf_parts(file, arms.resolve(str(file)))
+    parts, missing = visual_parts(arms.resolve(str(file)))
     assert missing == []
     camera = next(p for p in parts if p.frame == 7)
     assert volume(camera.vertices, camera.faces) == pytest.approx(0.06 * 0.06 * 0.08)
     assert find_mesh("../meshes/camera.stl", file) is not None
     assert find_mesh("http://example.org/camera.stl", file) is None
     (folder / "meshes" / "camera.stl").write_text("no mesh")
-    _, missing = urdf_parts(file, arms.resolve(str(file)))
+    _, missing = visual_parts(arms.resolve(str(file)))
     assert len(missing) == 1
-    assert "camera.stl" in missing[0]
+    assert "camera.stl" in missing[0].what
 
 
 def test_links_above_the_base_are_left_out():
     arm = arms.resolve(str(CRANE), base="mast")
-    parts, _ = urdf_parts(CRANE, arm, "mast")
+    parts, _ = visual_parts(arm)
     assert arm.joint_names[0] == "luff"
     assert sorted({p.frame for p in parts}) == [0, 1, 2, 3, 4]
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked_class, real_numbers
+from holdfast.arm.poses import motion
 from holdfast.caching import cached_property
 from holdfast.errors import ArmError, InputError
 
@@ -20,7 +21,6 @@ JointType = Literal["revolute", "continuous", "prismatic"]
 GRAVITY = (0.0, 0.0, -9.81)
 _JOINT_NUMBERS = ("lower", "upper", "velocity", "effort", "friction", "armature")
 _MOST = 1e12  # of any number, so that their products stay finite
-_QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
 
 
 @checked_class
@@ -159,12 +159,16 @@ class Chain:
         tip: Link whose frame is the tool; None once the tool is another one.
         held: Joints of the file that were held, and where, rad or m.
         file: The file, for the shapes that it gives the links; empty where it is not known.
+        meshes: Folder in which the meshes that it names are looked for first; empty for none.
+        srdf: The SRDF file that belongs to it; empty for none.
     """
 
     base: str
     tip: str | None
     held: tuple[tuple[str, float], ...] = ()
     file: str = field(default="", compare=False, repr=False, kw_only=True)
+    meshes: str = field(default="", compare=False, repr=False, kw_only=True)
+    srdf: str = field(default="", compare=False, repr=False, kw_only=True)
 
     def __str__(self) -> str:
         tip = [] if self.tip is None else [f"tip '{self.tip}'"]
@@ -370,31 +374,3 @@ def transform(value: ArrayLike, what: str) -> Array:
     out = t.copy()
     out[:3, :3] = snapped(rotation)
     return _frozen(out)
-
-
-# ---- motions of joints -----------------------------------------------------------------------------------------------
-def motion(kind: str, axis: Array, value: float) -> Array:
-    """(4, 4) motion of a joint by itself, rad or m; the identity for types without one axis."""
-    pose = np.eye(4)
-    if kind == "prismatic":
-        pose[:3, 3] = axis * value
-    elif kind in ("revolute", "continuous"):
-        pose[:3, :3] = _turn(axis, value)
-    return pose
-
-
-def cos_sin(angle: float) -> tuple[float, float]:
-    """Cosine and sine, exact at quarter turns."""
-    quarters = round(angle / (np.pi / 2))
-    # Exact zeros make terms vanish from the generated code; the file's author meant them.
-    if abs(angle - quarters * np.pi / 2) < _QUARTER_TURN_SLACK:
-        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
-    return float(np.cos(angle)), float(np.sin(angle))
-
-
-def _turn(axis: Array, angle: float) -> Array:
-    """(3, 3) rotation about a unit axis (Rodrigues)."""
-    c, s = cos_sin(angle)
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))

@@ -94,9 +94,27 @@ def load(
     try:
         model, label = _compiled(mujoco, path)
         tree = _tree(mujoco, model, label, tip)
-        return _arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
+        arm = _arm(mujoco, model, tree, base, tip, dict(hold or {}), name or label, path.name)
+        return replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}") from error
+
+
+def compiled_tree(path: Path) -> tuple[Any, Tree]:
+    """The model of a file as MuJoCo compiles it, and its bodies and joints.
+
+    Raises:
+        ArmError: MuJoCo cannot read the file.
+        HoldfastError: MuJoCo is not installed.
+    """
+    mujoco = import_mujoco()
+    model, label = _compiled(mujoco, path)
+    return model, _tree(mujoco, model, label, None)
+
+
+def body_name(model: Any, body: int) -> str:
+    """What the tree calls a body of the model."""
+    return model.body(body).name or f"body{body}"
 
 
 def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
@@ -121,7 +139,8 @@ def _compiled(mujoco: ModuleType, path: Path) -> tuple[Any, str]:
 # ---- the tree ----------------------------------------------------------------------------------------------------
 
 
-def _pose(position: ArrayLike, wxyz: ArrayLike) -> Array:
+def pose_of(position: ArrayLike, wxyz: ArrayLike) -> Array:
+    """(4, 4) from a position, m, and a unit quaternion, w first."""
     w, x, y, z = np.asarray(wxyz, dtype=np.float64)
     pose = np.eye(4)
     pose[:3, :3] = [
@@ -153,7 +172,7 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
     joints: dict[str, TreeJoint] = {}
     for b in range(1, model.nbody):
         body, link = bodies[b], bodies[int(model.body_parentid[b])]
-        pending = _pose(model.body_pos[b], model.body_quat[b])  # of the body, in the link reached so far
+        pending = pose_of(model.body_pos[b], model.body_quat[b])  # of the body, in the link reached so far
         first, count = int(model.body_jntadr[b]), int(model.body_jntnum[b])
         for j in range(first, first + count):
             anchor = np.eye(4)
@@ -174,7 +193,7 @@ def _tree(mujoco: ModuleType, model: Any, label: str, tip: str | None) -> Tree:
             if model.site(k).name == tip:
                 carrier = bodies[int(model.site_bodyid[k])]
                 links[tip] = None
-                joints[f"{tip} (fixed)"] = _fixed(tip, carrier, _pose(model.site_pos[k], model.site_quat[k]))
+                joints[f"{tip} (fixed)"] = _fixed(tip, carrier, pose_of(model.site_pos[k], model.site_quat[k]))
     tied = frozenset(joint_names[j] for _, _, those, _ in _ties(mujoco, model) for j in those)
     return Tree(label, links, joints, limits_required=False, tied=tied)
 
@@ -188,7 +207,7 @@ def _body(model: Any, b: int, name: str) -> Link | None:
     mass, moments = float(model.body_mass[b]), np.array(model.body_inertia[b])
     if mass == 0 and not moments.any():
         return None
-    return Link(mass, np.zeros(3), np.diag(moments), name=name).moved(_pose(model.body_ipos[b], model.body_iquat[b]))
+    return Link(mass, np.zeros(3), np.diag(moments), name=name).moved(pose_of(model.body_ipos[b], model.body_iquat[b]))
 
 
 def _joint(mujoco: ModuleType, model: Any, j: int, name: str, kind: str) -> TreeJoint:

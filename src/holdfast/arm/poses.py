@@ -9,6 +9,8 @@ from holdfast.errors import InputError
 
 Array = NDArray[np.float64]
 
+_QUARTER_TURN_SLACK = 1e-9  # rad; files write pi/2 with 11 or more digits
+
 
 def check_poses(poses: ArrayLike) -> Array:
     """Poses as (N, 4, 4) float64.
@@ -95,3 +97,31 @@ def zyx_angles(rotations: ArrayLike) -> Array:
     a = np.arctan2(np.where(upright, -r[..., 0, 1], r[..., 1, 0]), np.where(upright, r[..., 1, 1], r[..., 0, 0]))
     c = np.where(upright, 0.0, np.arctan2(r[..., 2, 1], r[..., 2, 2]))
     return np.stack([a, np.arctan2(-r[..., 2, 0], level), c], axis=-1)
+
+
+# ---- motions of joints -----------------------------------------------------------------------------------------------
+def motion(kind: str, axis: Array, value: float) -> Array:
+    """(4, 4) motion of a joint by itself, rad or m; the identity for types without one axis."""
+    pose = np.eye(4)
+    if kind == "prismatic":
+        pose[:3, 3] = axis * value
+    elif kind in ("revolute", "continuous"):
+        pose[:3, :3] = _turn(axis, value)
+    return pose
+
+
+def cos_sin(angle: float) -> tuple[float, float]:
+    """Cosine and sine, exact at quarter turns."""
+    quarters = round(angle / (np.pi / 2))
+    # Exact zeros make terms vanish from the generated code; the file's author meant them.
+    if abs(angle - quarters * np.pi / 2) < _QUARTER_TURN_SLACK:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[quarters % 4]
+    return float(np.cos(angle)), float(np.sin(angle))
+
+
+def _turn(axis: Array, angle: float) -> Array:
+    """(3, 3) rotation about a unit axis (Rodrigues)."""
+    c, s = cos_sin(angle)
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.asarray(c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis))

@@ -11,7 +11,8 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from holdfast.arm.machine import Chain, Joint, JointType, Link, Machine, motion
+from holdfast.arm.machine import Chain, Joint, JointType, Link, Machine
+from holdfast.arm.poses import motion
 from holdfast.errors import ArmError
 
 Array = NDArray[np.float64]

@@ -1,7 +1,8 @@
 """Arms from URDF files: one chain of a tree of links, everything else folded into it.
 
-Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read; meshes, transmissions and simulator tags are skipped. The
-only other file that is opened is an SRDF file, for the configurations that it names.
+Only ``<link>`` (with its ``<inertial>``) and ``<joint>`` are read here; transmissions and simulator tags are skipped, shapes
+are read when they are asked for (:mod:`holdfast.shapes`). The only other file that is opened is an SRDF file, for the
+configurations that it names.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arguments import checked
-from holdfast.arm.machine import GRAVITY, Link, Machine, cos_sin
+from holdfast.arm.machine import GRAVITY, Link, Machine
+from holdfast.arm.poses import cos_sin
 from holdfast.arm.tree import LIMITED, MOVING, Tree, TreeJoint, chain
 from holdfast.errors import ArmError
 from holdfast.files import reading
@@ -38,6 +40,7 @@ def load(
     name: str | None = None,
     gravity: Sequence[float] = GRAVITY,
     srdf: str | Path | None = None,
+    meshes: str | Path | None = None,
 ) -> Machine:
     """The serial arm from link ``base`` down to link ``tip`` of a URDF file.
 
@@ -60,8 +63,11 @@ def load(
             ``<mimic>`` follows its master unless it is named here; one that mimics a held joint is held too.
         name: Name of the arm; the file's robot name if not given.
         gravity: (3,) acceleration, m/s^2, in the frame of ``base``.
-        srdf: File whose ``<group_state>`` become ``states``, those that name every joint of the arm; if not given, the file of
-            the same name that ends in ``.srdf``, where there is one.
+        srdf: File whose ``<group_state>`` become ``states``, those that name every joint of the arm, and whose
+            ``<disable_collisions>`` are pairs of links that its shape leaves unchecked; if not given, the file of the same name
+            that ends in ``.srdf``, where there is one.
+        meshes: Folder in which the files of meshes are looked for before the usual places
+            (:func:`holdfast.shapes.meshes.find_mesh`), once the shape of the arm is asked for.
 
     Returns:
         What :meth:`holdfast.Arm.from_urdf` makes an arm of; its ``base`` is the identity, its ``source`` the name of the file.
@@ -73,9 +79,10 @@ def load(
     try:
         tree = read_tree(robot_element(path), path.stem)
         arm = chain(tree, base, tip, hold or {}, name or tree.name, gravity, path.name)
-        arm = replace(arm, chain=arm.chain and replace(arm.chain, file=str(path.absolute())))
         beside = path.with_suffix(".srdf")
         file = beside if srdf is None and beside.is_file() else None if srdf is None else Path(srdf)
+        whole, folder, pairs = ("" if x is None else str(Path(x).absolute()) for x in (path, meshes, file))
+        arm = replace(arm, chain=arm.chain and replace(arm.chain, file=whole, meshes=folder, srdf=pairs))
         return arm if file is None else replace(arm, states=_states(file, arm))
     except ArmError as error:
         raise ArmError(f"{path.name}: {error}") from error
@@ -145,6 +152,19 @@ def _unexpanded(robot: ElementTree.Element) -> Iterator[str]:
         if kept:
             yield from (value for value in element.attrib.values() if XACRO_TERM.search(value))
         waiting += [(child, kept) for child in reversed(element)]
+
+
+def disabled_pairs(path: Path) -> frozenset[tuple[str, str]]:
+    """Pairs of links, each in alphabetical order, between which an SRDF file disables collisions.
+
+    Raises:
+        ArmError: The file cannot be read.
+    """
+    found = (
+        sorted(_attribute(x, key, "<disable_collisions>") for key in ("link1", "link2"))
+        for x in _element(path, "SRDF").iter("disable_collisions")
+    )
+    return frozenset((a, b) for a, b in found)
 
 
 def _states(path: Path, arm: Machine) -> dict[str, Array]:

@@ -137,6 +137,7 @@ def _entries() -> dict[str, tuple[Builtin, Callable[[], Arm]]]:
             "panda_hand_tcp",
             _rad((0, -45, 0, -135, 0, 90, 45)),
             "Franka Emika Panda with hand, fingers shut",
+            ", collision shapes kept",
         ),
         from_file("xarm7", "link_base", "link_eef", _rad((0, -20, 0, 50, 0, 70, 0)), "UFACTORY xArm7"),
         from_file(

@@ -51,7 +51,7 @@ def resolve(spec: str, base: str | None = None, tip: str | None = None, *, hold:
         from holdfast.arms import dh_file as table
 
         return table.load(spec)
-    if ending in MJCF_ENDINGS or (ending == ".xml" and _outermost(spec) == "mujoco"):
+    if ending in MJCF_ENDINGS or (ending == ".xml" and outermost(spec) == "mujoco"):
         return Arm.from_mjcf(spec, base, tip, hold=hold)
     if ending in URDF_ENDINGS:
         return Arm.from_urdf(spec, base, tip, hold=hold)
@@ -84,8 +84,8 @@ def command_words(arm: Arm) -> tuple[str, list[str], str]:
     return spec, [f"--{option} {shlex.quote(value)}" for option, value in options], remark
 
 
-def _outermost(path: str) -> str:
-    """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file then explains."""
+def outermost(path: str) -> str:
+    """Name of the outermost element of an XML file; empty if it cannot be told, which the reader of the file explains."""
     import io
     from xml.etree import ElementTree
 

@@ -27,6 +27,7 @@ class File(Strict):
     radius: Positive | None = None
     links: dict[str, list[Entry]] | None = None
     ignore: list[Annotated[list[str], Field(min_length=2, max_length=2)]] = Field(default_factory=list)
+    source: str = ""
 
 
 def read(path: Path) -> dict[str, Any]:

@@ -11,16 +11,20 @@ with every key; lengths in m, at least ``radius`` or ``links`` must be there::
         - {from: [0, 0, 0], to: [-0.08, 0.1, 0]}
         - {from: [-0.08, 0.12, 0], radius: 0.07}     # no to: a sphere
       panda_joint6: []        # nothing here
-    ignore:                   # links whose capsules never meet, or meet by design
+    ignore:                   # links whose capsules never meet, or meet by design; (2) is the second capsule of a link
       - [panda_joint5, panda_joint7]
+      - [base, panda_joint4 (2)]
+    source: measured by hand  # optional; said in reports
 
 A link that is not named has the capsule of :meth:`Capsules.along` if ``radius`` is given, else none.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import KW_ONLY, dataclass
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import KW_ONLY, dataclass, field
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +45,7 @@ BASE = -1
 """The link that is still, in ``Capsule.link``."""
 
 _SHARE = 1 / 20  # default radius over the sum of the link lengths: an assumption
+_NUMBERED = re.compile(r" \(\d+\)$")
 _POINT = 1e-9  # m: a link shorter than this has no length
 
 
@@ -89,14 +94,28 @@ class Capsules:
     Attributes:
         parts: Any number per link.
         ignore: Pairs of links, the smaller index first, that are never checked against each other.
+        apart: Pairs of positions in ``parts``, the smaller first, that are never checked against each other.
+        source: Where they come from, for people; empty for those that were given or assumed.
     """
 
     parts: tuple[Capsule, ...]
     ignore: tuple[tuple[int, int], ...] = ()
+    apart: tuple[tuple[int, int], ...] = field(default=(), kw_only=True)
+    source: str = field(default="", compare=False, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", tuple(self.parts))
-        object.__setattr__(self, "ignore", tuple(sorted({(min(a, b), max(a, b)) for a, b in self.ignore})))
+        if any(not 0 <= k < len(self.parts) for pair in self.apart for k in pair):
+            raise ArmError(f"apart names a capsule by number; there are 0 to {len(self.parts) - 1}")
+        apart, ignore = _ordered(self.apart), _ordered(self.ignore)
+        # Links of which no two capsules are checked are a pair of links, as files have it.
+        for pair in {_ordered([(self.parts[a].link, self.parts[b].link)])[0] for a, b in apart}:
+            one, other = ([k for k, part in enumerate(self.parts) if part.link == link] for link in pair)
+            every = _ordered(product(one, other))
+            if set(every) <= set(apart):
+                ignore, apart = _ordered([*ignore, pair]), tuple(x for x in apart if x not in every)
+        object.__setattr__(self, "ignore", ignore)
+        object.__setattr__(self, "apart", apart)
 
     def __iter__(self) -> Iterator[Capsule]:
         return iter(self.parts)
@@ -121,10 +140,8 @@ class Capsules:
         Raises:
             ArmError: The radius is not above 0, or the arm has no length.
         """
-        lengths = [float(np.linalg.norm(end)) for end in _ends(arm)]
-        if sum(lengths) < _POINT:
-            raise ArmError(f"the links of '{arm.name}' have no length, so no capsule lies along them; give its capsules")
-        width = _SHARE * sum(lengths) if radius is None else radius
+        assumed = assumed_radius(arm)
+        width = assumed if radius is None else radius
         return cls(tuple(part for link in range(BASE, arm.n) for part in along_link(arm, link, width)))
 
     def radius_along(self, arm: Arm) -> float | None:
@@ -136,10 +153,12 @@ class Capsules:
     def assumed(self, arm: Arm) -> bool:
         """True if the radius along the links is the one that :meth:`along` assumes."""
         radius = self.radius_along(arm)
-        return radius is not None and radius == Capsules.along(arm).parts[0].radius
+        return radius is not None and radius == assumed_radius(arm)
 
     def describe(self, arm: Arm) -> str:
         """What they are and where they come from, for people."""
+        if self.source:
+            return self.source
         radius = self.radius_along(arm)
         if radius is None:
             return f"{len(self)} capsule{'' if len(self) == 1 else 's'}, as given"
@@ -178,8 +197,20 @@ class Capsules:
                 parts += [_part(link, e, told.radius, f"links.{name}[{k}]") for k, e in enumerate(entries)]
             elif told.radius is not None:
                 parts += along_link(arm, link, told.radius)
-        pairs = [(_link(arm, a, f"ignore[{k}]"), _link(arm, b, f"ignore[{k}]")) for k, (a, b) in enumerate(told.ignore)]
-        return cls(tuple(parts), tuple(pairs))
+        labels = [cls(tuple(parts)).label(arm, k) for k in range(len(parts))]
+        links: list[tuple[int, int]] = []
+        apart: list[tuple[int, int]] = []
+        for k, (a, b) in enumerate(told.ignore):
+            if any(_NUMBERED.search(name) and name in labels for name in (a, b)):
+                several = [
+                    [i for i, label in enumerate(labels) if name in (label, _NUMBERED.sub("", label))] for name in (a, b)
+                ]
+                if not all(several):
+                    raise ArmError(f"ignore[{k}]: '{a}' or '{b}' is no capsule here; they are {', '.join(labels)}")
+                apart += product(several[0], several[1])
+            else:
+                links.append((_link(arm, a, f"ignore[{k}]"), _link(arm, b, f"ignore[{k}]")))
+        return cls(tuple(parts), tuple(links), apart=tuple(apart), source=told.source)
 
     def to_dict(self, arm: Arm) -> dict[str, Any]:
         """Everything as JSON types, links by name: a file's keys and values."""
@@ -187,7 +218,28 @@ class Capsules:
         for part in self.parts:
             entry = {"from": list(part.start), "to": list(part.end), "radius": part.radius}
             links.setdefault(link_name(arm, part.link), []).append(entry)
-        return {"links": links, "ignore": [[link_name(arm, a), link_name(arm, b)] for a, b in self.ignore]}
+        told = {"source": self.source} if self.source else {}
+        ignore = [[link_name(arm, a), link_name(arm, b)] for a, b in self.ignore]
+        ignore += [[self.label(arm, a), self.label(arm, b)] for a, b in self.apart]
+        return {"links": links, "ignore": ignore, **told}
+
+    def label(self, arm: Arm, part: int) -> str:
+        """The link of a capsule, by position in ``parts``, with the number of the capsule where the link has several."""
+        links = [p.link for p in self.parts]
+        name = link_name(arm, links[part])
+        return name if links.count(links[part]) == 1 else f"{name} ({links[: part + 1].count(links[part])})"
+
+
+def assumed_radius(arm: Arm) -> float:
+    """The radius, m, of :meth:`Capsules.along` where none is given.
+
+    Raises:
+        ArmError: The arm has no length.
+    """
+    total = sum(float(np.linalg.norm(end)) for end in _ends(arm))
+    if total < _POINT:
+        raise ArmError(f"the links of '{arm.name}' have no length, so no capsule lies along them; give its capsules")
+    return _SHARE * total
 
 
 def link_name(arm: Arm, link: int) -> str:
@@ -210,6 +262,10 @@ def _part(link: int, entry: Entry, radius: float | None, place: str) -> Capsule:
     if own is None:
         raise ArmError(f"{place}.radius: it is missing; give it here or for the whole file")
     return Capsule(link, _point(entry.start), _point(entry.start if entry.to is None else entry.to), radius=own)
+
+
+def _ordered(pairs: Iterable[tuple[int, int]]) -> tuple[tuple[int, int], ...]:
+    return tuple(sorted({(min(a, b), max(a, b)) for a, b in pairs}))
 
 
 def _point(values: list[float] | Array) -> Point:

@@ -11,7 +11,7 @@ from holdfast.clearance.capsules import Capsules
 
 Array = NDArray[np.float64]
 
-WIDER = 0.1  # of the radius of a capsule: what the spheres of its chain may reach beyond it
+WIDER = 0.06  # of the radius of a capsule: what the spheres of its chain may reach beyond it
 _MOST = 64  # spheres of one capsule
 
 

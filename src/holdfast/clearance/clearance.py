@@ -18,7 +18,7 @@ from holdfast.arm.model import Arm
 from holdfast.arm.task import plane_normal
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
-from holdfast.clearance.capsules import Capsules, link_name
+from holdfast.clearance.capsules import Capsules
 from holdfast.clearance.changes import changes_between
 from holdfast.clearance.exactness import Exactness
 from holdfast.clearance.obstacles import Obstacles
@@ -136,7 +136,7 @@ class Clearance:
             low, high = links[a], links[b]
             if high - low == 1:
                 reasons[a, b] = "adjacent links"
-            elif (low, high) in self.capsules.ignore:
+            elif (low, high) in self.capsules.ignore or (min(a, b), max(a, b)) in self.capsules.apart:
                 reasons[a, b] = "to be ignored"
         open_pairs = [pair for pair in different if pair not in reasons]
         for pair, share in zip(open_pairs, self._overlaps(open_pairs), strict=True):
@@ -158,12 +158,7 @@ class Clearance:
         return np.asarray((values < 0).mean(axis=0))
 
     def _name(self, pair: Pair) -> str:
-        return " & ".join(self._label(part) for part in pair)
-
-    def _label(self, part: int) -> str:
-        links = self._links
-        name = link_name(self.arm, links[part])
-        return name if links.count(links[part]) == 1 else f"{name} ({links[: part + 1].count(links[part])})"
+        return " & ".join(self.capsules.label(self.arm, part) for part in pair)
 
     # ---- symbols -----------------------------------------------------------------------------------------------
 
