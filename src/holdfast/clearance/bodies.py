@@ -7,12 +7,14 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
+from scipy.spatial import ConvexHull
 
 from holdfast.caching import cached_property
 from holdfast.cell import solids
 from holdfast.cell.meshes import Mesh
 from holdfast.clearance.capsules import Capsule
+from holdfast.clearance.shape import hull_of
+from holdfast.shapes.pieces import Piece
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int64]
@@ -153,26 +155,23 @@ def of_solid(solid: solids.Solid) -> Body:
     if isinstance(solid, solids.Sphere):
         return Body(kind="sphere", size=(solid.radius,), pose=solid.pose)
     assert isinstance(solid, Mesh)
-    surface = solid.surface
-    return of_triangles(surface.vertices, surface.faces, solid.pose, hull=solid.solid == "hull")
+    vertices, faces = solid.surface.vertices, solid.surface.faces
+    convex = solid.solid == "hull" or abs(solid.surface.volume / ConvexHull(vertices).volume - 1) <= _CONVEX
+    return Body(kind="convex" if convex else "mesh", pose=solid.pose, vertices=vertices, faces=faces)
 
 
-def of_triangles(vertices: Array, faces: Triangles, pose: Array, *, hull: bool = False) -> Body:
-    """A closed mesh, taken for its hull with ``hull`` and where it is convex."""
-    try:
-        found = ConvexHull(vertices)
-    except QhullError:
-        return Body(kind="mesh", pose=pose, vertices=vertices, faces=faces)
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    volume = float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
-    if not hull and abs(volume / found.volume - 1) > _CONVEX:
-        return Body(kind="mesh", pose=pose, vertices=vertices, faces=faces)
-    order = np.full(len(vertices), -1)
-    order[found.vertices] = np.arange(len(found.vertices))
-    a, b, c = (vertices[found.simplices[:, k]] for k in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0
-    outer = np.where(inward[:, None], found.simplices[:, ::-1], found.simplices)
-    return Body(kind="convex", pose=pose, vertices=vertices[found.vertices], faces=order[outer].astype(np.int64))
+def of_piece(piece: Piece) -> Body:
+    """A piece of a link.
+
+    Raises:
+        ArmError: A mesh is flat.
+    """
+    if piece.kind != "mesh":
+        return Body(kind=piece.kind, size=piece.size, pose=piece.pose)
+    hull = hull_of(piece)
+    if hull.convex:
+        return Body(kind="convex", vertices=hull.vertices, faces=hull.faces)
+    return Body(kind="mesh", pose=piece.pose, vertices=piece.vertices, faces=piece.faces)
 
 
 def _spheres_within(normals: Array, offsets: Array, corners: Array) -> tuple[Array, Array]:

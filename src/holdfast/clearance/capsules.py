@@ -37,6 +37,7 @@ from holdfast.errors import ArmError, InputError
 
 if TYPE_CHECKING:
     from holdfast.clearance.capsule_file import Entry
+    from holdfast.clearance.shape import Shape
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -96,12 +97,14 @@ class Capsules:
         ignore: Pairs of links, the smaller index first, that are never checked against each other.
         apart: Pairs of positions in ``parts``, the smaller first, that are never checked against each other.
         source: Where they come from, for people; empty for those that were given or assumed.
+        shape: What they cover, if that is known; else they are the shape itself. Files and results do not hold it.
     """
 
     parts: tuple[Capsule, ...]
     ignore: tuple[tuple[int, int], ...] = ()
     apart: tuple[tuple[int, int], ...] = field(default=(), kw_only=True)
     source: str = field(default="", compare=False, kw_only=True)
+    shape: Shape | None = field(default=None, compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", tuple(self.parts))

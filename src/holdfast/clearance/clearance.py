@@ -108,6 +108,7 @@ class Clearance:
     def with_cell(self, cell: Cell | None) -> Clearance:
         """The same clearance in another cell; the arm's own pairs are not chosen again."""
         other = copy(self)
+        vars(other).pop("_exactness", None)
         other._meet(cell)
         return other
 
@@ -231,12 +232,7 @@ class Clearance:
     @cached_property
     def alone(self) -> Clearance:
         """The same without the cell: what programs are made of, so that for a changed cell none is made anew."""
-        if self.cell is None:
-            return self
-        made = copy(self)
-        made.cell = made.obstacles = None
-        made.pair_names, made.margins = self.pair_names[: len(self.pairs)], self.margins[: len(self.pairs)]
-        return made
+        return self if self.cell is None else self.with_cell(None)
 
     @cached_property
     @recalled
@@ -305,29 +301,22 @@ class Clearance:
         return Exactness(self)
 
     def sign(self, q: ArrayLike) -> NDArray[np.bool_]:
-        """Whether the arm is clear: none of its checked links touches another or an object, (N,) or a scalar. Exact.
+        """Whether no checked link touches another or an object, (N,) or a scalar; exact, of the bodies that the capsules cover.
 
-        Asked are the bodies themselves, not the spheres of the bound; margins do not count. The bound comes first, then spheres
-        within the bodies, and a library (python-fcl; coal where only that is installed) for the pairs that are left. What is
-        nearer than 1e-6 m may count as touching. A row that is not finite is not clear.
+        Margins do not count, what is nearer than 1e-6 m may count as touching, and a row that is not finite is not clear.
 
         Raises:
-            InputError: Wrong shape, or NaN or infinity in a single configuration.
-            HoldfastError: Neither library is installed.
+            HoldfastError: Neither python-fcl nor coal is installed.
         """
         rows, single = as_configurations(self.arm, q)
         values = self._exactness.clear(rows)
         return values[0] if single else values
 
     def exact(self, q: ArrayLike) -> Array:
-        """The smallest distance of the bodies themselves, m, (N,) or a scalar; 0 where they touch, infinite without a pair.
-
-        By coal where it is installed, to 1e-6 m; else by python-fcl: :attr:`exact_by` says which. A depth is not given: that of
-        meshes is not reliable (coal issues 357 and 823).
+        """The smallest distance of those bodies, m, (N,) or a scalar; 0 where they touch; ``exact_by`` says how right it is.
 
         Raises:
-            InputError: Wrong shape; NaN or infinity in a single configuration (in a batch such a row gets NaN).
-            HoldfastError: Neither library is installed.
+            HoldfastError: Neither coal nor python-fcl is installed.
         """
         rows, single = as_configurations(self.arm, q)
         values = self._exactness.distances(rows)
@@ -335,7 +324,7 @@ class Clearance:
 
     @property
     def exact_by(self) -> str:
-        """The library that :meth:`exact` asks, and how right it is."""
+        """The library that :meth:`exact` asks, and how right it is: ``coal 3.0.3, to 0.001 mm``."""
         return self._exactness.library
 
     def closest_pair(self, q: ArrayLike) -> NDArray[np.int64]:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.clearance.bodies import Body
-from holdfast.clearance.capsules import BASE
+from holdfast.clearance.bodies import Body, of_capsule, of_piece
+from holdfast.clearance.capsules import BASE, Capsules
 from holdfast.clearance.chains import Balls
 from holdfast.clearance.engines import CONTACT, Engine
 from holdfast.clearance.obstacles import Obstacles
@@ -28,10 +28,20 @@ class Part:
     Attributes:
         link: The joint that moves it, from 0; -1 for the base.
         body: With its pose in the frame of the link.
+        owner: Name of the link in the arm's file; empty if it is of none.
     """
 
     link: int
     body: Body
+    owner: str = ""
+
+
+def parts_of(capsules: Capsules) -> list[Part]:
+    """The bodies of an arm: what its capsules cover, and the capsules themselves where they cover nothing that is known."""
+    shape = capsules.shape
+    lacking = set[int]() if shape is None else {item.link for item in shape.missing}
+    pieces = [] if shape is None else [Part(piece.link, of_piece(piece), piece.owner) for piece in shape.pieces]
+    return pieces + [Part(part.link, of_capsule(part)) for part in capsules if shape is None or part.link in lacking]
 
 
 class Contacts:
@@ -40,25 +50,28 @@ class Contacts:
     Args:
         arm: The arm.
         parts: Its bodies.
-        links: (S, 2) pairs of links that are checked, the one nearer to the base first.
+        between: Of each pair of links that is checked, the positions in ``parts`` of the bodies that are.
         obstacles: The objects of its cell, or None.
         engine: The library.
     """
 
     def __init__(
-        self, arm: Arm, parts: Sequence[Part], links: Sequence[tuple[int, int]], obstacles: Obstacles | None, engine: Engine
+        self,
+        arm: Arm,
+        parts: Sequence[Part],
+        between: Sequence[Sequence[tuple[int, int]]],
+        obstacles: Obstacles | None,
+        engine: Engine,
     ) -> None:
-        self.arm, self.engine = arm, engine
-        self._parts = tuple(parts)
+        self.arm, self.engine, self._parts = arm, engine, tuple(parts)
         self._placed = [Placed(part.body, engine.make(part.body), np.eye(3), np.zeros(3)) for part in parts]
-        by_link = {link: [k for k, part in enumerate(parts) if part.link == link] for link in range(BASE, arm.n)}
-        # Of each pair: the bodies that are asked about, and what they can touch; an opponent on a link is placed as well.
-        self._pairs: list[tuple[list[int], list[tuple[int, Opponent]]]] = [
-            (by_link[b], [(k, Another(engine, self._placed[k])) for k in by_link[a]]) for a, b in links
-        ]
+        others = [Another(engine, placed) for placed in self._placed]
+        # Of each pair: the body that is asked about, what it may touch, and which other body has to be placed for that.
+        self._pairs: list[list[tuple[int, Opponent, int]]] = [[(b, others[a], a) for a, b in some] for some in between]
         if obstacles is not None:
-            objects: list[tuple[int, Opponent]] = [(-1, of_object(engine, solid)) for solid in obstacles.cell]
-            self._pairs += [(by_link[int(link)], [objects[k]]) for link, k in obstacles.pairs]
+            objects = [of_object(engine, solid) for solid in obstacles.cell]
+            by_link = {link: [k for k, part in enumerate(parts) if part.link == link] for link in range(arm.n)}
+            self._pairs += [[(k, objects[thing], k) for k in by_link[link]] for link, thing in obstacles.pairs.tolist()]
 
     def any(self, q: Array, bounds: Array) -> Truths:
         """(N,) whether anything touches.
@@ -81,14 +94,11 @@ class Contacts:
         return found
 
     def _touch(self, pair: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> bool:
-        mine, others = self._pairs[pair]
-        for k in mine:
+        for k, opponent, other in self._pairs[pair]:
             self._place(k, row, frames, there)
-            for other, opponent in others:
-                if other >= 0:
-                    self._place(other, row, frames, there)
-                if opponent.hits(self._placed[k]):
-                    return True
+            self._place(other, row, frames, there)
+            if opponent.hits(self._placed[k]):
+                return True
         return False
 
     def distances(self, q: Array, bounds: Array) -> Array:
@@ -109,14 +119,11 @@ class Contacts:
         return out
 
     def _apart(self, pair: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> float:
-        mine, others = self._pairs[pair]
         best = np.inf
-        for k in mine:
+        for k, opponent, other in self._pairs[pair]:
             self._place(k, row, frames, there)
-            for other, opponent in others:
-                if other >= 0:
-                    self._place(other, row, frames, there)
-                best = min(best, opponent.distance(self._placed[k]))
+            self._place(other, row, frames, there)
+            best = min(best, opponent.distance(self._placed[k]))
         return best
 
     def _place(self, k: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> None:

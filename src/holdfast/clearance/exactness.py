@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,10 +11,9 @@ from numpy.typing import NDArray
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh
 from holdfast.cell.solids import Primitive, Sphere
-from holdfast.clearance.bodies import Body, of_capsule, of_solid
-from holdfast.clearance.capsules import BASE
+from holdfast.clearance.bodies import of_solid
 from holdfast.clearance.chains import Balls
-from holdfast.clearance.contacts import Contacts, Part, spheres_within
+from holdfast.clearance.contacts import Contacts, parts_of, spheres_within
 from holdfast.clearance.engines import CONTACT, Engine, for_distances, for_signs
 from holdfast.clearance.object_kernels import BLOCK, NOWHERE, distance_kernel, in_blocks
 from holdfast.kernels.kernel import Kernel
@@ -34,7 +34,7 @@ class Exactness:
 
     def __init__(self, clearance: Clearance) -> None:
         self._clearance = clearance
-        self.parts = [Part(part.link, of_capsule(part)) for part in clearance.capsules]
+        self.parts = parts_of(clearance.capsules)
 
     # ---- what is asked -------------------------------------------------------------------------------------------
 
@@ -86,19 +86,38 @@ class Exactness:
 
     def _contacts(self, engine: Engine) -> Contacts:
         c = self._clearance
-        return Contacts(c.arm, self.parts, list(self._columns), c.obstacles, engine)
+        return Contacts(c.arm, self.parts, [self._between(*links) for links in self._columns], c.obstacles, engine)
 
     # ---- pairs of links ------------------------------------------------------------------------------------------
 
+    def _between(self, low: int, high: int) -> list[tuple[int, int]]:
+        """Bodies of two links that are checked against each other, by their positions in ``parts``."""
+        shape = self._clearance.capsules.shape
+        unchecked = frozenset() if shape is None else shape.unchecked
+        found = []
+        for a, b in product(range(len(self.parts)), repeat=2):
+            one, other = self.parts[a], self.parts[b]
+            names = (min(one.owner, other.owner), max(one.owner, other.owner))
+            if (one.link, other.link) == (low, high) and names not in unchecked:
+                found.append((a, b))
+        return found
+
     @cached_property
     def _columns(self) -> dict[tuple[int, int], list[int]]:
-        """Pairs of links that are checked, and where the pairs of their capsules are; nowhere if not all of them are checked."""
+        """Pairs of links that are checked, and where the pairs of their capsules are; nowhere if one that counts is left out.
+
+        Pairs of capsules about bodies that are not checked against each other, ``capsules.apart``, do not count.
+        """
         c = self._clearance
-        count = {link: sum(part.link == link for part in c.capsules) for link in range(BASE, c.arm.n)}
         found: dict[tuple[int, int], list[int]] = {}
         for k, (a, b) in enumerate(c.pairs):
             found.setdefault((c.capsules.parts[a].link, c.capsules.parts[b].link), []).append(k)
-        return {(a, b): columns if len(columns) == count[a] * count[b] else [] for (a, b), columns in found.items()}
+        lacking = {
+            (c.capsules.parts[a].link, c.capsules.parts[b].link)
+            for a, b in (ignored.pair for ignored in c.ignored)
+            if (min(a, b), max(a, b)) not in c.capsules.apart
+        }
+        return {links: [] if links in lacking else columns for links, columns in found.items()}
 
     def _bounds(self, q: Array) -> Array:
         """(N, P) as :class:`Contacts` takes them."""
@@ -143,7 +162,7 @@ def _inner(solid: object) -> list[Primitive]:
         return [solid]
     if not isinstance(solid, Mesh):
         return []
-    body: Body = of_solid(solid)
+    body = of_solid(solid)
     pose = np.tile(np.eye(4), (len(body.inside[1]), 1, 1))
     pose[:, :3, 3] = body.inside[0] @ body.pose[:3, :3].T + body.pose[:3, 3]
     return [Sphere("", radius, pose=at) for radius, at in zip(body.inside[1].tolist(), pose, strict=True)]

@@ -76,10 +76,10 @@ class Another:
 
     def _within(self, part: Placed) -> bool:
         """Whether one of the two is a mesh that has the other within, so that their surfaces need not meet."""
-        return any(a.body.kind == "mesh" and a.body.encloses(a.own(b.point)) for a, b in self._both(part))
-
-    def _both(self, part: Placed) -> tuple[tuple[Placed, Placed], tuple[Placed, Placed]]:
-        return (self.placed, part), (part, self.placed)
+        if part.body.kind != "mesh" != self.placed.body.kind:
+            return False
+        both = (self.placed, part), (part, self.placed)
+        return any(a.body.kind == "mesh" and a.body.encloses(a.own(b.point)) for a, b in both)
 
 
 class Plane:
