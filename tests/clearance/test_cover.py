@@ -201,7 +201,7 @@ def test_a_missing_mesh_gives_that_link_its_assumed_capsule_and_says_so(tmp_path
     assert Shape.of(found).digest == Shape.of(arm, tmp_path / "meshes").digest != Shape.of(arm).digest
     assert "not read" not in shape_of(found).source
     (tmp_path / "meshes" / "foot.stl").write_bytes(box[:-20])
-    assert "it is no whole STL file" in shape_of(found).source
+    assert "cut off or damaged" in shape_of(found).source
 
 
 def test_an_arm_from_no_file_has_assumed_capsules(flat4):

@@ -159,6 +159,16 @@ def test_a_study_keeps_what_was_chosen_of_each_file(cli, tmp_path):
             "--target: a place is 640.3 m from the base of 'panda', which is at most 1.423 m long; give metres",
         ),
         (
+            ("basins", "planar-3r", "--target", "1.5,1.5", "--lock", "1=100"),
+            "--lock: joint 'joint1' is at 100 rad, far beyond its limits, -3.142 to 3.142 rad; give radians, or degrees with "
+            "--degrees",
+        ),
+        (
+            ("stationary-points", "planar-3r", "--target", "1.5,1.5", "--lock", "3", "--lock", "2=5000", "--degrees"),
+            "--lock: joint 'joint2' is at 5000 deg, far beyond",
+        ),
+        (("recover", "panda", "--lock", "4=-120", "--at", Q7), "--lock: joint 'panda_joint4' is at -120 rad, far beyond"),
+        (
             ("optimise", "panda", "--pose", "500,0,400,0,0,0", "--minimise", "torque"),
             "--pose: a place is 640.3 m from the base",
         ),

@@ -30,6 +30,19 @@ def test_figure_8(three):
     assert (one != other).all()
 
 
+def test_a_boundary_ends_where_the_arm_is_singular(three):
+    """Joint 1 locked and the others folded: the direction of the motion jumps there, and no step is small enough to follow it."""
+    found = hf.basins(three, [1.5, 1.0], {0: 2.0}, starts=10)
+    ends = [line[-1] for line in found.boundaries]
+    assert ends
+    reach = np.array([np.linalg.det(three.arm.jacobian(q)[:2, 1:]) for q in ends])  # 0 where joints 2 and 3 are in line
+    speeds = np.array([np.linalg.norm(np.diff(line, axis=0), axis=1).max() for line in found.boundaries])
+    short = np.array([len(line) for line in found.boundaries]) < 1500
+    assert short.any()
+    np.testing.assert_allclose(reach[short], 0, atol=0.03)
+    assert (speeds < 0.0201).all()
+
+
 def test_a_joint_that_the_task_does_not_notice():
     """Three links and a wrist at the tool point: wherever the wrist stands, the stuck runs are at the one sink."""
     arm = hf.Arm.from_dh([hf.DH(a=a, alpha=0.0) for a in (1.0, 1.0, 1.0, 0.0)])

@@ -22,6 +22,9 @@ from holdfast.files import reading
 from holdfast.grammar import FAILURES_HELP, TASKS, is_number
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from holdfast.arm.machine import Joint
     from holdfast.arm.model import Arm
     from holdfast.arm.task import Task
     from holdfast.indices.objective import Objective
@@ -133,6 +136,14 @@ def read_by_joint(
     return found
 
 
+def read_locks(arm: Arm, texts: list[str] | None, degrees: bool, alone: bool = False) -> dict[str | int, Any]:
+    """--lock of a command that has --degrees; see :func:`read_by_joint`."""
+    found = read_by_joint(arm, texts, "--lock", degrees, alone)
+    given = {name: value for name, value in found.items() if value is not None}
+    check_unit_of_joints([arm.joints[arm.joint_index(name)] for name in given], list(given.values()), "--lock", degrees)
+    return found
+
+
 def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
     """Numbers separated by commas or spaces; ``wanted`` says in an error what the option takes."""
     parts = [x for x in re.split(r"[,\s]+", text.strip()) if x]
@@ -143,14 +154,14 @@ def read_numbers(option: str, text: str, wanted: str) -> NDArray[np.float64]:
         raise InputError(f"{option}: '{wrong}' is not a number; give {wanted} separated by commas or spaces") from error
 
 
-def check_unit_of_joints(arm: Arm, q: NDArray[np.float64], option: str, degrees: bool = False) -> None:
-    """Refuse joint values (n,), rad and m, so far beyond the limits that they must be degrees, or millimetres.
+def check_unit_of_joints(joints: Sequence[Joint], values: Sequence[float], option: str, degrees: bool = False) -> None:
+    """Refuse values of joints, rad and m, so far beyond the limits that they must be degrees, or millimetres.
 
     Raises:
         InputError: A joint is more than a turn, or ten times its range, beyond its limits.
     """
     unit = "degrees" if degrees else "radians, or degrees with --degrees"
-    for joint, value in zip(arm.joints, q.tolist(), strict=True):
+    for joint, value in zip(joints, values, strict=True):
         factor, shown = joint.shown if degrees else (1.0, joint.unit)
         bounded = np.isfinite(joint.upper - joint.lower)
         room = 10 * (joint.upper - joint.lower) if joint.prismatic else 2 * np.pi
@@ -187,7 +198,7 @@ def read_configuration(arm: Arm, text: str, degrees: bool, option: str = "--q") 
     if not np.isfinite(q).all():
         raise InputError(f"{option} holds NaN or infinity; give {arm.n} finite numbers")
     q = np.where(arm.prismatic, q, np.deg2rad(q)) if degrees else q
-    check_unit_of_joints(arm, q, option, degrees)
+    check_unit_of_joints(arm.joints, q.tolist(), option, degrees)
     return q
 
 

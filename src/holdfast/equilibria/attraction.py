@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,7 +26,7 @@ from holdfast.simulation.runs import Outcome, Runs
 from holdfast.solvers import joint_space
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     import xarray as xr
 
@@ -38,7 +38,9 @@ NEAR = 1e-2  # rad (and m): a run that ends nearer than this to a stationary poi
 ARRIVED, MOVING, UNDECIDED, STUCK = -1, -2, -3, -4
 _WORDS = {ARRIVED: "target", STUCK: "stuck on a continuum", MOVING: "moving", UNDECIDED: "undecided"}
 _OFFSET, _LENGTH = 1e-5, 30.0  # rad: where a basin boundary begins, how far it is followed
+_SLOW = 1e-6  # rad/s: here it ends, at a source
 _SPACING = 0.02
+_STALLED = 200  # steps within a spacing: the line is at a singular configuration, where its direction jumps
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -214,18 +216,12 @@ def _ends(system: RestSystem, points: StationaryPoints, runs: Runs) -> Indices:
 
 def _boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[Array]:
     """The stable manifolds of the saddles, followed backwards in time at unit speed."""
-    from scipy.integrate import solve_ivp
-
     rates = system.linear.field(system.pose, system.healthy)
 
     def back(_: float, q: Array) -> Array:
         now = rates(q)
         return np.asarray(-now / max(float(np.linalg.norm(now)), 1e-12))
 
-    def slow(_: float, q: Array) -> float:
-        return float(np.linalg.norm(rates(q))) - 1e-6
-
-    slow.terminal = True  # type: ignore[attr-defined]
     for q in points.q[points.kind == Kind.SADDLE]:
         matrix = system.linear.matrices(q[None], system.pose, system.healthy)[0]
         values, vectors = np.linalg.eig(matrix)
@@ -233,5 +229,23 @@ def _boundaries(system: RestSystem, points: StationaryPoints) -> Iterator[Array]
         into[system.healthy] = vectors[:, np.argmin(values.real)].real
         for side in (1.0, -1.0):
             start = q + side * _OFFSET * into / np.linalg.norm(into)
-            run: Any = solve_ivp(back, (0, _LENGTH), start, rtol=1e-8, atol=1e-10, max_step=0.1, events=slow, dense_output=True)
-            yield run.sol(np.arange(0, run.t[-1], _SPACING)).T
+            yield _line(back, start, lambda q: float(np.linalg.norm(rates(q))) < _SLOW)
+
+
+def _line(speed: Callable[[float, Array], Array], start: Array, ended: Callable[[Array], bool]) -> Array:
+    """(P, n) a line of unit speed from its start to its end, or to where it cannot go on, as at a singular configuration."""
+    from scipy.integrate import RK45, OdeSolution
+
+    solver = RK45(speed, 0.0, start, _LENGTH, rtol=1e-8, atol=1e-10, max_step=0.1)
+    times, pieces = [0.0], []
+    while solver.status == "running":
+        if solver.step() is not None:  # why no step is small enough
+            break
+        times.append(solver.t)
+        pieces.append(solver.dense_output())
+        stalled = len(times) > _STALLED and times[-1] - times[-1 - _STALLED] < _SPACING
+        if stalled or (solver.t > _SPACING and ended(solver.y)):  # nothing ends where it begins, where all is slow
+            break
+    if not pieces:
+        return start[None]
+    return np.asarray(OdeSolution(times, pieces)(np.arange(0, times[-1], _SPACING)).T)

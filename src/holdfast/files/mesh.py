@@ -1,10 +1,12 @@
-"""Reading triangle meshes from STL, OBJ, GLB and PLY files (needs the extra ``cell``), and what makes one sound."""
+"""Triangle meshes from STL files, and from OBJ, GLB, PLY and DAE files with the extra ``cell``; what makes one sound."""
 
 from __future__ import annotations
 
 import io
 import logging
+import re
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 
@@ -18,7 +20,9 @@ from holdfast.files import reading
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-FORMATS = ("stl", "obj", "glb", "ply")
+FORMATS = ("stl", "obj", "glb", "ply", "dae")
+_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +74,7 @@ def read(path: Path) -> tuple[Triangles, bytes]:
 
     Raises:
         InputError: It is missing, empty, cut off, of no known kind, or holds NaN.
-        HoldfastError: The extra ``cell`` is not installed.
+        HoldfastError: It is no STL file and the extra ``cell`` is not installed.
     """
     kind = path.suffix.lower().lstrip(".")
     if kind not in FORMATS:
@@ -80,6 +84,10 @@ def read(path: Path) -> tuple[Triangles, bytes]:
     if not content:
         raise InputError(f"'{path.name}' is empty; give a mesh with triangles")
     _whole(content, kind, path.name)
+    if kind == "stl":
+        return triangles(*_stl(content, path.name), f"'{path.name}'"), content
+    if kind == "dae" and find_spec("collada") is None:
+        raise HoldfastError(f"'{path.name}' is read by pycollada, which is not installed; pip install pycollada, or convert it")
     trimesh = import_trimesh()
     try:
         # From memory: nothing that the file names, as a picture, is opened.
@@ -92,7 +100,7 @@ def read(path: Path) -> tuple[Triangles, bytes]:
 
 def _whole(content: bytes, kind: str, name: str) -> None:
     """Refuse a file that was cut off where its reader would take what is left."""
-    text = content[:5].lower() == b"solid" and b"facet" in content[:1000]
+    text = kind == "stl" and _as_text(content)
     if kind == "stl" and not text:
         said = int.from_bytes(content[80:84], "little") if len(content) >= 84 else 1
         cut = len(content) < 84 + 50 * said
@@ -104,6 +112,26 @@ def _whole(content: bytes, kind: str, name: str) -> None:
         return
     if cut:
         raise InputError(f"'{name}' is cut off or damaged: it is shorter than it says; write it anew")
+
+
+def _as_text(content: bytes) -> bool:
+    """Whether an STL file is one of words."""
+    return content[:5].lower() == b"solid" and b"facet" in content[:1000]
+
+
+def _stl(content: bytes, name: str) -> tuple[Array, Indices]:
+    """The corners (3 F, 3) of the triangles of a whole STL file, and their numbers (F, 3)."""
+    if _as_text(content):
+        try:
+            corners = np.array(_VERTEX.findall(content), dtype=np.float64).reshape(-1, 3)
+        except ValueError as error:
+            raise InputError(f"'{name}' is damaged: a vertex in it is not three numbers; write it anew") from error
+        if len(corners) % 3:
+            raise InputError(f"'{name}' is damaged: a triangle in it has not three vertices; write it anew")
+    else:
+        count = int.from_bytes(content[80:84], "little")
+        corners = np.frombuffer(content, _RECORD, count, 84)["corners"].reshape(-1, 3).astype(np.float64)
+    return corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
 
 
 def triangles(vertices: ArrayLike, faces: ArrayLike, what: str) -> Triangles:

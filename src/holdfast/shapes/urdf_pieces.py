@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
 from holdfast.arm.urdf import read_origin, read_tree, robot_element
-from holdfast.errors import ArmError
-from holdfast.shapes.meshes import find_mesh, read_mesh
+from holdfast.errors import ArmError, HoldfastError
+from holdfast.files import mesh
+from holdfast.shapes.meshes import find_mesh
 from holdfast.shapes.pieces import Carriers, Kind, Missing, Piece, Purpose
 
 Array = NDArray[np.float64]
@@ -64,13 +65,13 @@ def _form(element: ElementTree.Element, file: Path, folder: Path | None, open_fi
     if found is None:
         raise ArmError(name)
     try:
-        vertices, faces = read_mesh(found)
-    except ArmError as error:
+        surface, _ = mesh.read(found)
+    except HoldfastError as error:
         raise ArmError(f"{name} ({error})") from error
     scale = np.array(_floats(element, "scale")) if element.get("scale") else np.ones(3)
     if scale.shape != (3,):
         raise ArmError(f"{name} (its scale must be 3 numbers)")
-    return {"kind": "mesh", "name": name, "size": (), "vertices": vertices * scale, "faces": faces}
+    return {"kind": "mesh", "name": name, "size": (), "vertices": surface.vertices * scale, "faces": surface.faces}
 
 
 def _color(shown: ElementTree.Element, materials: dict[str, tuple[float, ...]]) -> tuple[float, ...] | None:

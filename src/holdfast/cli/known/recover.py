@@ -27,8 +27,8 @@ from holdfast.cli.options import (
     TipOption,
     check_unit_of_places,
     read_arm,
-    read_by_joint,
     read_configuration,
+    read_locks,
     read_pose,
     read_task,
 )
@@ -117,7 +117,7 @@ def command(
     model = read_arm(arm, base, tip, hold)
     shape = read_clearance(model, clearance, capsules, radius, margin, chooses=True, cell=cell)
     if check is not None:
-        locked = read_by_joint(model, lock, "--lock", degrees, alone=True)
+        locked = read_locks(model, lock, degrees, alone=True)
         replay = hf.recovery.check_waypoints(
             model, hf.recovery.read_waypoints(model, check), locked, clearance=shape, margin=margin or 0.0
         )
@@ -136,7 +136,7 @@ def command(
         check_unit_of_places(model, hand_path.pose(np.linspace(0, 1, 21))[:, :3, 3], "--path")
     result = hf.recover(
         model,
-        read_by_joint(model, lock, "--lock", degrees, alone=True),
+        read_locks(model, lock, degrees, alone=True),
         read_configuration(model, at, degrees, "--at"),
         goal=aim,
         task=_position_task(model, chosen) if positions else chosen,

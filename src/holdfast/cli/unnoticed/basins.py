@@ -18,7 +18,7 @@ from holdfast.cli.options import (
     SeedOption,
     TaskOption,
     TipOption,
-    read_by_joint,
+    read_locks,
     read_target,
 )
 from holdfast.present.results import drawn, printed
@@ -51,6 +51,6 @@ def command(
     Example: holdfast basins planar-3r --target 1.5,1.5 --lock 2=45 --degrees --grid 80 --plot basins.png
     """
     made = law_of(law, arm, task, base, tip, hold)
-    locked = read_by_joint(made.arm, lock, "--lock", degrees)
+    locked = read_locks(made.arm, lock, degrees)
     result = hf.basins(made, read_target(made.arm, made.task, target), locked, starts=starts, grid=grid, seed=seed)
     printed(result, json_, drawn(result, plot, out))

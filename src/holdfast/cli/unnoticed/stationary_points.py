@@ -18,7 +18,7 @@ from holdfast.cli.options import (
     SeedOption,
     TaskOption,
     TipOption,
-    read_by_joint,
+    read_locks,
     read_target,
 )
 from holdfast.errors import InputError
@@ -56,7 +56,7 @@ def command(
     """
     made = law_of(law, arm, task, base, tip, hold)
     goal = read_target(made.arm, made.task, target)
-    locked = read_by_joint(made.arm, lock, "--lock", degrees, alone=True)
+    locked = read_locks(made.arm, lock, degrees, alone=True)
     if plot is not None and None not in locked.values():
         raise InputError("--plot draws curves over the locked value; give --lock JOINT alone, or see 'holdfast basins --plot'")
     result: Result = hf.stationary_points(made, goal, locked, seed=seed)
