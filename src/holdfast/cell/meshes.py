@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from holdfast.arguments import checked_class, real_numbers
 from holdfast.caching import cached_property
+from holdfast.cell.field import Field, of_points, of_surface
 from holdfast.cell.solids import Solid
 from holdfast.errors import InputError
 from holdfast.files import mesh, reading
@@ -42,9 +43,35 @@ class Source:
             return True
 
 
+@dataclass(frozen=True, eq=False)
+class Gridded(Solid):
+    """An object whose distance is a lower bound from a grid of numbers, see :class:`holdfast.cell.Field`."""
+
+    @property
+    def field(self) -> Field:
+        """The grid, in the object's own frame."""
+        raise NotImplementedError
+
+    def signed_distance(self, points: ArrayLike) -> Array:
+        """A lower bound of the distance in m of points (..., 3) in the world from its surface, below 0 inside."""
+        return self.field.distance(self._own(points))
+
+    def distance_and_gradient(self, points: ArrayLike) -> tuple[Array, Array]:
+        """The same bound (...,), m, and its gradient (..., 3) in the world, of points (..., 3) in the world."""
+        distance, gradient = self.field.distance_and_gradient(self._own(points))
+        return distance, gradient @ self.pose[:3, :3].T
+
+    def _own(self, points: ArrayLike) -> Array:
+        return np.asarray((np.asarray(points, dtype=np.float64) - self.pose[:3, 3]) @ self.pose[:3, :3])
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The data alone: a field is made again, or found on the disk."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+
 @checked_class
 @dataclass(frozen=True, eq=False)
-class Mesh(Solid):
+class Mesh(Gridded):
     """A closed surface of triangles and all that it encloses.
 
     Attributes:
@@ -96,14 +123,15 @@ class Mesh(Solid):
         """SHA-256 of its triangles."""
         return _sha256(self.surface.vertices, self.surface.faces)
 
-    def __getstate__(self) -> dict[str, Any]:
-        """The data alone: a field is made again, or found on the disk."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+    @cached_property
+    def field(self) -> Field:
+        """The grid, in the mesh's own frame; made when it is first asked for, and kept on the disk."""
+        return of_surface(self.surface, self.digest)
 
 
 @checked_class
 @dataclass(frozen=True, eq=False)
-class Points(Solid):
+class Points(Gridded):
     """A cloud of points, as a scanner gives it: each is a ball.
 
     Attributes:
@@ -149,9 +177,10 @@ class Points(Solid):
         """SHA-256 of its points."""
         return _sha256(self.centres)
 
-    def __getstate__(self) -> dict[str, Any]:
-        """The data alone: a field is made again, or found on the disk."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+    @cached_property
+    def field(self) -> Field:
+        """The grid, in the cloud's own frame; made when it is first asked for, and kept on the disk."""
+        return of_points(self.centres, self.radius, self.digest)
 
 
 def _pair(shape: Any, name: str) -> tuple[Any, Any]:

@@ -1,7 +1,8 @@
 """A lower bound of the distance between an arm and the objects of a cell, compiled once for the arm: objects are inputs.
 
 The arm is covered by spheres (:mod:`holdfast.clearance.chains`), so what is said to be clear is clear. Objects are taken in
-blocks, which share the positions of the spheres; a cell that changed compiles nothing.
+blocks, which share the positions of the spheres; a cell that changed compiles nothing. Meshes and clouds of points are looked
+up in their grids (:mod:`holdfast.clearance.gridded`).
 """
 
 from __future__ import annotations
@@ -15,11 +16,17 @@ from numpy.typing import NDArray
 from holdfast.arm.model import Arm
 from holdfast.caching import cached_property
 from holdfast.cell.cell import Cell
+from holdfast.cell.meshes import Gridded
 from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
+<<<<<<< HEAD
 from holdfast.clearance.object_kernels import BLOCK, NOWHERE, distance_kernel, in_blocks, nearest_kernel
+=======
+from holdfast.clearance.gridded import GriddedObjects
+from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
+>>>>>>> s5-celldata
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 
@@ -79,6 +86,14 @@ class Obstacles:
         self.margins: Array = np.tile(own, len(self.links))
         names = [solid.name for solid in cell]
         self.names = [f"{link_name(arm, int(link))} & {names[k]}" for link, k in self.pairs]
+        self._formulas: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Primitive)], dtype=np.int64)
+        self._grids: Indices = np.array([k for k, x in enumerate(cell) if isinstance(x, Gridded)], dtype=np.int64)
+        strange = next((x for x in cell if not isinstance(x, (Primitive, Gridded))), None)
+        if strange is not None:
+            raise InputError(
+                f"object '{strange.name}' is a {type(strange).__name__}, and no distance from one is known; "
+                f"make it one of the solids of holdfast.cell"
+            )
         self.apart = self._switched_off()
         self._check_base()
 
@@ -117,13 +132,14 @@ class Obstacles:
                 )
 
     def _blocks(self, margins: bool) -> Array:
-        """(B, BLOCK, 18 + L) what the kernels take for each block of objects: their numbers, and what is added for each link.
+        """(B, BLOCK, 18 + L) what the kernels take for each block of formulas: their numbers, and what is added for each link.
 
         Args:
             margins: Every object is larger by what is kept from it.
         """
         numbers, added = [], []
-        for k, solid in enumerate(self.cell):
+        for k in self._formulas:
+            solid = self.cell.objects[k]
             assert isinstance(solid, Primitive)
             numbers.append(solid.numbers(self.cell.margin_of(solid) if margins else 0.0))
             added.append(np.where(self.apart[self.links + 1, k], NOWHERE, 0.0))
@@ -136,6 +152,12 @@ class Obstacles:
     @cached_property
     def _kept_from(self) -> Array:
         return self._blocks(margins=True)
+
+    @cached_property
+    def _gridded(self) -> GriddedObjects | None:
+        objects = [x for x in self.cell if isinstance(x, Gridded)]
+        off = np.where(self.apart[np.ix_(self.links + 1, self._grids)], NOWHERE, 0.0)
+        return GriddedObjects(self.arm, self.balls, objects, off) if objects and len(self.links) else None
 
     @cached_property
     def _distance_kernel(self) -> Kernel:
@@ -153,36 +175,51 @@ class Obstacles:
         Args:
             q: (N, n) rad and m; a row that is not finite gets NaN and pair -1.
         """
-        rows = np.stack(self._by_block(self._nearest_kernel, q, self._kept_from))
-        block = np.argmin(rows[:, :, 0], axis=0)  # NaN is in all of them or in none
-        best = rows[block, np.arange(len(q))]
         count = len(self.cell)
-        thing = np.minimum(block * BLOCK + best[:, 2], count - 1)  # where all may touch, an object that is not there
-        pair = best[:, 1] * count + thing
-        return best[:, 0], np.where(np.isnan(pair), -1, pair).astype(np.int64), best[:, 3:]
+        room, pair, slope = np.full(len(q), np.inf), np.full(len(q), np.nan), np.zeros((len(q), self.arm.n))
+        if len(self._formulas):
+            rows = np.stack(self._by_block(self._nearest_kernel, q, self._kept_from))
+            block = np.argmin(rows[:, :, 0], axis=0)  # NaN is in all of them or in none
+            best = rows[block, np.arange(len(q))]
+            seen = np.nan_to_num(block * BLOCK + best[:, 2]).astype(np.int64)
+            thing = self._formulas[np.minimum(seen, len(self._formulas) - 1)]  # where all may touch, one that is not there
+            room, pair, slope = best[:, 0], best[:, 1] * count + thing, best[:, 3:]
+        if self._gridded is not None:
+            other, link, thing, theirs = self._gridded.nearest(q, self.margins[self._grids])
+            closer = ~(room <= other)
+            room, slope = np.where(closer, other, room), np.where(closer[:, None], theirs, slope)
+            pair = np.where(closer, np.where(np.isnan(other), np.nan, link * count + self._grids[thing]), pair)
+        return room, np.where(np.isnan(pair), -1, pair).astype(np.int64), slope
 
     def room(self, q: Array) -> Array:
         """(N,) the least distance beyond what each pair keeps, m."""
-        return self._least(q, self._kept_from)
+        return self._least(q, self._kept_from, self.margins[self._grids])
 
     def least(self, q: Array) -> Array:
         """(N,) the least distance, m."""
-        return self._least(q, self._bare)
+        return self._least(q, self._bare, np.zeros(len(self._grids)))
 
-    def _least(self, q: Array, blocks: Array) -> Array:
-        return reduce(np.minimum, [rows[:, 0] for rows in self._by_block(self._distance_kernel, q, blocks, first=1)])
+    def _least(self, q: Array, blocks: Array, margins: Array) -> Array:
+        found = [np.full(len(q), np.inf), *(rows[:, 0] for rows in self._by_block(self._distance_kernel, q, blocks, first=1))]
+        if self._gridded is not None:
+            found.append((self._gridded.distances(q) - margins).min(axis=(1, 2)))
+        return reduce(np.minimum, found)
 
     def distances(self, q: Array) -> Array:
         """(N, L K) lower bound of the distance of every pair, m; about 1e9 m where a pair may touch."""
         links, count = len(self.links), len(self.cell)
         out = np.empty((len(q), links, count))
         for number, rows in enumerate(self._by_block(self._distance_kernel, q, self._bare)):
-            some = out[:, :, number * BLOCK : (number + 1) * BLOCK]
-            some[...] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : some.shape[2]]
+            some = self._formulas[number * BLOCK : (number + 1) * BLOCK]
+            out[:, :, some] = rows[:, 1:].reshape(len(q), links, BLOCK)[:, :, : len(some)]
+        if self._gridded is not None:
+            out[:, :, self._grids] = self._gridded.distances(q)
         return out.reshape(len(q), -1)
 
     def _by_block(self, kernel: Kernel, q: Array, blocks: Array, first: int | None = None) -> list[Array]:
         """(N, outputs) of each block."""
+        if not len(blocks):
+            return []
         if len(q) == 1:  # one call: the blocks are its rows
             return list(kernel.rows(np.repeat(q, len(blocks), axis=0), blocks, first=first)[:, None])
         return [kernel.rows(q, block, first=first) for block in blocks]
