@@ -21,12 +21,8 @@ from holdfast.cell.solids import Primitive
 from holdfast.clearance.capsules import BASE, Capsules, link_name
 from holdfast.clearance.chains import Balls, spheres_of
 from holdfast.clearance.changes import changes_from_outside
-<<<<<<< HEAD
-from holdfast.clearance.object_kernels import BLOCK, NOWHERE, distance_kernel, in_blocks, nearest_kernel
-=======
 from holdfast.clearance.gridded import GriddedObjects
-from holdfast.clearance.object_kernels import BLOCK, NUMBERS, distance_kernel, nearest_kernel
->>>>>>> s5-celldata
+from holdfast.clearance.object_kernels import BLOCK, NOWHERE, distance_kernel, in_blocks, nearest_kernel
 from holdfast.errors import InputError
 from holdfast.kernels.kernel import Kernel
 
