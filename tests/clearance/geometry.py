@@ -5,6 +5,7 @@ Both take every mesh of the arm for its convex hull, which it is to 0.1 % of its
 
 from __future__ import annotations
 
+import re
 from importlib.resources import files
 from pathlib import Path
 
@@ -48,17 +49,29 @@ def of_primitives() -> hf.Cell:
     )
 
 
-PLACES = ((0.55, 0, 0.0), (0.2, 0.55, 0.5), (0.5, -0.5, 0.4), (0.45, 0.35, 0.8), (-0.55, 0, 0.6), (0.6, -0.3, 0.9), (0, -0.6, 0.3))
+PLACES = np.array(
+    [
+        [0.55, 0, 0.0],
+        [0.2, 0.55, 0.5],
+        [0.5, -0.5, 0.4],
+        [0.45, 0.35, 0.8],
+        [-0.55, 0, 0.6],
+        [0.6, -0.3, 0.9],
+        [0, -0.6, 0.3],
+        [-0.3, -0.3, 1.1],
+    ]
+)
 
 
 def of_hulls() -> hf.Cell:
     """Eight convex meshes: hulls of 40 points in ellipsoids."""
     rng = np.random.default_rng(3)
     made = []
-    for k, place in enumerate((*PLACES, (-0.3, -0.3, 1.1))):
+    for k, place in enumerate(PLACES):
         points = rng.normal(size=(40, 3))
         points *= rng.uniform(0.05, 0.25, 3) / np.linalg.norm(points, axis=1, keepdims=True)
-        made.append(Mesh(f"hull{k}", (points, ConvexHull(points).simplices), solid="hull", pose=pose(*place, rng.normal(size=3))))
+        shape = points, ConvexHull(points).simplices
+        made.append(Mesh(f"hull{k}", shape, solid="hull", pose=pose(*place, rng.normal(size=3))))
     return hf.Cell(made, name="convex meshes")
 
 
@@ -78,7 +91,7 @@ def of_channels() -> hf.Cell:
     """Eight channels: meshes that are not convex."""
     rng = np.random.default_rng(4)
     made = []
-    for k, place in enumerate((*PLACES, (-0.3, -0.3, 1.1))):
+    for k, place in enumerate(PLACES):
         size = rng.uniform([0.3, 0.15, 0.1, 0.01], [0.6, 0.4, 0.25, 0.03])
         made.append(Mesh(f"channel{k}", channel(*size), pose=pose(*place, rng.normal(size=3))))
     return hf.Cell(made, name="meshes that are not convex")
@@ -97,9 +110,8 @@ class InMujoco:
         urdf = panda_urdf()
         package = urdf.parent / "example-robot-data"
         text = urdf.read_text().replace("package://example-robot-data", str(package))
-        head, tail = text.split(">", text[: text.index("<robot")].count(">") + 1)[:-1], text[text.index(">", text.index("<robot")) + 1 :]
         settings = '<mujoco><compiler strippath="false" discardvisual="true" fusestatic="true"/></mujoco>'
-        spec = mujoco.MjSpec.from_string(">".join(head) + ">" + settings + tail)
+        spec = mujoco.MjSpec.from_string(re.sub(r"<robot[^>]*>", lambda found: found[0] + settings, text, count=1))
         for geom in spec.geoms:
             geom.contype, geom.conaffinity = 1, 0
         for solid in cell:
@@ -156,10 +168,10 @@ class InCoal:
         self.parts = []
         for k, piece in enumerate(self.shapes.geometryObjects):
             if piece.parentJoint:
-                self.parts.append((k, self._hull(piece.geometry)))
+                self.parts.append((k, self.hull(piece.geometry)))
         self.objects = [self._object(solid) for solid in cell]
 
-    def _hull(self, shape):
+    def hull(self, shape):
         if not isinstance(shape, self._coal.BVHModelBase):
             return shape
         shape.buildConvexHull(True, "Qt")
@@ -190,7 +202,7 @@ class InCoal:
         made.beginModel(len(faces), len(points))
         made.addSubModel(points, faces)
         made.endModel()
-        return self._hull(made) if solid.solid == "hull" else made, at
+        return self.hull(made) if solid.solid == "hull" else made, at
 
     def _rows(self, q):
         for row in q:

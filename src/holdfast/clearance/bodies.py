@@ -11,7 +11,7 @@ from scipy.spatial import ConvexHull
 
 from holdfast.caching import cached_property
 from holdfast.cell import solids
-from holdfast.cell.meshes import Mesh
+from holdfast.cell.meshes import Mesh, Points
 from holdfast.clearance.capsules import Capsule
 from holdfast.clearance.shape import hull_of
 from holdfast.shapes.pieces import Piece
@@ -22,7 +22,9 @@ Kind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid", "convex", "m
 
 _CONVEX = 1e-9  # of its hull's volume: what a closed mesh may lack of it and still be its hull
 _GRID = 14  # points along the longest edge of a hull, among which centres of spheres within it are looked for
-_WITHIN = 8  # spheres within a hull, at most
+_WITHIN = 4  # spheres within a hull, at most
+_IN_OBJECTS = 2  # of those, of an object
+_THINNEST = 1e-9  # m: a box has edges
 
 
 def _nothing() -> Array:
@@ -158,6 +160,32 @@ def of_solid(solid: solids.Solid) -> Body:
     vertices, faces = solid.surface.vertices, solid.surface.faces
     convex = solid.solid == "hull" or abs(solid.surface.volume / ConvexHull(vertices).volume - 1) <= _CONVEX
     return Body(kind="convex" if convex else "mesh", pose=solid.pose, vertices=vertices, faces=faces)
+
+
+def box_about(solid: solids.Solid) -> solids.Primitive:
+    """An object that contains a given one and has a formula: itself if it has one, else a box in its own frame."""
+    if isinstance(solid, solids.Primitive):
+        return solid
+    assert isinstance(solid, Mesh | Points)
+    corners = solid.surface.vertices if isinstance(solid, Mesh) else solid.centres
+    more = 0.0 if isinstance(solid, Mesh) else solid.radius
+    low, high = corners.min(axis=0) - more, corners.max(axis=0) + more
+    pose = solid.pose.copy()
+    pose[:3, 3] += pose[:3, :3] @ ((low + high) / 2)
+    return solids.Box(solid.name, np.maximum(high - low, _THINNEST), pose=pose)
+
+
+def solids_within(solid: solids.Solid) -> list[solids.Primitive]:
+    """Solids with a formula that lie within an object: itself if it has one, spheres within a hull, nothing else."""
+    if isinstance(solid, solids.Primitive):
+        return [solid]
+    body = of_solid(solid) if isinstance(solid, Mesh) else None
+    if body is None or body.kind != "convex":
+        return []
+    centres, radii = (x[:_IN_OBJECTS] for x in body.inside)
+    pose = np.tile(body.pose, (len(radii), 1, 1))
+    pose[:, :3, 3] += centres @ body.pose[:3, :3].T
+    return [solids.Sphere("", radius, pose=at) for radius, at in zip(radii.tolist(), pose, strict=True)]
 
 
 def of_piece(piece: Piece) -> Body:

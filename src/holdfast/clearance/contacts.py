@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from holdfast.arm.model import Arm
-from holdfast.clearance.bodies import Body, of_capsule, of_piece
+from holdfast.cell.solids import Primitive
+from holdfast.clearance.bodies import Body, box_about, of_capsule, of_piece
 from holdfast.clearance.capsules import BASE, Capsules
 from holdfast.clearance.chains import Balls
 from holdfast.clearance.engines import CONTACT, Engine
@@ -34,6 +35,25 @@ class Part:
     link: int
     body: Body
     owner: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """A body of a link and what it may touch.
+
+    Attributes:
+        pair: Position in the bounds of the pair that it belongs to.
+        part: Position of the body.
+        opponent: What it may touch.
+        other: Position of the body that has to be placed for that; the body itself for an object.
+        box: Contains the object; None for a body of another link.
+    """
+
+    pair: int
+    part: int
+    opponent: Opponent
+    other: int
+    box: Primitive | None
 
 
 def parts_of(capsules: Capsules) -> list[Part]:
@@ -66,12 +86,13 @@ class Contacts:
         self.arm, self.engine, self._parts = arm, engine, tuple(parts)
         self._placed = [Placed(part.body, engine.make(part.body), np.eye(3), np.zeros(3)) for part in parts]
         others = [Another(engine, placed) for placed in self._placed]
-        # Of each pair: the body that is asked about, what it may touch, and which other body has to be placed for that.
-        self._pairs: list[list[tuple[int, Opponent, int]]] = [[(b, others[a], a) for a, b in some] for some in between]
+        self._meetings = [Meeting(pair, b, others[a], a, None) for pair, some in enumerate(between) for a, b in some]
         if obstacles is not None:
-            objects = [of_object(engine, solid) for solid in obstacles.cell]
+            objects = [(of_object(engine, solid), box_about(solid)) for solid in obstacles.cell]
             by_link = {link: [k for k, part in enumerate(parts) if part.link == link] for link in range(arm.n)}
-            self._pairs += [[(k, objects[thing], k) for k in by_link[link]] for link, thing in obstacles.pairs.tolist()]
+            for pair, (link, thing) in enumerate(obstacles.pairs.tolist(), start=len(between)):
+                self._meetings += [Meeting(pair, k, objects[thing][0], k, objects[thing][1]) for k in by_link[link]]
+        self._pair_of = np.array([meeting.pair for meeting in self._meetings], dtype=np.int64)
 
     def any(self, q: Array, bounds: Array) -> Truths:
         """(N,) whether anything touches.
@@ -80,26 +101,20 @@ class Contacts:
             q: (N, n) finite.
             bounds: (N, P) lower bounds of the distances of all pairs, m: those of links, then those of ``obstacles.pairs``.
         """
-        found = np.zeros(len(q), dtype=np.bool_)
-        rows, pairs = np.nonzero(bounds < CONTACT)
-        order = np.lexsort((bounds[rows, pairs], rows))
-        frames = self._frames(q)
+        found, frames = np.zeros(len(q), dtype=np.bool_), self._frames(q)
+        closer = self._closer(frames, bounds, CONTACT)
+        rows, which = np.nonzero(closer < CONTACT)
+        order = np.lexsort((closer[rows, which], rows))
         now, there = -1, set[int]()
-        for row, pair in zip(rows[order].tolist(), pairs[order].tolist(), strict=True):
+        for row, k in zip(rows[order].tolist(), which[order].tolist(), strict=True):
             if found[row]:
                 continue
             if row != now:
                 now, there = row, set()
-            found[row] = self._touch(pair, row, frames, there)
+            meeting = self._meetings[k]
+            self._place(meeting, row, frames, there)
+            found[row] = meeting.opponent.hits(self._placed[meeting.part])
         return found
-
-    def _touch(self, pair: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> bool:
-        for k, opponent, other in self._pairs[pair]:
-            self._place(k, row, frames, there)
-            self._place(other, row, frames, there)
-            if opponent.hits(self._placed[k]):
-                return True
-        return False
 
     def distances(self, q: Array, bounds: Array) -> Array:
         """(N,) the smallest distance, m; 0 where anything touches, infinite if there is nothing to touch.
@@ -109,30 +124,47 @@ class Contacts:
             bounds: As for :meth:`any`.
         """
         out, frames = np.full(len(q), np.inf), self._frames(q)
-        for row, order in enumerate(np.argsort(bounds, axis=1).tolist()):
+        closer = self._closer(frames, bounds, np.inf)
+        for row, order in enumerate(np.argsort(closer, axis=1).tolist()):
             best, there = np.inf, set[int]()
-            for pair in order:
-                if bounds[row, pair] >= best or best == 0:
+            for k in order:
+                if closer[row, k] >= best or best == 0:
                     break
-                best = min(best, self._apart(pair, row, frames, there))
+                meeting = self._meetings[k]
+                self._place(meeting, row, frames, there)
+                best = min(best, meeting.opponent.distance(self._placed[meeting.part]))
             out[row] = best
         return out
 
-    def _apart(self, pair: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> float:
-        best = np.inf
-        for k, opponent, other in self._pairs[pair]:
-            self._place(k, row, frames, there)
-            self._place(other, row, frames, there)
-            best = min(best, opponent.distance(self._placed[k]))
-        return best
+    def _closer(self, frames: list[tuple[Array, Array]], bounds: Array, limit: float) -> Array:
+        """(N, M) lower bounds of the distances of all meetings, m; where below a limit also those of balls about the bodies."""
+        out = bounds[:, self._pair_of]
+        for k, meeting in enumerate(self._meetings):
+            (rows,) = np.nonzero(out[:, k] < limit)
+            if not rows.size:
+                continue
+            centre, radius = self._ball(meeting.part, frames, rows)
+            if meeting.box is not None:
+                apart = meeting.box.signed_distance(centre) - radius
+            else:
+                other, more = self._ball(meeting.other, frames, rows)
+                apart = np.linalg.norm(centre - other, axis=1) - radius - more
+            out[rows, k] = np.maximum(out[rows, k], apart)
+        return out
 
-    def _place(self, k: int, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> None:
-        if k in there:
-            return
-        there.add(k)
-        placed, (rotations, positions) = self._placed[k], frames[k]
-        placed.rotation, placed.position = rotations[row], positions[row]
-        self.engine.place(placed.made, placed.rotation, placed.position)
+    def _ball(self, part: int, frames: list[tuple[Array, Array]], rows: Indices) -> tuple[Array, float]:
+        """Centres (R, 3) in the world and radius, m, of the ball about a body in some rows."""
+        centre, radius = self._parts[part].body.ball
+        rotation, position = frames[part]
+        return position[rows] + rotation[rows] @ centre, radius
+
+    def _place(self, meeting: Meeting, row: int, frames: list[tuple[Array, Array]], there: set[int]) -> None:
+        for k in (meeting.part, meeting.other):
+            if k not in there:
+                there.add(k)
+                placed, (rotations, positions) = self._placed[k], frames[k]
+                placed.rotation, placed.position = rotations[row], positions[row]
+                self.engine.place(placed.made, placed.rotation, placed.position)
 
     def _frames(self, q: Array) -> list[tuple[Array, Array]]:
         """Rotations (N, 3, 3) and positions (N, 3), m, of each part in the world."""

@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 
 from holdfast.caching import cached_property
 from holdfast.cell.meshes import Mesh
-from holdfast.cell.solids import Primitive, Sphere
-from holdfast.clearance.bodies import of_solid
-from holdfast.clearance.chains import Balls
+from holdfast.clearance.bodies import box_about, of_solid, solids_within
+from holdfast.clearance.chains import spheres_of
 from holdfast.clearance.contacts import Contacts, parts_of, spheres_within
 from holdfast.clearance.engines import CONTACT, Engine, for_distances, for_signs
-from holdfast.clearance.object_kernels import BLOCK, NOWHERE, distance_kernel, in_blocks
-from holdfast.kernels.kernel import Kernel
+from holdfast.clearance.formulas import NOWHERE, FormulaObjects
 
 if TYPE_CHECKING:
     from holdfast.clearance.clearance import Clearance
 
 Array = NDArray[np.float64]
 Truths = NDArray[np.bool_]
+
+_FEW = 500  # faces of a hull, all of which are looked at before a library is asked
 
 
 class Exactness:
@@ -45,13 +45,12 @@ class Exactness:
             HoldfastError: No library for it is installed.
         """
         contacts = self._signs
-        bound = self._clearance(q)
+        bound = np.minimum(self._clearance.alone(q), self._around.least(q))
         found = np.asarray(bound >= CONTACT)
         (left,) = np.nonzero(bound < CONTACT)
+        left = left[self._within.least(q[left]) >= -CONTACT]
         if left.size:
-            left = left[~self._surely_hit(q[left])]
-        if left.size:
-            found[left] = ~contacts.any(q[left], self._bounds(q[left]))
+            found[left] = ~contacts.any(q[left], self._bounds(q[left], CONTACT))
         return found
 
     def distances(self, q: Array) -> Array:
@@ -62,8 +61,9 @@ class Exactness:
         """
         contacts = self._distances
         out = np.full(len(q), np.nan)
-        known = np.isfinite(q).all(axis=1)
-        out[known] = contacts.distances(q[known], self._bounds(q[known]))
+        (known,) = np.nonzero(np.isfinite(q).all(axis=1))
+        if known.size:
+            out[known] = contacts.distances(q[known], self._bounds(q[known], np.inf))
         return out
 
     @property
@@ -119,50 +119,54 @@ class Exactness:
         }
         return {links: [] if links in lacking else columns for links, columns in found.items()}
 
-    def _bounds(self, q: Array) -> Array:
-        """(N, P) as :class:`Contacts` takes them."""
-        every = self._clearance.by_pair(q)
-        own = [every[:, columns].min(axis=1, initial=np.inf) if columns else None for columns in self._columns.values()]
-        rows = [np.full(len(q), -np.inf) if column is None else column for column in own]
-        return np.concatenate([np.array(rows).reshape(-1, len(q)).T, every[:, len(self._clearance.pairs) :]], axis=1)
+    # ---- bounds --------------------------------------------------------------------------------------------------
 
-    # ---- certain collisions --------------------------------------------------------------------------------------
+    def _bounds(self, q: Array, limit: float) -> Array:
+        """(N, P) as :class:`Contacts` takes them; better ones of hulls only below a limit, m."""
+        every = self._clearance.alone.by_pair(q)
+        own = [every[:, columns].min(axis=1) if columns else np.full(len(q), -np.inf) for columns in self._columns.values()]
+        around = self._around.distances(q)
+        seen, frames = self._clearance.obstacles, self._clearance.arm.frames(q)
+        for k, (normals, offsets) in self._hulls.items():
+            assert seen is not None
+            for at, link in enumerate(seen.links):
+                (rows,) = np.nonzero(around[:, at, k] < limit)
+                some = seen.balls.link == link
+                pose = frames[rows, link + 1]
+                centres = np.einsum("nij,sj->nsi", pose[:, :3, :3], seen.balls.centre[some]) + pose[:, None, :3, 3]
+                beyond = (centres @ normals.T - offsets).max(axis=2) - seen.balls.radius[some]
+                around[rows, at, k] = np.maximum(around[rows, at, k], beyond.min(axis=1))
+        apart = np.where(around > NOWHERE / 2, np.inf, around)
+        return np.concatenate([np.array(own).reshape(-1, len(q)).T, apart.reshape(len(q), -1)], axis=1)
 
     @cached_property
-    def _within(self) -> Balls:
-        return spheres_within(self.parts)
+    def _hulls(self) -> dict[int, tuple[Array, Array]]:
+        """Of objects that are hulls of few faces: normals (F, 3) and offsets (F,), m, in the world."""
+        found, seen = {}, self._clearance.obstacles
+        for k, solid in enumerate(() if seen is None else seen.cell):
+            body = of_solid(solid) if isinstance(solid, Mesh) else None
+            if body is not None and body.kind == "convex" and len(body.faces) <= _FEW:
+                normals, offsets = body.planes
+                normals = normals @ body.pose[:3, :3].T
+                found[k] = normals, offsets + normals @ body.pose[:3, 3]
+        return found
 
     @cached_property
-    def _kernel(self) -> Kernel:
-        return distance_kernel(self._clearance.arm, self._within)
+    def _around(self) -> FormulaObjects:
+        """The objects, and boxes about those without a formula, seen from the cover of the arm: below the true distances."""
+        c, seen = self._clearance, self._clearance.obstacles
+        if seen is None:
+            return FormulaObjects(c.arm, spheres_of(c.capsules), [], np.zeros((0, 0)))
+        return FormulaObjects(
+            c.arm, seen.balls, [box_about(x) for x in seen.cell], seen.added(seen.links, np.arange(len(seen.cell)))
+        )
 
     @cached_property
-    def _blocks(self) -> Array:
-        """What lies within the objects of the cell, for the kernel; (0, ...) if nothing is known to."""
-        obstacles = self._clearance.obstacles
-        links = np.unique(self._within.link)
-        if obstacles is None or not len(links):
-            return np.zeros((0, BLOCK, 0))
-        rows, off = [], []
-        for k, solid in enumerate(obstacles.cell):
-            for inner in _inner(solid):
-                rows.append(inner.numbers())
-                off.append(np.where(obstacles.apart[links + 1, k], NOWHERE, 0.0))
-        return in_blocks(rows, off, len(links))
-
-    def _surely_hit(self, q: Array) -> Truths:
-        """(N,) whether a sphere within the arm is within an object: the library need not be asked."""
-        least = [self._kernel.rows(q, block, first=1)[:, 0] for block in self._blocks]
-        return np.asarray(np.min(least, axis=0, initial=np.inf) < -CONTACT)
-
-
-def _inner(solid: object) -> list[Primitive]:
-    """Solids with a formula that lie within an object."""
-    if isinstance(solid, Primitive):
-        return [solid]
-    if not isinstance(solid, Mesh):
-        return []
-    body = of_solid(solid)
-    pose = np.tile(np.eye(4), (len(body.inside[1]), 1, 1))
-    pose[:, :3, 3] = body.inside[0] @ body.pose[:3, :3].T + body.pose[:3, 3]
-    return [Sphere("", radius, pose=at) for radius, at in zip(body.inside[1].tolist(), pose, strict=True)]
+    def _within(self) -> FormulaObjects:
+        """What lies within the objects, seen from spheres within the arm: above the true distances, where below 0."""
+        c, balls, seen = self._clearance, spheres_within(self.parts), self._clearance.obstacles
+        pairs = [] if seen is None else [(k, inner) for k, solid in enumerate(seen.cell) for inner in solids_within(solid)]
+        if seen is None:
+            return FormulaObjects(c.arm, balls, [], np.zeros((0, 0)))
+        added = seen.added(np.unique(balls.link), np.array([k for k, _ in pairs], dtype=np.int64))
+        return FormulaObjects(c.arm, balls, [inner for _, inner in pairs], added)

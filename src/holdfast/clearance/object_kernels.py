@@ -23,25 +23,8 @@ from holdfast.kernels.program import SX
 from holdfast.kernels.recall import recalled
 from holdfast.linalg import Vector, smallest
 
-Array = NDArray[np.float64]
-
 BLOCK = 4  # objects that one call takes
 NUMBERS = 18  # of an object: see Primitive.numbers
-NOWHERE = 1e9  # m: how far away is what is not looked at
-
-
-def in_blocks(numbers: Sequence[Array], added: Sequence[Array], links: int) -> Array:
-    """(B, BLOCK, 18 + L) what the kernels take for objects, block by block; those that are lacking to whole blocks are nowhere.
-
-    Args:
-        numbers: (18,) of each object.
-        added: (L,) to its distance from each link, m.
-        links: L.
-    """
-    nowhere = np.concatenate([np.zeros(NUMBERS), np.full(links, NOWHERE)])
-    rows = [np.concatenate(row) for row in zip(numbers, added, strict=True)]
-    rows += [nowhere] * (-len(rows) % BLOCK)
-    return np.array(rows).reshape(-1, BLOCK, len(nowhere))
 
 
 @recalled

@@ -1,4 +1,4 @@
-"""What a part of an arm can touch, asked exactly: bodies and surfaces by the library, planes and clouds of points without it."""
+"""What a part of an arm can touch, asked exactly: bodies and surfaces by a library, planes and clouds of points by formulas."""
 
 from __future__ import annotations
 
